@@ -1,0 +1,98 @@
+// One declaration per option: it parses, it is the help, and it is what a file records.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/json.h"
+
+namespace phos {
+
+/// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths, threads).
+enum class Recorded { yes, no };
+
+struct Range {
+  double lo = -std::numeric_limits<double>::infinity();
+  double hi = std::numeric_limits<double>::infinity();
+  bool lo_open = false;  ///< lo itself is not allowed
+};
+inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity(), false};
+
+/// The options and inputs of one tool. The value at the time of declaration is the default shown in the help.
+/// `name` is without dashes ("photons"); `unit` is the placeholder in the help ("METRES", "N", "FILE").
+class Options {
+ public:
+  Options(std::string tool, std::string summary, std::string description);
+  ~Options();
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+
+  /// Heading in the help for the options declared after it.
+  void section(const std::string& title);
+
+  void flag(const std::string& name, bool& value, const std::string& help, Recorded = Recorded::yes);
+  void number(const std::string& name, double& value, const std::string& unit, const std::string& help, Range = {},
+              Recorded = Recorded::yes);
+  void number(const std::string& name, std::optional<double>& value, const std::string& unit,
+              const std::string& help, Range = {}, Recorded = Recorded::yes);
+  void integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
+               Range = {}, Recorded = Recorded::yes);
+  void text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
+            Recorded = Recorded::yes);
+  /// May be given several times, or once with commas.
+  void list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
+            const std::string& help, Recorded = Recorded::yes);
+  /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
+  void file(const std::string& name, std::string& value, const std::string& help, bool required = false);
+  /// One of named values.
+  template <class E>
+  void choice(const std::string& name, E& value, const std::vector<std::pair<std::string, E>>& values,
+              const std::string& help, Recorded recorded = Recorded::yes) {
+    std::vector<std::string> names;
+    std::size_t index = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      names.push_back(values[i].first);
+      if (values[i].second == value) index = i;
+    }
+    choice_of_names(name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, help, recorded);
+  }
+
+  /// Positional inputs (never recorded).
+  void input(const std::string& placeholder, std::string& value, const std::string& help, bool required = true);
+  void inputs(const std::string& placeholder, std::vector<std::string>& values, const std::string& help,
+              bool required = true);
+  /// A line under "Examples" in the help.
+  void example(const std::string& command, const std::string& what);
+
+  /// Reads a command line. False if --help, --version or --man was asked for and has been printed to stdout. Throws
+  /// Error(usage) with one line otherwise. `@file` reads options from a file (one per line, name=value or a flag).
+  bool parse(int argc, const char* const* argv);
+
+  /// Was the option given on the command line?
+  bool given(const std::string& name) const;
+  /// Every recorded option as resolved now (call after automatic values are filled in), sorted by name.
+  Json recorded() const;
+  /// `tool --name value ...` from recorded(), without paths.
+  std::string command() const;
+  std::string help() const;
+  /// roff for man(1).
+  std::string manual() const;
+  const std::string& tool() const;
+
+ private:
+  void choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
+                       std::function<void(std::size_t)> set, const std::string& help, Recorded recorded);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+const char* version();
+
+}  // namespace phos

@@ -1,0 +1,21 @@
+// Warps from the unit square to directions and shapes. Directions are in a local frame with z up.
+#pragma once
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// Cosine-weighted direction on the upper hemisphere; density cos(theta)/pi per sr.
+Vec3 sample_cosine_hemisphere(const Vec2& u);
+/// Uniform on the sphere; density 1/(4 pi) per sr.
+Vec3 sample_uniform_sphere(const Vec2& u);
+/// Uniform in the cone about +z with cos(theta) in [cos_max, 1]; density 1/(2 pi (1-cos_max)) per sr.
+Vec3 sample_uniform_cone(const Vec2& u, float cos_max);
+/// About +z with density (n+1)/(2 pi) cos^n(theta) per sr.
+Vec3 sample_power_cosine(const Vec2& u, float exponent);
+/// Uniform in the unit disc (concentric map).
+Vec2 sample_disc(const Vec2& u);
+/// Barycentric weights of the second and third vertex, uniform over a triangle.
+Vec2 sample_triangle(const Vec2& u);
+
+}  // namespace phos

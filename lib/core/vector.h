@@ -1,0 +1,56 @@
+// Vectors, colours, frames and bounds. Lengths are metres unless a name says otherwise.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <numbers>
+
+namespace phos {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+using Vec4 = glm::vec4;
+using Mat3 = glm::mat3;
+using Mat4 = glm::mat4;
+using DVec3 = glm::dvec3;
+/// Photometric RGB: linear Rec.709 components whose luminance() is in lm, lx or cd/m2.
+using Rgb = glm::vec3;
+
+inline constexpr float kPi = std::numbers::pi_v<float>;
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Y of linear Rec.709: 0.2126 R + 0.7152 G + 0.0722 B.
+inline float luminance(const Rgb& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+inline float max_component(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scales first).
+Vec3 normalized_or_zero(const Vec3& v);
+
+/// Orthonormal, right-handed; z is the normal.
+struct Frame {
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  Vec3 to_local(const Vec3& world) const { return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)}; }
+  Vec3 to_world(const Vec3& local) const { return local.x * x + local.y * y + local.z * z; }
+};
+
+/// Frame about a unit normal, continuous except at one pole (Duff et al. 2017). Undefined for a vector that is not unit.
+Frame make_frame(const Vec3& unit_normal);
+
+/// Unit vector in two signed 16-bit numbers (octahedral map; error below 1e-4 rad). Zero vector encodes as +z.
+std::uint32_t encode_octahedral(const Vec3& unit);
+Vec3 decode_octahedral(std::uint32_t code);
+
+struct Bounds {
+  Vec3 lo{kInfinity}, hi{-kInfinity};
+  bool empty() const { return !(lo.x <= hi.x); }
+  void include(const Vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  Vec3 centre() const { return 0.5f * lo + 0.5f * hi; }
+  Vec3 size() const { return empty() ? Vec3(0) : hi - lo; }
+  /// Length of the diagonal, m; 0 when empty.
+  float diagonal_m() const { return glm::length(size()); }
+};
+
+}  // namespace phos

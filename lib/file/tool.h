@@ -1,0 +1,107 @@
+// What every program shares: common options, progress, provenance, --reuse, --stats, errors to exit codes.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/counters.h"
+#include "core/error.h"
+#include "core/json.h"
+#include "core/options.h"
+#include "core/progress.h"
+#include "file/container.h"
+
+namespace phos {
+
+/// One run of one program. Typical main:
+///
+///   Tool tool("phos-photons", "traces photons ...", "long description", 1);
+///   PhotonOptions options;  std::string scene_path;
+///   tool.options().input("SCENE", scene_path, "glTF or OBJ scene");
+///   declare_options(tool.options(), options);
+///   return tool.run(argc, argv, [&] {
+///     tool.add_input("scene", scene_files(scene_path));
+///     if (tool.up_to_date()) return;
+///     const Scene scene = load_scene(scene_path, ...);
+///     ...
+///     write_photons(map, tool.output(), tool.provenance("photons", scene.hash, scene.parts));
+///   });
+class Tool {
+ public:
+  enum class Output { none, required, optional };
+
+  /// `algorithm` is raised whenever the same command would give other numbers: it invalidates --reuse.
+  Tool(const std::string& name, const std::string& summary, const std::string& description, int algorithm,
+       Output output = Output::required);
+
+  Options& options() { return options_; }
+
+  /// Adds the common options (--threads --seed -o --stats --progress --quiet --verbose --reuse --why ...), parses, calls
+  /// body, writes --stats, and turns every exception into one line on stderr and an exit code.
+  int run(int argc, const char* const* argv, const std::function<void()>& body);
+
+  /// A command that worked but whose answer is "no" (phos-compare above a limit) ends with this code.
+  void set_exit(ExitCode code) { exit_ = code; }
+
+  std::uint64_t seed() const { return static_cast<std::uint64_t>(seed_); }
+  const std::string& output() const { return output_; }
+  bool verbose() const { return verbose_; }
+
+  /// Registers an input by content hash (of several files together where one input is many). A phos container's own
+  /// history is appended to ours.
+  void add_input(const std::string& role, const std::string& path);
+  void add_input(const std::string& role, const std::vector<std::string>& paths);
+
+  /// With --reuse: true if the output already holds what this command would make (then says so, and the caller returns).
+  /// With --why: prints what differs to stdout. Call after every add_input and before the work.
+  bool up_to_date();
+
+  /// Header for the output: resolved parameters, inputs, history, key, counters so far.
+  Provenance provenance(const std::string& kind, const std::string& scene_hash, const Json& scene_parts) const;
+
+  Counters& counters() { return counters_; }
+  /// A line for people on stderr, unless --quiet.
+  void say(const std::string& line) const;
+  /// A line on stderr that --quiet does not silence.
+  void warn(const std::string& line) const;
+  /// A figure for --stats (JSON): times in s, counts, bytes.
+  void stat(const std::string& name, Json value) { stats_[name] = std::move(value); }
+
+  /// Times its own life into stats as "seconds.<name>".
+  class Timer {
+   public:
+    Timer(Tool& tool, std::string name);
+    ~Timer();
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    double seconds() const;
+
+   private:
+    Tool& tool_;
+    std::string name_;
+    std::chrono::steady_clock::time_point start_;
+  };
+  Timer time(const std::string& name) { return Timer(*this, name); }
+
+ private:
+  std::string key() const;
+  Options options_;
+  int algorithm_;
+  Output wants_output_;
+  std::int64_t threads_ = 0, seed_ = 0;
+  std::string output_, stats_path_;
+  bool quiet_ = false, verbose_ = false, reuse_ = false, why_ = false;
+  ProgressMode progress_ = ProgressMode::automatic;
+  ExitCode exit_ = ExitCode::done;
+  Json stats_;
+  Counters counters_;
+  std::map<std::string, std::string> inputs_;
+  Json history_ = Json::Array{};
+};
+
+/// Largest resident set of this process so far, bytes.
+std::uint64_t peak_memory_bytes();
+
+}  // namespace phos

@@ -1,0 +1,84 @@
+// Photons in memory and in files, and the neighbour search over them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "file/container.h"
+
+namespace phos {
+
+/// How a photon came to where it was stored.
+enum class PhotonPath : std::uint8_t {
+  direct = 0,    ///< straight from a light
+  indirect = 1,  ///< last left a non-specular surface, or further back did so
+  caustic = 2,   ///< light, then only specular surfaces
+};
+
+/// Columns, one row per stored photon. Directions and normals are octahedral (core/vector.h).
+struct Photons {
+  std::vector<Vec3> position;            ///< m
+  std::vector<Rgb> flux;                 ///< lm
+  std::vector<std::uint32_t> direction;  ///< towards where it came from
+  std::vector<std::uint32_t> normal;     ///< smooth (SurfacePoint::smooth_normal), on the side it landed on
+  std::vector<float> distance;           ///< m, to the previous surface or light; infinity from a directional light
+  std::vector<std::uint32_t> source_normal;  ///< geometric, of that surface or area light, on the side it left; the photon's own
+                                             ///< flight direction where there is none (point, spot, directional)
+  std::vector<std::uint8_t> path;            ///< PhotonPath
+  std::vector<std::uint8_t> bounce;          ///< reflections and transmissions since the light (255: or more)
+  std::size_t size() const { return position.size(); }
+};
+
+/// Totals that travel with a map.
+struct PhotonTotals {
+  std::uint64_t emitted = 0;  ///< paths started
+  std::uint64_t stored = 0;
+  std::uint64_t first_path = 0, paths = 0;  ///< the shard's range of path numbers; the whole is [0, emitted)
+  Rgb emitted_flux_lm{0}, stored_flux_lm{0}, escaped_flux_lm{0}, absorbed_flux_lm{0};
+};
+
+/// Photons with their kd-tree (FLANN). Rows are in the tree's leaf order. Queries are const and thread-safe.
+class PhotonMap {
+ public:
+  /// Builds the tree and reorders the photons by its leaves; rows of equal input give equal bytes. Zero photons are
+  /// allowed: every query is empty. Throws Error(numerical) for a non-finite position.
+  static PhotonMap build(Photons photons, const PhotonTotals& totals);
+  /// Opens a file; columns stay memory-mapped, the tree is loaded (not rebuilt) after its checksum and those of the
+  /// positions were verified. A shard is an error that says to run phos-merge.
+  static PhotonMap open(const std::string& path);
+  ~PhotonMap();
+  PhotonMap(PhotonMap&&) noexcept;
+  PhotonMap& operator=(PhotonMap&&) noexcept;
+
+  std::size_t size() const { return position.size(); }
+  std::span<const Vec3> position;
+  std::span<const Rgb> flux;
+  std::span<const std::uint32_t> direction, normal, source_normal;
+  std::span<const float> distance;
+  std::span<const std::uint8_t> path, bounce;
+  PhotonTotals totals;
+
+  /// Rows within radius_m of p (any order that depends only on the map), replacing `rows`.
+  void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;
+  /// The k nearest rows and their squared distances (m2), nearest first.
+  void nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows, std::vector<float>& distance2_m2) const;
+
+  /// The file it came from, or nullptr if built here.
+  const Container* container() const;
+  /// Tree, columns and totals to a file.
+  void write(const std::string& path, Provenance provenance) const;
+
+ private:
+  PhotonMap();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A shard: photons in path order, no tree.
+void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals, Provenance provenance);
+
+}  // namespace phos

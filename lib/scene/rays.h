@@ -1,0 +1,78 @@
+// Rays against the scene (Embree), and what they find.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace phos {
+
+struct Ray {
+  Vec3 origin{0};
+  Vec3 direction{0, 0, 1};  ///< unit
+  float t_min_m = 0, t_max_m = kInfinity;
+};
+
+struct Hit {
+  float distance_m = kInfinity;
+  std::uint32_t triangle = 0;
+  float u = 0, v = 0;  ///< barycentric weights of the second and third vertex
+};
+
+/// A point on a surface, seen from one side. All directions unit.
+struct SurfacePoint {
+  Vec3 position{0};
+  Vec3 geometric_normal{0, 0, 1};  ///< on the side it is seen from
+  Vec3 smooth_normal{0, 0, 1};     ///< interpolated vertex normal on the same side; what caches use
+  Vec3 normal{0, 0, 1};            ///< smooth_normal with the normal map applied; what BSDFs use
+  Vec3 tangent{1, 0, 0};
+  Vec2 uv0{0}, uv1{0};
+  Vec4 colour{1};
+  std::uint32_t triangle = 0, instance = 0, material = 0;
+  bool front = true;      ///< seen from the counter-clockwise side
+  float error_m = 0;      ///< bound on the rounding error of position; rays start this far off the surface
+  float distance_m = 0;   ///< travelled by the ray that found it
+
+  /// Origin for a ray leaving towards `direction`, off the surface on that side by error_m.
+  Vec3 leave(const Vec3& direction) const {
+    return position + (glm::dot(direction, geometric_normal) >= 0 ? error_m : -error_m) * geometric_normal;
+  }
+};
+
+struct RayOptions {
+  std::string isa;  ///< "" = best of this machine; "sse2" for byte-exact files across machines
+};
+
+/// The acceleration structure. Queries are const and may be made from any thread. Holds a reference to the scene.
+class RayScene {
+ public:
+  explicit RayScene(const Scene& scene, const RayOptions& options = {});
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  const Scene& scene() const;
+  /// Nearest hit, alpha-masked texels passed through. False if the ray escapes.
+  bool intersect(const Ray& ray, Hit& hit) const;
+  /// Is anything in the way, within (t_min, t_max)?
+  bool occluded(const Ray& ray) const;
+  /// Can a and b see each other? Both ends are kept clear of their own surfaces by their error_m.
+  bool visible(const SurfacePoint& a, const SurfacePoint& b) const;
+  /// From a surface point towards a point in space (a light's sample) with `error_m` slack at the far end.
+  bool visible(const SurfacePoint& a, const Vec3& point, float error_m) const;
+
+  /// The point a hit stands for, seen against the ray.
+  SurfacePoint surface(const Ray& ray, const Hit& hit) const;
+  /// The Embree handle (RTCScene), for benchmarks that measure its bound.
+  void* native() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// intersect + surface.
+bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point);
+
+}  // namespace phos

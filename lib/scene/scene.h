@@ -1,0 +1,161 @@
+// A scene as the light sees it: world-space triangles, materials, luminaires, cameras, at one time.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "core/vector.h"
+
+namespace phos {
+
+/// Linear values, row 0 at v = 0 (glTF). sRGB is decoded on load where the use asks for it.
+struct Texture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<Vec4> texels;
+  enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  bool nearest = false;  ///< magnification filter; else bilinear
+  /// Bilinear at texture coordinates; finite for any finite uv.
+  Vec4 at(const Vec2& uv) const;
+};
+
+/// A texture's use: which one, which coordinates, and its transform (KHR_texture_transform).
+struct TextureUse {
+  std::int32_t texture = -1;  ///< -1: none
+  std::uint8_t set = 0;       ///< TEXCOORD_0 or _1
+  Vec2 offset{0, 0}, scale{1, 1};
+  float rotation_rad = 0;
+  bool used() const { return texture >= 0; }
+};
+
+/// Reflection models. extras.phos of a glTF material gives the exact one; else metallic-roughness.
+enum class Model : std::uint8_t {
+  metallic_roughness,  ///< glTF 2.0: Lambert + GGX, Schlick Fresnel
+  lambert,             ///< kd
+  phong,               ///< kd, ks, exponent; normalised lobe (n+2)/(2 pi) cos^n about the mirror direction
+  ward,                ///< kd, ks, ax, ay
+  plastic,             ///< kd under a rough dielectric coat: alpha, ior
+  conductor,           ///< f0, alpha (0: mirror-like)
+  dielectric,          ///< smooth glass: ior
+  thin_dielectric,     ///< smooth pane: ior, no bending
+  mirror,              ///< ks
+};
+
+struct Material {
+  std::string name;
+  Model model = Model::lambert;
+  Rgb kd{0};  ///< diffuse reflectance, or base colour of metallic_roughness; multiplied by base_colour texture
+  Rgb ks{0};  ///< specular reflectance (phong, ward, mirror) or f0 (conductor)
+  float exponent = 1;
+  float alpha_x = 0, alpha_y = 0;  ///< GGX or Ward roughness (alpha, not its root)
+  float roughness = 1, metallic = 0;
+  float ior = 1.5f;
+  float specular = 1;      ///< KHR_materials_specular
+  Rgb specular_colour{1};  ///< KHR_materials_specular
+  float transmission = 0;  ///< KHR_materials_transmission
+  TextureUse base_colour, metallic_roughness, normal, emissive;
+  float normal_scale = 1;
+  Rgb emission{0};  ///< luminance, cd/m2; multiplied by the emissive texture
+  bool double_sided = false;  ///< emission from both sides; reflection is two-sided always
+  enum class Alpha : std::uint8_t { opaque, mask, blend };
+  Alpha alpha_mode = Alpha::opaque;
+  float alpha = 1, alpha_cutoff = 0.5f;
+
+  bool emits() const { return max_component(emission) > 0; }
+};
+
+/// One placed mesh primitive: a contiguous run of triangles with one material.
+struct Instance {
+  std::string node;  ///< name of the glTF node ("node 7" where it has none), or OBJ group
+  std::uint32_t material = 0;
+  std::uint32_t first_triangle = 0, triangle_count = 0;
+  Mat4 to_world{1};
+};
+
+struct Triangle {
+  std::uint32_t v[3];
+};
+
+/// A luminaire: the unit of power sharing. Angles in radians, directions point the way light travels.
+struct Light {
+  enum class Kind : std::uint8_t { area, point, spot, directional };
+  Kind kind = Kind::point;
+  std::string name;
+  Vec3 position{0};
+  Vec3 direction{0, 0, -1};
+  Rgb intensity{0};  ///< point, spot: cd (on the axis). directional: lx on a plane facing it. area: unused
+  float cos_inner = 1, cos_outer = 0;  ///< spot cone, cosines of the half angles; glTF's smooth falloff
+  std::uint32_t instance = 0;          ///< area: which instance shines
+  float area_m2 = 0;                   ///< area: one side
+  Rgb flux_lm{0};  ///< total emitted; directional: through the scene's bounding disc (filled by finalize)
+};
+
+struct Camera {
+  std::string name;
+  Mat4 to_world{1};  ///< looks along -z, +y up (glTF)
+  bool perspective = true;
+  float yfov_rad = 0.8f;  ///< vertical
+  float ymag_m = 1;       ///< orthographic: half the height
+  float aspect = 1;       ///< of the file; an image's own width/height wins
+  /// World ray through image coordinates in [0,1]^2, (0,0) = top left. Direction is unit.
+  struct Ray {
+    Vec3 origin, direction;
+  };
+  Ray ray(const Vec2& st, float image_aspect) const;
+  /// Clip-space matrix for GL (depth range from near_m to far_m).
+  Mat4 view_projection(float image_aspect, float near_m, float far_m) const;
+};
+
+struct Animation {
+  std::string name;
+  double start_s = 0, end_s = 0;
+  std::vector<std::string> targets;  ///< "node lamp translation", ...
+};
+
+struct Scene {
+  std::string path;
+  // Per vertex, world space.
+  std::vector<Vec3> position;
+  std::vector<Vec3> normal;     ///< unit shading normals
+  std::vector<Vec2> uv0, uv1;   ///< empty, or one per vertex
+  std::vector<Vec4> tangent;    ///< empty, or xyz + handedness
+  std::vector<Vec4> colour;     ///< COLOR_0, linear; empty where no vertex has one
+  // Per triangle.
+  std::vector<Triangle> triangle;
+  std::vector<std::uint32_t> triangle_instance;
+  std::vector<Instance> instance;
+  std::vector<Material> material;
+  std::vector<Texture> texture;
+  std::vector<Light> light;
+  std::vector<Camera> camera;
+  std::vector<Animation> animation;
+  double time_s = 0;
+  double frames_per_s = 24;
+  std::int64_t frames = 0;  ///< of scenes[0].extras.animation, or from the longest animation
+  std::vector<std::string> warnings;  ///< what the loader mended or ignored, one line each
+  std::map<std::string, std::uint64_t> events;  ///< degenerate triangles dropped, normals made, ...
+  // Filled by finalize().
+  Bounds bounds;
+  std::string hash;  ///< of everything that changes the light (not cameras, not names)
+  Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}}
+
+  const Material& material_of(std::uint32_t tri) const { return material[instance[triangle_instance[tri]].material]; }
+};
+
+/// Completes a scene whose geometry, materials, punctual lights and cameras are set: makes absent normals, area lights
+/// from emitting instances, fluxes, bounds, hash and parts. Throws Error(bad_input) for indices out of range or
+/// non-finite positions. Loader and tests use it alike.
+void finalize(Scene& scene);
+
+/// Geometric normal by winding (unit; zero for a degenerate triangle) and area in m2.
+Vec3 geometric_normal(const Scene& scene, std::uint32_t tri);
+float area_m2(const Scene& scene, std::uint32_t tri);
+/// Radius of the smallest sphere about the centre of the bounds, m.
+float bounding_radius_m(const Scene& scene);
+
+}  // namespace phos
