@@ -1,0 +1,423 @@
+#include "core/options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "core/error.h"
+
+namespace phos {
+
+namespace {
+
+/// What one declaration holds; help, manual and record are all made from it.
+struct Declaration {
+  std::string section, name, short_name, unit, help, limits;
+  std::vector<std::string> choices;
+  Recorded recorded = Recorded::yes;
+  bool is_flag = false, is_input = false, required = false;
+  std::function<Json()> value;
+  std::string default_text;
+  CLI::Option* parsed = nullptr;
+};
+
+struct Example {
+  std::string command, what;
+};
+
+std::string limits_text(const Range& range) {
+  const bool has_lo = std::isfinite(range.lo);
+  const bool has_hi = std::isfinite(range.hi);
+  if (has_lo && has_hi)
+    return text(range.lo_open ? "above " : "", shortest(range.lo), " to ", shortest(range.hi));
+  if (has_lo) return text(range.lo_open ? "above " : "at least ", shortest(range.lo));
+  if (has_hi) return text("at most ", shortest(range.hi));
+  return "";
+}
+
+[[noreturn]] void reject(const std::string& name, const std::string& why) {
+  throw Error(ExitCode::usage, "--" + name, why);
+}
+
+template <class T>
+T parse_number(const std::string& name, const std::string& s, const Range& range) {
+  T v{};
+  const char* begin = s.data() + (s.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, s.data() + s.size(), v);
+  if (error != std::errc() || end != s.data() + s.size() || !std::isfinite(static_cast<double>(v)))
+    reject(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number"));
+  const auto wide = static_cast<double>(v);
+  if (wide < range.lo || wide > range.hi || (range.lo_open && wide == range.lo))
+    reject(name, text(s, " is out of range; it must be ", limits_text(range)));
+  return v;
+}
+
+/// Breaks at spaces to `width` columns; every line after the first starts with `indent` spaces.
+std::string wrap(const std::string& s, std::size_t indent, std::size_t width) {
+  std::string out;
+  std::size_t column = indent;
+  std::istringstream words(s);
+  for (std::string word; words >> word;) {
+    if (column > indent && column + 1 + word.size() > width) {
+      out += '\n' + std::string(indent, ' ');
+      column = indent;
+    }
+    if (column > indent) out += ' ', ++column;
+    out += word;
+    column += word.size();
+  }
+  return out;
+}
+
+std::string roff(const std::string& s) {
+  std::string out;
+  for (const char c : s) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n'))
+      out += "\\&", out += c;
+    else
+      out += c;
+  }
+  return out;
+}
+
+constexpr std::pair<int, const char*> kExitCodes[] = {
+    {0, "done"},
+    {1, "a comparison or check failed"},
+    {2, "the command line is wrong"},
+    {3, "an input is unreadable, malformed or damaged, or the output cannot be written"},
+    {4, "inputs do not belong together"},
+    {5, "a numerical guard tripped more often than it may"},
+    {130, "interrupted; what was there before is unchanged"},
+};
+
+}  // namespace
+
+struct Options::Impl {
+  std::string tool, summary, description, section = "Options";
+  CLI::App app;
+  std::vector<Declaration> declarations;
+  std::vector<Example> examples;
+  bool help = false, version = false, manual = false;
+
+  Declaration& declare(const std::string& names, const std::string& unit, const std::string& help_text,
+                       Recorded recorded) {
+    Declaration d;
+    const std::size_t comma = names.find(',');
+    d.name = names.substr(0, comma);
+    if (comma != std::string::npos) d.short_name = names.substr(comma + 1);
+    d.section = section, d.unit = unit, d.help = help_text, d.recorded = recorded;
+    declarations.push_back(std::move(d));
+    return declarations.back();
+  }
+  static std::string flags_of(const Declaration& d) {
+    return (d.short_name.empty() ? "" : "-" + d.short_name + ",") + "--" + d.name;
+  }
+  /// An option that takes one value; `set` gets its text.
+  void add(Declaration& d, const std::function<void(const std::string&)>& set) {
+    d.parsed = app.add_option_function<std::string>(flags_of(d), set)->take_last();
+  }
+  const Declaration* find(const std::string& name) const {
+    for (const Declaration& d : declarations)
+      if (d.name == name) return &d;
+    return nullptr;
+  }
+  static std::string detail(const Declaration& d) {
+    std::string s = d.help;
+    if (!d.choices.empty()) {
+      s += " (";
+      for (std::size_t i = 0; i < d.choices.size(); ++i) s += (i == 0 ? "" : ", ") + d.choices[i];
+      s += ")";
+    }
+    if (!d.limits.empty()) s += "; " + d.limits;
+    if (d.required) s += d.is_input ? "" : " [required]";
+    if (!d.default_text.empty()) s += " [" + d.default_text + "]";
+    return s;
+  }
+  static std::string left(const Declaration& d) {
+    if (d.is_input) return d.unit;
+    return (d.short_name.empty() ? "" : "-" + d.short_name + ", ") + "--" + d.name + (d.is_flag ? "" : " " + d.unit);
+  }
+  std::string usage() const {
+    std::string s = tool + " [options]";
+    for (const Declaration& d : declarations)
+      if (d.is_input) s += " " + (d.required ? d.unit : "[" + d.unit + "]");
+    for (const Declaration& d : declarations)
+      if (!d.is_input && d.required) s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
+    return s;
+  }
+  std::vector<std::string> sections() const {
+    std::vector<std::string> names;
+    for (const Declaration& d : declarations)
+      if (!d.is_input && std::find(names.begin(), names.end(), d.section) == names.end()) names.push_back(d.section);
+    return names;
+  }
+};
+
+Options::Options(std::string tool, std::string summary, std::string description) : impl_(std::make_unique<Impl>()) {
+  impl_->tool = std::move(tool), impl_->summary = std::move(summary), impl_->description = std::move(description);
+  impl_->app.set_help_flag();
+  impl_->app.add_flag("--help,-h", impl_->help);
+  impl_->app.add_flag("--version", impl_->version);
+  impl_->app.add_flag("--man", impl_->manual);
+}
+
+Options::~Options() = default;
+
+const std::string& Options::tool() const { return impl_->tool; }
+void Options::section(const std::string& title) { impl_->section = title; }
+void Options::example(const std::string& command, const std::string& what) {
+  impl_->examples.push_back({command, what});
+}
+
+void Options::flag(const std::string& name, bool& value, const std::string& help, Recorded recorded) {
+  Declaration& d = impl_->declare(name, "", help, recorded);
+  d.is_flag = true;
+  d.value = [&value] { return Json(value); };
+  d.parsed = impl_->app.add_flag(Impl::flags_of(d), value);
+}
+
+void Options::number(const std::string& name, double& value, const std::string& unit, const std::string& help,
+                     Range range, Recorded recorded) {
+  Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.limits = limits_text(range), d.default_text = shortest(value);
+  d.value = [&value] { return Json(value); };
+  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
+}
+
+void Options::number(const std::string& name, std::optional<double>& value, const std::string& unit,
+                     const std::string& help, Range range, Recorded recorded) {
+  Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.limits = limits_text(range), d.default_text = value ? shortest(*value) : "";
+  d.value = [&value] { return value ? Json(*value) : Json(); };
+  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
+}
+
+void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
+                      Range range, Recorded recorded) {
+  Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.limits = limits_text(range), d.default_text = std::to_string(value);
+  d.value = [&value] { return Json(value); };
+  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<std::int64_t>(n, s, range); });
+}
+
+void Options::text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
+                   Recorded recorded) {
+  Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.default_text = value;
+  d.value = [&value] { return Json(value); };
+  impl_->add(d, [&value](const std::string& s) { value = s; });
+}
+
+void Options::list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
+                   const std::string& help, Recorded recorded) {
+  Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.value = [&value] {
+    Json items = Json::Array{};
+    for (const std::string& s : value) items.push_back(s);
+    return items;
+  };
+  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)->delimiter(',')->expected(1)->take_all();
+}
+
+void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {
+  Declaration& d = impl_->declare(name, "FILE", help, Recorded::no);
+  d.required = required;
+  d.value = [&value] { return Json(value); };
+  impl_->add(d, [&value](const std::string& s) { value = s; });
+}
+
+void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
+                              std::function<void(std::size_t)> set, const std::string& help, Recorded recorded) {
+  Declaration& d = impl_->declare(name, "WHICH", help, recorded);
+  d.choices = names, d.default_text = names[index];
+  const auto chosen = std::make_shared<std::size_t>(index);
+  d.value = [chosen, names] { return Json(names[*chosen]); };
+  impl_->add(d, [chosen, names, set, n = d.name](const std::string& s) {
+    const auto found = std::find(names.begin(), names.end(), s);
+    if (found == names.end()) {
+      std::string all;
+      for (const std::string& other : names) all += (all.empty() ? "" : ", ") + other;
+      reject(n, phos::text("\"", s, "\" is not one of: ", all));
+    }
+    *chosen = static_cast<std::size_t>(found - names.begin());
+    set(*chosen);
+  });
+}
+
+void Options::input(const std::string& placeholder, std::string& value, const std::string& help, bool required) {
+  Declaration& d = impl_->declare(placeholder, placeholder, help, Recorded::no);
+  d.is_input = true, d.required = required;
+  d.value = [&value] { return Json(value); };
+  d.parsed = impl_->app.add_option(placeholder, value);
+}
+
+void Options::inputs(const std::string& placeholder, std::vector<std::string>& values, const std::string& help,
+                     bool required) {
+  Declaration& d = impl_->declare(placeholder, placeholder + "...", help, Recorded::no);
+  d.is_input = true, d.required = required;
+  d.value = [] { return Json(); };
+  d.parsed = impl_->app.add_option(placeholder, values)->expected(-1);
+}
+
+namespace {
+
+/// Replaces each @file by the options it holds: one per line, `name=value`, `name value` or a flag; # starts a comment.
+std::vector<std::string> expand_files(int argc, const char* const* argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.size() < 2 || argument[0] != '@') {
+      arguments.push_back(argument);
+      continue;
+    }
+    const std::string path = argument.substr(1);
+    std::ifstream in(path);
+    if (!in) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+    for (std::string line; std::getline(in, line);) {
+      line = line.substr(0, line.find('#'));
+      const std::size_t begin = line.find_first_not_of(" \t\r");
+      if (begin == std::string::npos) continue;
+      line = line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
+      if (!line.starts_with("--")) line = "--" + line;
+      const std::size_t split = line.find_first_of("= \t");
+      arguments.push_back(line.substr(0, split));
+      if (split != std::string::npos) arguments.push_back(line.substr(line.find_first_not_of("= \t", split)));
+    }
+  }
+  return arguments;
+}
+
+}  // namespace
+
+bool Options::parse(int argc, const char* const* argv) {
+  std::vector<std::string> arguments = expand_files(argc, argv);
+  const bool empty = arguments.empty();
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 pops from the back
+  const std::string see = "; see " + impl_->tool + " --help";
+  try {
+    impl_->app.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    std::string message = e.what();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    throw Error(ExitCode::usage, "", message + see);
+  }
+  if (impl_->help || impl_->version || impl_->manual) {
+    const std::string out = impl_->help      ? help()
+                            : impl_->version ? impl_->tool + " " + phos::version() + "\n"
+                                             : manual();
+    std::fputs(out.c_str(), stdout);
+    return false;
+  }
+  for (const Declaration& d : impl_->declarations)
+    if (d.required && d.parsed->count() == 0)
+      throw Error(ExitCode::usage, "",
+                  (empty ? "usage: " + impl_->usage() : phos::text(Impl::left(d), " is missing")) + see);
+  return true;
+}
+
+bool Options::given(const std::string& name) const {
+  const Declaration* d = impl_->find(name);
+  PHOS_CHECK(d != nullptr, "option ", name);
+  return d->parsed->count() > 0;
+}
+
+Json Options::recorded() const {
+  Json all = Json::Object{};
+  for (const Declaration& d : impl_->declarations)
+    if (d.recorded == Recorded::yes) all[d.name] = d.value();
+  return all;
+}
+
+std::string Options::command() const {
+  std::string command = impl_->tool;
+  const Json all = recorded();
+  for (const auto& [name, value] : all.as_object()) {
+    if (value.is_null() || (value.is_bool() && !value.as_bool())) continue;
+    if (value.is_bool()) {
+      command += " --" + name;
+    } else if (value.is_array()) {
+      for (const Json& item : value.as_array()) command += " --" + name + " " + item.as_string();
+    } else if (value.is_string()) {
+      if (value.as_string().empty()) continue;
+      const bool plain = value.as_string().find_first_of(" \t\"'\\$`*?<>|&;()#~") == std::string::npos;
+      command += " --" + name + " " + (plain ? value.as_string() : value.dump());
+    } else {
+      command += " --" + name + " " + value.dump();
+    }
+  }
+  return command;
+}
+
+std::string Options::help() const {
+  constexpr std::size_t kColumn = 28, kWidth = 100;
+  std::string out = impl_->tool + " - " + impl_->summary + "\n\nUsage: " + impl_->usage() + "\n\n" +
+                    wrap(impl_->description, 0, kWidth) + "\n";
+  const auto line = [&](const std::string& left, const std::string& right) {
+    std::string s = "  " + left;
+    if (s.size() + 2 > kColumn)
+      s += "\n" + std::string(kColumn, ' ');
+    else
+      s.resize(kColumn, ' ');
+    out += s + wrap(right, kColumn, kWidth) + "\n";
+  };
+  bool heading = false;
+  for (const Declaration& d : impl_->declarations) {
+    if (!d.is_input) continue;
+    if (!heading) out += "\nInputs:\n";
+    heading = true;
+    line(Impl::left(d), Impl::detail(d));
+  }
+  for (const std::string& section : impl_->sections()) {
+    out += "\n" + section + ":\n";
+    for (const Declaration& d : impl_->declarations)
+      if (!d.is_input && d.section == section) line(Impl::left(d), Impl::detail(d));
+  }
+  out += "\nOther:\n";
+  line("-h, --help", "this text");
+  line("--version", "version");
+  line("--man", "the manual page, for man -l -");
+  line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
+  if (!impl_->examples.empty()) out += "\nExamples:\n";
+  for (const Example& e : impl_->examples) out += "  " + e.command + "\n      " + wrap(e.what, 6, kWidth) + "\n";
+  out += "\nExit codes:\n";
+  for (const auto& [code, what] : kExitCodes) line(std::to_string(code), what);
+  return out;
+}
+
+std::string Options::manual() const {
+  std::string title = impl_->tool;
+  std::transform(title.begin(), title.end(), title.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
+  std::string out = ".TH " + title + " 1 \"\" \"phos " + phos::version() + "\" \"phos manual\"\n";
+  out += ".SH NAME\n" + roff(impl_->tool) + " \\- " + roff(impl_->summary) + "\n";
+  out += ".SH SYNOPSIS\n.B " + roff(impl_->usage()) + "\n.SH DESCRIPTION\n" + roff(impl_->description) + "\n";
+  const auto entry = [&](const std::string& left, const std::string& right) {
+    out += ".TP\n.B " + roff(left) + "\n" + roff(right) + "\n";
+  };
+  out += ".SH INPUTS\n";
+  for (const Declaration& d : impl_->declarations)
+    if (d.is_input) entry(Impl::left(d), Impl::detail(d));
+  out += ".SH OPTIONS\n";
+  for (const std::string& section : impl_->sections()) {
+    out += ".SS " + roff(section) + "\n";
+    for (const Declaration& d : impl_->declarations)
+      if (!d.is_input && d.section == section) entry(Impl::left(d), Impl::detail(d));
+  }
+  if (!impl_->examples.empty()) out += ".SH EXAMPLES\n";
+  for (const Example& e : impl_->examples) entry(e.command, e.what);
+  out += ".SH EXIT STATUS\n";
+  for (const auto& [code, what] : kExitCodes) entry(std::to_string(code), what);
+  return out;
+}
+
+const char* version() { return PHOS_VERSION; }
+
+}  // namespace phos

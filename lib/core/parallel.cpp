@@ -1,0 +1,72 @@
+#include "core/parallel.h"
+
+#include <pmmintrin.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_scheduler_observer.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/interrupt.h"
+
+namespace phos {
+
+namespace {
+
+class FlushToZeroObserver : public tbb::task_scheduler_observer {
+ public:
+  FlushToZeroObserver() { observe(true); }
+  ~FlushToZeroObserver() override { observe(false); }
+  void on_scheduler_entry(bool) override { set_flush_to_zero(); }
+};
+
+struct Threads {
+  int count = 0;
+  std::unique_ptr<tbb::global_control> limit;
+  FlushToZeroObserver observer;
+};
+
+Threads& threads() {
+  static Threads instance;
+  return instance;
+}
+
+}  // namespace
+
+void set_flush_to_zero() {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+}
+
+void set_threads(int wanted) {
+  Threads& t = threads();
+  t.count = wanted > 0 ? wanted : std::max(1, tbb::info::default_concurrency());
+  t.limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<std::size_t>(t.count));
+  set_flush_to_zero();
+}
+
+int thread_count() {
+  if (threads().count == 0) set_threads(0);
+  return threads().count;
+}
+
+void parallel_chunks(std::size_t n, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& body) {
+  if (n == 0) return;
+  thread_count();
+  const std::size_t chunks = (n + chunk - 1) / chunk;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, chunks, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t c = range.begin(); c != range.end(); ++c) {
+          throw_if_interrupted();
+          body(c * chunk, std::min(n, (c + 1) * chunk));
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace phos

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/options.h"
+
+namespace phos {
+namespace {
+
+struct Everything {
+  bool flag = false;
+  double number = 0.2;
+  std::optional<double> maybe;
+  std::int64_t count = 10;
+  std::string word, path, input;
+  std::vector<std::string> items, more;
+  enum class Shape { hull, disc } shape = Shape::hull;
+  Options options{"phos-x", "does x", "Does x at length."};
+  Everything() {
+    options.input("SCENE", input, "a scene");
+    options.inputs("MORE", more, "more scenes", false);
+    options.flag("flag", flag, "a flag");
+    options.number("number", number, "METRES", "a number", kPositive);
+    options.number("maybe", maybe, "M", "a number that may be absent");
+    options.integer("count", count, "N", "a count", {0, 100});
+    options.text("word", word, "WORD", "a word");
+    options.list("items", items, "LIST", "items");
+    options.file("output,o", path, "where to");
+    options.choice<Shape>("shape", shape, {{"hull", Shape::hull}, {"disc", Shape::disc}}, "a shape");
+  }
+  bool parse(std::vector<const char*> words) {
+    words.insert(words.begin(), "phos-x");
+    return options.parse(static_cast<int>(words.size()), words.data());
+  }
+  std::string error(const std::vector<const char*>& words) {
+    try {
+      parse(words);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::usage);
+      return e.where() + ": " + e.what();
+    }
+    return "no error";
+  }
+};
+
+TEST(Options, ReadsEveryKind) {
+  Everything e;
+  ASSERT_TRUE(e.parse({"--flag", "--number", "1e-6", "--maybe=-2", "--count", "7", "in.glb", "-o", "out", "--word", "two words",
+                       "--items", "a,b", "--items", "c", "--shape", "disc"}));
+  EXPECT_TRUE(e.flag);
+  EXPECT_EQ(e.number, 1e-6);
+  EXPECT_EQ(e.maybe, -2);
+  EXPECT_EQ(e.count, 7);
+  EXPECT_EQ(e.input, "in.glb");
+  EXPECT_EQ(e.path, "out");
+  EXPECT_EQ(e.items, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(e.shape, Everything::Shape::disc);
+  EXPECT_TRUE(e.options.given("number"));
+}
+
+TEST(Options, RecordsWhatChangesTheResultAndNoPaths) {
+  Everything e;
+  ASSERT_TRUE(e.parse({"in.glb", "-o", "out", "--number", "3"}));
+  EXPECT_EQ(e.options.recorded().dump(),
+            R"({"count":10,"flag":false,"items":[],"maybe":null,"number":3,"shape":"hull","word":""})");
+  EXPECT_EQ(e.options.command(), "phos-x --count 10 --number 3 --shape hull");
+}
+
+TEST(Options, RecordFollowsAutomaticValues) {
+  Everything e;
+  ASSERT_TRUE(e.parse({"in.glb"}));
+  e.maybe = 0.25;
+  EXPECT_EQ(e.options.recorded().find("maybe")->as_number(), 0.25);
+}
+
+TEST(Options, ErrorsNameTheOptionAndTheMend) {
+  EXPECT_NE(Everything().error({"in", "--number", "0"}).find("above 0"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--number", "nan"}).find("not a number"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--number", "1x"}).find("--number"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--count", "1.5"}).find("whole number"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--count", "101"}).find("0 to 100"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--shape", "square"}).find("hull, disc"), std::string::npos);
+  EXPECT_NE(Everything().error({"in", "--nonsense"}).find("--nonsense"), std::string::npos);
+  EXPECT_NE(Everything().error({}).find("usage: phos-x"), std::string::npos);
+  EXPECT_NE(Everything().error({"--flag"}).find("SCENE is missing"), std::string::npos);
+}
+
+TEST(Options, ReadsAFileOfOptions) {
+  const std::string path = std::string(PHOS_SCRATCH) + "/options.txt";
+  std::ofstream(path) << "# settings\nnumber = 5\n--flag\n\nword hello there  # trailing\n";
+  Everything e;
+  ASSERT_TRUE(e.parse({("@" + path).c_str(), "in"}));
+  EXPECT_EQ(e.number, 5);
+  EXPECT_TRUE(e.flag);
+  EXPECT_EQ(e.word, "hello there");
+}
+
+TEST(Options, HelpAndManualHoldEveryOption) {
+  const Everything e;
+  const std::string help = e.options.help();
+  const std::string manual = e.options.manual();
+  for (const char* name : {"flag", "number", "maybe", "count", "word", "items", "output", "shape"}) {
+    EXPECT_NE(help.find(name), std::string::npos) << name;
+    EXPECT_NE(manual.find(name), std::string::npos) << name;
+  }
+  for (const char* code : {"130", "interrupted"}) EXPECT_NE(help.find(code), std::string::npos);
+  for (std::size_t begin = 0, end; (end = help.find('\n', begin)) != std::string::npos; begin = end + 1)
+    EXPECT_LE(end - begin, 110u) << help.substr(begin, end - begin);
+}
+
+}  // namespace
+}  // namespace phos
