@@ -1,6 +1,7 @@
 // Photons in memory and in files, and the neighbour search over them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,30 +26,54 @@ struct Photons {
   std::vector<Rgb> flux;                 ///< lm
   std::vector<std::uint32_t> direction;  ///< towards where it came from
   std::vector<std::uint32_t> normal;     ///< smooth (SurfacePoint::smooth_normal), on the side it landed on
-  std::vector<float> distance;           ///< m, to the previous surface or light; infinity from a directional light
-  std::vector<std::uint32_t> source_normal;  ///< geometric, of that surface or area light, on the side it left; the photon's own
-                                             ///< flight direction where there is none (point, spot, directional)
-  std::vector<std::uint8_t> path;            ///< PhotonPath
-  std::vector<std::uint8_t> bounce;          ///< reflections and transmissions since the light (255: or more)
+  std::vector<float> distance;  ///< m, to the previous surface or light; infinity from a directional light
+  std::vector<std::uint32_t>
+      source_normal;  ///< geometric, of that surface or area light, on the side it left; the photon's own
+                      ///< flight direction where there is none (point, spot, directional)
+  std::vector<std::uint8_t> path;    ///< PhotonPath
+  std::vector<std::uint8_t> bounce;  ///< reflections and transmissions since the light (255: or more)
   std::size_t size() const { return position.size(); }
+};
+
+/// A sum of fluxes in units of 2^exponent lm, kept in integers: the same in any order, and over shards in any
+/// number.
+struct FluxSum {
+  std::array<std::int64_t, 3> units{0, 0, 0};
+  FluxSum& operator+=(const FluxSum& o) {
+    for (std::size_t c = 0; c < 3; ++c) units[c] += o.units[c];
+    return *this;
+  }
+  FluxSum& operator-=(const FluxSum& o) {
+    for (std::size_t c = 0; c < 3; ++c) units[c] -= o.units[c];
+    return *this;
+  }
+  /// Nearest whole number of units. `flux` must be finite and below 2^63 units.
+  static FluxSum of(const Rgb& flux_lm, int exponent);
+  Rgb lm(int exponent) const;
 };
 
 /// Totals that travel with a map.
 struct PhotonTotals {
-  std::uint64_t emitted = 0;  ///< paths started
+  std::uint64_t emitted = 0;  ///< paths started (by all shards together)
   std::uint64_t stored = 0;
   std::uint64_t first_path = 0, paths = 0;  ///< the shard's range of path numbers; the whole is [0, emitted)
+  /// stored counts a photon once at every surface it was stored on; emitted = escaped + absorbed exactly (in
+  /// the sums).
   Rgb emitted_flux_lm{0}, stored_flux_lm{0}, escaped_flux_lm{0}, absorbed_flux_lm{0};
+  int flux_exponent = 0;  ///< of the sums below, from which the four above follow (see settle)
+  FluxSum emitted_sum, stored_sum, escaped_sum, absorbed_sum;
+  /// Sets the four *_flux_lm from the sums.
+  void settle();
 };
 
 /// Photons with their kd-tree (FLANN). Rows are in the tree's leaf order. Queries are const and thread-safe.
 class PhotonMap {
  public:
-  /// Builds the tree and reorders the photons by its leaves; rows of equal input give equal bytes. Zero photons are
-  /// allowed: every query is empty. Throws Error(numerical) for a non-finite position.
+  /// Builds the tree and reorders the photons by its leaves; rows of equal input give equal bytes. Zero
+  /// photons are allowed: every query is empty. Throws Error(numerical) for a non-finite position.
   static PhotonMap build(Photons photons, const PhotonTotals& totals);
-  /// Opens a file; columns stay memory-mapped, the tree is loaded (not rebuilt) after its checksum and those of the
-  /// positions were verified. A shard is an error that says to run phos-merge.
+  /// Opens a file; columns stay memory-mapped, the tree is loaded (not rebuilt) after its checksum and those
+  /// of the positions were verified. A shard is an error that says to run phos-merge.
   static PhotonMap open(const std::string& path);
   ~PhotonMap();
   PhotonMap(PhotonMap&&) noexcept;
@@ -65,7 +90,8 @@ class PhotonMap {
   /// Rows within radius_m of p (any order that depends only on the map), replacing `rows`.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;
   /// The k nearest rows and their squared distances (m2), nearest first.
-  void nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows, std::vector<float>& distance2_m2) const;
+  void nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
+               std::vector<float>& distance2_m2) const;
 
   /// The file it came from, or nullptr if built here.
   const Container* container() const;
@@ -78,7 +104,8 @@ class PhotonMap {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A shard: photons in path order, no tree.
-void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals, Provenance provenance);
+/// A shard: photons in path order, no tree. `shard` is "i/n".
+void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
+                 const std::string& shard, Provenance provenance);
 
 }  // namespace phos

@@ -1,0 +1,172 @@
+#include "photon/kd_tree.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <flann/flann.hpp>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace phos {
+namespace {
+
+using Tree = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
+
+// Photon queries ask for hundreds of neighbours; small leaves would cost memory, build time and file size for
+// nothing.
+constexpr int kLeafSize = 16;
+constexpr std::size_t kCheckChunk = 1 << 16;
+
+// FLANN takes a mutable pointer but never writes through it (reorder = false).
+flann::Matrix<float> matrix(std::span<const Vec3> points) {
+  return {const_cast<float*>(&points.data()->x), points.size(), 3};
+}
+
+flann::KDTreeSingleIndexParams parameters() { return {kLeafSize, /*reorder=*/false}; }
+
+/// Collects without sorting every point nearer than the limit.
+class Rows final : public flann::ResultSet<float> {
+ public:
+  Rows(float limit2_m2, std::vector<std::uint32_t>& rows) : limit_(limit2_m2), rows_(rows) {}
+  bool full() const override { return true; }
+  void addPoint(float, std::size_t index) override { rows_.push_back(static_cast<std::uint32_t>(index)); }
+  float worstDist() const override { return limit_; }
+
+ private:
+  float limit_;
+  std::vector<std::uint32_t>& rows_;
+};
+
+bool in_range(const Vec3& p) {
+  const Vec3 a = glm::abs(p);
+  return a.x <= KdTree::kLargestCoordinate_m && a.y <= KdTree::kLargestCoordinate_m &&
+         a.z <= KdTree::kLargestCoordinate_m;
+}
+
+void require_in_range(std::span<const Vec3> points) {
+  const std::size_t bad = parallel_reduce<std::size_t>(
+      points.size(), kCheckChunk, 0,
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t n = 0;
+        for (std::size_t i = begin; i < end; ++i) n += in_range(points[i]) ? 0 : 1;
+        return n;
+      },
+      [](std::size_t& total, std::size_t n) { total += n; });
+  if (bad > 0)
+    throw Error(ExitCode::numerical, "",
+                text(bad, " of ", points.size(), " photon positions are not finite or beyond ",
+                     KdTree::kLargestCoordinate_m, " m; check the scene with phos-scene"));
+}
+
+struct FileCloser {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+}  // namespace
+
+struct KdTree::Impl {
+  explicit Impl(std::span<const Vec3> p) : points(p), tree(matrix(p), parameters()) {}
+  std::span<const Vec3> points;
+  Tree tree;
+};
+
+KdTree::KdTree() = default;
+KdTree::~KdTree() = default;
+KdTree::KdTree(KdTree&&) noexcept = default;
+KdTree& KdTree::operator=(KdTree&&) noexcept = default;
+
+KdTree KdTree::build(std::span<const Vec3> points) {
+  KdTree result;
+  if (points.empty()) return result;
+  if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error(ExitCode::numerical, "",
+                text(points.size(), " photons are more than one map can hold (2147483647); use fewer paths"));
+  require_in_range(points);
+  result.impl_ = std::make_unique<Impl>(points);
+  result.impl_->tree.buildIndex();
+  return result;
+}
+
+KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> bytes,
+                    const std::string& where) {
+  KdTree result;
+  if (points.empty() && bytes.empty()) return result;
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::bad_input, where,
+                text("the kd-tree ", why, "; make the file again with phos-photons"));
+  };
+  flann::IndexHeader header;
+  if (points.empty() || bytes.size() < sizeof header) refuse("does not fit the photons");
+  std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
+  if (std::memcmp(header.h.signature, FLANN_SIGNATURE_, sizeof FLANN_SIGNATURE_) != 0)
+    refuse("has another version of FLANN's format");
+  if (header.h.rows != points.size() || header.h.cols != 3)
+    refuse(text("is over ", header.h.rows, " points, but there are ", points.size(), " photons"));
+  const File file(fmemopen(const_cast<std::byte*>(bytes.data()), bytes.size(), "rb"));
+  PHOS_CHECK(file != nullptr, "fmemopen of ", bytes.size(), " bytes");
+  result.impl_ = std::make_unique<Impl>(points);
+  try {
+    result.impl_->tree.loadIndex(file.get());
+  } catch (const flann::FLANNException& e) {
+    refuse(text("cannot be read (", e.what(), ")"));
+  }
+  return result;
+}
+
+std::vector<std::byte> KdTree::save() const {
+  if (!impl_) return {};
+  char* data = nullptr;
+  std::size_t size = 0;
+  File file(open_memstream(&data, &size));
+  if (!file) throw std::bad_alloc();
+  impl_->tree.saveIndex(file.get());
+  const bool failed = std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0;
+  file.reset();
+  const std::unique_ptr<char, decltype(&std::free)> owner(data, &std::free);
+  if (failed) throw std::bad_alloc();
+  const auto bytes = std::as_bytes(std::span(data, size));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<std::uint32_t> KdTree::leaf_order() const {
+  std::vector<std::uint32_t> order;
+  if (!impl_) return order;
+  order.reserve(impl_->points.size());
+  Bounds bounds;
+  for (const Vec3& p : impl_->points) bounds.include(p);
+  // Seen from beyond the lowest corner the left child is always the nearer one.
+  const Vec3 from = bounds.lo - bounds.size();
+  Rows rows(std::numeric_limits<float>::infinity(), order);
+  impl_->tree.findNeighbors(rows, &from.x, flann::SearchParams());
+  PHOS_CHECK(order.size() == impl_->points.size(), order.size(), " of ", impl_->points.size(),
+             " points visited");
+  return order;
+}
+
+void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {
+  rows.clear();
+  if (!impl_ || !(radius_m >= 0) || !in_range(p)) return;
+  // FLANN keeps what is strictly nearer than the limit; one step up makes it inclusive.
+  const float limit = std::nextafter(radius_m * radius_m, std::numeric_limits<float>::infinity());
+  Rows result(std::fmax(limit, std::numeric_limits<float>::min()), rows);
+  impl_->tree.findNeighbors(result, &p.x, flann::SearchParams());
+}
+
+void KdTree::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
+                     std::vector<float>& distance2_m2) const {
+  rows.clear(), distance2_m2.clear();
+  if (!impl_ || k == 0 || !in_range(p)) return;
+  flann::KNNResultSet2<float> result(std::min(k, impl_->points.size()));
+  impl_->tree.findNeighbors(result, &p.x, flann::SearchParams());
+  const std::size_t n = result.size();
+  std::vector<std::size_t> index(n);
+  rows.resize(n), distance2_m2.resize(n);
+  if (n == 0) return;
+  result.copy(index.data(), distance2_m2.data(), n, /*sorted=*/true);
+  for (std::size_t i = 0; i < n; ++i) rows[i] = static_cast<std::uint32_t>(index[i]);
+}
+
+}  // namespace phos

@@ -1,0 +1,184 @@
+#include "photon/photon_file.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+Json rgb(const Rgb& v) { return Json::Array{v.x, v.y, v.z}; }
+
+Json sum(const FluxSum& s) { return Json::Array{s.units[0], s.units[1], s.units[2]}; }
+
+// A header is text from outside: every look-up may fail, and then says where.
+struct Reader {
+  const Json& object;
+  const std::string& path;
+
+  const Json& member(const char* name) const {
+    const Json* v = object.find(name);
+    if (!v) fail(name);
+    return *v;
+  }
+  std::int64_t integer(const char* name) const {
+    const Json& v = member(name);
+    if (!v.is_integer()) fail(name);
+    return v.as_integer();
+  }
+  std::uint64_t natural(const char* name) const {
+    const std::int64_t v = integer(name);
+    if (v < 0) fail(name);
+    return static_cast<std::uint64_t>(v);
+  }
+  FluxSum sum(const char* name) const {
+    const Json& v = member(name);
+    FluxSum result;
+    if (!v.is_array() || v.as_array().size() != 3) fail(name);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!v.as_array()[c].is_integer()) fail(name);
+      result.units[c] = v.as_array()[c].as_integer();
+    }
+    return result;
+  }
+  [[noreturn]] void fail(const std::string& name) const {
+    throw Error(ExitCode::bad_input, path,
+                text("the header's totals lack a valid \"", name, "\"; make the file again"));
+  }
+};
+
+}  // namespace
+
+FluxSum FluxSum::of(const Rgb& flux_lm, int exponent) {
+  FluxSum result;
+  for (int c = 0; c < 3; ++c)
+    result.units[static_cast<std::size_t>(c)] =
+        std::llround(std::ldexp(static_cast<double>(flux_lm[c]), -exponent));
+  return result;
+}
+
+Rgb FluxSum::lm(int exponent) const {
+  Rgb result;
+  for (int c = 0; c < 3; ++c)
+    result[c] =
+        static_cast<float>(std::ldexp(static_cast<double>(units[static_cast<std::size_t>(c)]), exponent));
+  return result;
+}
+
+void PhotonTotals::settle() {
+  emitted_flux_lm = emitted_sum.lm(flux_exponent);
+  stored_flux_lm = stored_sum.lm(flux_exponent);
+  escaped_flux_lm = escaped_sum.lm(flux_exponent);
+  absorbed_flux_lm = absorbed_sum.lm(flux_exponent);
+}
+
+PhotonColumns columns_of(const Photons& p) {
+  return {p.position, p.flux, p.direction, p.normal, p.source_normal, p.distance, p.path, p.bounce};
+}
+
+PhotonColumns columns_of(const Container& file) {
+  PhotonColumns c;
+  c.position = file.vectors("position");
+  const std::uint64_t n = c.position.size();
+  c.flux = file.vectors("flux");
+  c.direction = file.values<std::uint32_t>("direction", {0});
+  c.normal = file.values<std::uint32_t>("normal", {0});
+  c.source_normal = file.values<std::uint32_t>("source_normal", {0});
+  c.distance = file.values<float>("distance", {0});
+  c.path = file.values<std::uint8_t>("path", {0});
+  c.bounce = file.values<std::uint8_t>("bounce", {0});
+  const auto check = [&](const char* name, std::size_t rows) {
+    if (rows != n)
+      throw Error(
+          ExitCode::bad_input, file.path(),
+          text("tensor \"", name, "\" has ", rows, " rows, \"position\" has ", n, "; make the file again"));
+  };
+  check("flux", c.flux.size()), check("direction", c.direction.size()), check("normal", c.normal.size());
+  check("source_normal", c.source_normal.size()), check("distance", c.distance.size());
+  check("path", c.path.size()), check("bounce", c.bounce.size());
+  return c;
+}
+
+void add_columns(ContainerWriter& writer, const PhotonColumns& c) {
+  const Shape rows{c.position.size()};
+  writer.add_vectors("position", c.position, "m");
+  writer.add_vectors("flux", c.flux, "lm");
+  writer.add<std::uint32_t>("direction", c.direction, rows, "octahedral");
+  writer.add<std::uint32_t>("normal", c.normal, rows, "octahedral");
+  writer.add<std::uint32_t>("source_normal", c.source_normal, rows, "octahedral");
+  writer.add<float>("distance", c.distance, rows, "m");
+  writer.add<std::uint8_t>("path", c.path, rows, "1");
+  writer.add<std::uint8_t>("bounce", c.bounce, rows, "1");
+}
+
+Json totals_to_json(const PhotonTotals& t) {
+  Json j = Json::Object{};
+  j["emitted"] = t.emitted;
+  j["stored"] = t.stored;
+  j["first_path"] = t.first_path;
+  j["paths"] = t.paths;
+  j["emitted_flux_lm"] = rgb(t.emitted_flux_lm);
+  j["stored_flux_lm"] = rgb(t.stored_flux_lm);
+  j["escaped_flux_lm"] = rgb(t.escaped_flux_lm);
+  j["absorbed_flux_lm"] = rgb(t.absorbed_flux_lm);
+  j["flux_exponent"] = t.flux_exponent;
+  j["emitted_units"] = sum(t.emitted_sum);
+  j["stored_units"] = sum(t.stored_sum);
+  j["escaped_units"] = sum(t.escaped_sum);
+  j["absorbed_units"] = sum(t.absorbed_sum);
+  return j;
+}
+
+PhotonTotals totals_of(const Container& file, std::size_t rows) {
+  const std::string& path = file.path();
+  const Json* json = file.provenance().extra.find("totals");
+  if (!json)
+    throw Error(ExitCode::bad_input, path, "the header has no totals; make the file again with phos-photons");
+  const Reader r{*json, path};
+  PhotonTotals t;
+  t.emitted = r.natural("emitted"), t.stored = r.natural("stored");
+  t.first_path = r.natural("first_path"), t.paths = r.natural("paths");
+  const std::int64_t exponent = r.integer("flux_exponent");
+  if (exponent < -2000 || exponent > 2000) r.fail("flux_exponent");
+  t.flux_exponent = static_cast<int>(exponent);
+  t.emitted_sum = r.sum("emitted_units"), t.stored_sum = r.sum("stored_units");
+  t.escaped_sum = r.sum("escaped_units"), t.absorbed_sum = r.sum("absorbed_units");
+  if (t.stored != rows) r.fail("stored");
+  if (t.first_path > t.emitted || t.paths > t.emitted - t.first_path) r.fail("paths");
+  t.settle();
+  return t;
+}
+
+void add_totals(PhotonTotals& totals, const PhotonTotals& other) {
+  PHOS_CHECK(totals.flux_exponent == other.flux_exponent, totals.flux_exponent, " and ", other.flux_exponent);
+  totals.stored += other.stored;
+  totals.paths += other.paths;
+  totals.emitted_sum += other.emitted_sum, totals.stored_sum += other.stored_sum;
+  totals.escaped_sum += other.escaped_sum, totals.absorbed_sum += other.absorbed_sum;
+  totals.settle();
+}
+
+Json bounds_to_json(std::span<const Vec3> position) {
+  if (position.empty()) return {};
+  Bounds bounds;
+  for (const Vec3& p : position) bounds.include(p);
+  Json j = Json::Object{};
+  j["lo"] = rgb(bounds.lo);
+  j["hi"] = rgb(bounds.hi);
+  return j;
+}
+
+void append(Photons& to, Photons&& from) {
+  const auto join = [](auto& a, auto& b) {
+    if (a.empty() && a.capacity() == 0)
+      a = std::move(b);
+    else
+      a.insert(a.end(), b.begin(), b.end());
+    b = {};
+  };
+  join(to.position, from.position), join(to.flux, from.flux), join(to.direction, from.direction);
+  join(to.normal, from.normal), join(to.source_normal, from.source_normal), join(to.distance, from.distance);
+  join(to.path, from.path), join(to.bounce, from.bounce);
+}
+
+}  // namespace phos

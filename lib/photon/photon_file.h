@@ -1,0 +1,47 @@
+// How photons lie in files: columns, totals, shards and their union.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/container.h"
+#include "photon/photon_map.h"
+
+namespace phos {
+
+/// Read-only columns, wherever they lie.
+struct PhotonColumns {
+  std::span<const Vec3> position;
+  std::span<const Rgb> flux;
+  std::span<const std::uint32_t> direction, normal, source_normal;
+  std::span<const float> distance;
+  std::span<const std::uint8_t> path, bounce;
+};
+PhotonColumns columns_of(const Photons& photons);
+/// Columns of an open file, in place. Throws Error(bad_input) for a column that is absent or of another
+/// length.
+PhotonColumns columns_of(const Container& file);
+void add_columns(ContainerWriter& writer, const PhotonColumns& columns);
+
+Json totals_to_json(const PhotonTotals& totals);
+/// Throws Error(bad_input) if the header has no totals, or they contradict the number of rows.
+PhotonTotals totals_of(const Container& file, std::size_t rows);
+/// Joins the sums and counts of two disjoint sets of paths of the same run.
+void add_totals(PhotonTotals& totals, const PhotonTotals& other);
+/// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
+Json bounds_to_json(std::span<const Vec3> position);
+
+/// Moves the rows of `from` to the end of `to` and frees `from`.
+void append(Photons& to, Photons&& from);
+
+/// Every shard of one run, each once, in any order.
+struct MergedShards {
+  Photons photons;  ///< in path order
+  PhotonTotals totals;
+  Provenance provenance;  ///< of the whole run
+};
+/// Throws Error(mismatch) for shards of different runs, a shard given twice, or one that is missing (naming
+/// it); Error(bad_input) for damaged files and for files that are no shards.
+MergedShards read_shards(const std::vector<std::string>& paths);
+
+}  // namespace phos

@@ -1,0 +1,117 @@
+#include "photon/photon_map.h"
+
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "photon/kd_tree.h"
+#include "photon/photon_file.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kRowChunk = 1 << 14;
+
+// One column at a time, so that only one is held twice.
+template <class T>
+void permute(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
+  std::vector<T> sorted(column.size());
+  parallel_for(order.size(), kRowChunk, [&](std::size_t i) { sorted[i] = column[order[i]]; });
+  column = std::move(sorted);
+}
+
+void permute(Photons& p, const std::vector<std::uint32_t>& order) {
+  permute(p.position, order), permute(p.flux, order), permute(p.direction, order), permute(p.normal, order);
+  permute(p.distance, order), permute(p.source_normal, order), permute(p.path, order),
+      permute(p.bounce, order);
+}
+
+void require_equal_lengths(const Photons& p) {
+  const std::size_t n = p.size();
+  PHOS_CHECK(p.flux.size() == n && p.direction.size() == n && p.normal.size() == n &&
+                 p.distance.size() == n && p.source_normal.size() == n && p.path.size() == n &&
+                 p.bounce.size() == n,
+             "columns of unequal length, position has ", n);
+}
+
+// Checksums of all tensors in parallel: a damaged column would otherwise be wrong light without a word.
+void verify_all(const Container& file) {
+  std::vector<std::string> names;
+  for (const auto& [name, tensor] : file.tensors()) names.push_back(name);
+  parallel_for(names.size(), 1, [&](std::size_t i) { file.verify(names[i]); });
+}
+
+}  // namespace
+
+struct PhotonMap::Impl {
+  Photons photons;  // empty when the columns lie in `file`
+  std::optional<Container> file;
+  KdTree tree;
+};
+
+PhotonMap::PhotonMap() : impl_(std::make_unique<Impl>()) {}
+PhotonMap::~PhotonMap() = default;
+PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
+PhotonMap& PhotonMap::operator=(PhotonMap&&) noexcept = default;
+
+PhotonMap PhotonMap::build(Photons photons, const PhotonTotals& totals) {
+  require_equal_lengths(photons);
+  PhotonMap map;
+  // Twice: the first tree gives the order of the leaves, the second is over photons that lie in it, which
+  // makes queries of many neighbours up to twice as fast.
+  permute(photons, KdTree::build(photons.position).leaf_order());
+  Impl& impl = *map.impl_;
+  impl.photons = std::move(photons);
+  impl.tree = KdTree::build(impl.photons.position);
+  const PhotonColumns c = columns_of(impl.photons);
+  map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
+  map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
+  map.totals = totals;
+  return map;
+}
+
+PhotonMap PhotonMap::open(const std::string& path) {
+  PhotonMap map;
+  Impl& impl = *map.impl_;
+  impl.file = Container::open(path, "photons");
+  const Container& file = *impl.file;
+  if (const Json* shard = file.provenance().extra.find("shard"))
+    throw Error(ExitCode::bad_input, path,
+                text("is shard ", shard->is_string() ? shard->as_string() : "?",
+                     " of a run; join all its shards first: phos-merge SHARD... -o ALL.photons"));
+  const PhotonColumns c = columns_of(file);
+  const std::span<const std::uint8_t> tree = file.values<std::uint8_t>("kdtree", {0});
+  map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
+  map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
+  map.totals = totals_of(file, c.position.size());
+  verify_all(file);
+  impl.tree = KdTree::load(map.position, std::as_bytes(tree), path);
+  return map;
+}
+
+void PhotonMap::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {
+  impl_->tree.in_sphere(p, radius_m, rows);
+}
+
+void PhotonMap::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
+                        std::vector<float>& distance2_m2) const {
+  impl_->tree.nearest(p, k, rows, distance2_m2);
+}
+
+const Container* PhotonMap::container() const { return impl_->file ? &*impl_->file : nullptr; }
+
+void PhotonMap::write(const std::string& path, Provenance provenance) const {
+  provenance.kind = "photons";
+  provenance.version = 1;
+  provenance.extra["totals"] = totals_to_json(totals);
+  provenance.extra["bounds_m"] = bounds_to_json(position);
+  const std::vector<std::byte> tree = impl_->tree.save();
+  ContainerWriter writer;
+  add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce});
+  writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()},
+                           {tree.size()}, "FLANN index");
+  writer.write(path, provenance);
+}
+
+}  // namespace phos
