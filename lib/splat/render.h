@@ -1,0 +1,56 @@
+// A picture from a scene and a cache: splatting, direct light, gloss and specular paths, anti-aliasing,
+// layers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cache/irradiance_cache.h"
+#include "core/counters.h"
+#include "core/json.h"
+#include "core/options.h"
+#include "image/image.h"
+#include "scene/rays.h"
+#include "splat/shading.h"
+
+namespace phos {
+
+enum class SplatBy { gl, cpu };
+enum class DirectBy { traced, shadow_map, none };
+
+struct RenderOptions {
+  std::string camera;  ///< "" = the scene's first
+  std::int64_t width = 0,
+               height = 0;  ///< 0 = from the other and the camera's aspect (both 0: 1000 on the longer side)
+  std::int64_t pixel_samples = 4;
+  std::optional<double> accuracy;  ///< a; empty = what the cache was placed with
+  SplatBy splat = SplatBy::gl;
+  DirectBy direct = DirectBy::traced;
+  std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
+  std::int64_t shadow_map_size = 1024;
+  std::int64_t max_misses = 100000;
+  std::string isa;
+  std::uint64_t seed = 0;
+};
+void declare_options(Options& options, RenderOptions& render);
+/// Fills width, height and accuracy in. Throws Error(usage) for a picture of more than 2^28 pixels.
+void resolve(RenderOptions& render, const Camera& camera, const IrradianceCache& cache);
+
+struct Rendering {
+  Image image;               ///< layers of DESIGN "Files"
+  std::vector<Miss> misses;  ///< visible points without a valid record, in an order that spreads them
+  std::uint64_t missed = 0, looked_up = 0;  ///< of all points that read the cache
+  Counters counters;
+  Json seconds = Json::Object{};  ///< per part
+  std::string renderer;           ///< of the splatter
+};
+
+/// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu.
+Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render);
+
+/// CSV: x,y,z (m), nx,ny,nz. What phos-irradiance --at reads. Atomic.
+void write_misses(const std::string& path, const std::vector<Miss>& misses);
+
+}  // namespace phos

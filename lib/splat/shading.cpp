@@ -1,0 +1,153 @@
+#include "splat/shading.h"
+
+#include <algorithm>
+
+namespace phos {
+
+namespace {
+
+/// Below this share of the eye's light a specular branch is dropped, and counted.
+constexpr float kLeastThroughput = 1e-4f;
+/// A glossy surface seen by a glossy ray sends on one ray, to this many reflections; beyond, its gloss is
+/// counted as lost.
+constexpr int kGlossDepth = 3;
+
+/// Point i of an additive (R2) sequence started at `shift`: low discrepancy in two dimensions.
+Vec2 r2_point(int i, const Vec2& shift) {
+  constexpr double kAlpha[2] = {0.7548776662466927, 0.5698402909980532};
+  Vec2 p;
+  for (int d = 0; d < 2; ++d) {
+    const double x = static_cast<double>(shift[d]) + i * kAlpha[d];
+    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
+  }
+  return p;
+}
+
+/// Balance heuristic weight of a light sample against `gloss_rays` rays of the gloss lobe.
+float light_weight(int light_samples, float light_density, int gloss_rays, float gloss_density) {
+  const float l = static_cast<float>(light_samples) * light_density;
+  const float g = static_cast<float>(gloss_rays) * gloss_density;
+  return l > 0 ? l / (l + g) : 0.f;
+}
+
+}  // namespace
+
+DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
+                            int gloss_rays, RandomStream& random) const {
+  DirectLight sum;
+  const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const bool area = lights_[i].kind == Light::Kind::area;
+    const int n = area ? samples : 1;
+    const float u0 = random.uniform();
+    const Vec2 shift = random.uniform2();
+    Rgb mean(0), square(0);
+    for (int s = 0; s < n; ++s) {
+      Illumination light;
+      const float u_triangle = (static_cast<float>(s) + u0) / static_cast<float>(n);
+      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(s, shift),
+                              light))
+        continue;
+      const float cosine = glm::dot(point.normal, light.direction);
+      if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
+      if (area && !(light.density > 0)) continue;
+      const bool visible = area || std::isfinite(light.distance_m)
+                               ? rays_.visible(point, light.position, light.error_m)
+                               : !rays_.occluded({point.leave(light.direction), light.direction});
+      if (!visible) continue;
+      const Rgb arriving = light.value * cosine / (area ? light.density : 1.f);
+      sum.illuminance += arriving / static_cast<float>(n);
+      Rgb f = bsdf.evaluate(wo, light.direction);
+      if (area && shared_gloss) {
+        const Rgb glossy = bsdf.evaluate_gloss(wo, light.direction);
+        const float w = light_weight(n, light.density, gloss_rays, bsdf.density_gloss(wo, light.direction));
+        f += (w - 1.f) * glossy;
+      }
+      const Rgb value = f * arriving;
+      mean += value;
+      square += value * value;
+    }
+    const auto count = static_cast<float>(n);
+    mean /= count;
+    sum.radiance += mean;
+    if (n > 1) sum.variance += glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
+  }
+  return sum;
+}
+
+Rgb Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
+                   int light_samples, int depth, RandomStream& random, ShadingLog& log,
+                   Rgb& from_lamps) const {
+  Rgb sum(0);
+  from_lamps = Rgb(0);
+  const Vec2 shift = random.uniform2();
+  for (int s = 0; s < samples; ++s) {
+    BsdfSample sample;
+    if (!bsdf.sample_gloss(wo, r2_point(s, shift), sample)) continue;
+    SurfacePoint hit;
+    const Ray ray{point.leave(sample.direction), sample.direction};
+    if (!trace(rays_, ray, hit)) continue;
+    const Rgb lamp = emitted_luminance(rays_.scene(), hit);
+    const std::int32_t light = max_component(lamp) > 0 ? lights_.light_of(hit.triangle) : -1;
+    if (light >= 0) {
+      const float cos_light = std::fabs(glm::dot(hit.geometric_normal, sample.direction));
+      const float density =
+          lights_.density(static_cast<std::size_t>(light), hit.triangle, hit.distance_m, cos_light);
+      from_lamps +=
+          sample.weight * lamp * (1.f - light_weight(light_samples, density, samples, sample.density));
+    }
+    sum += sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
+  }
+  const auto count = static_cast<float>(std::max(samples, 1));
+  from_lamps /= count;
+  return sum / count;
+}
+
+Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth,
+                      const Rgb& throughput, RandomStream& random, ShadingLog& log) const {
+  if (!bsdf.has_specular()) return Rgb(0);
+  BsdfSample branch[2];
+  const int branches = bsdf.specular_branches(wo, branch);
+  Rgb sum(0);
+  for (int b = 0; b < branches; ++b) {
+    const Rgb carried = throughput * branch[b].weight;
+    if (depth >= options_.specular_depth || max_component(carried) < kLeastThroughput) {
+      log.counters.count("specular paths cut");
+      continue;
+    }
+    SurfacePoint hit;
+    const Ray ray{point.leave(branch[b].direction), branch[b].direction};
+    if (!trace(rays_, ray, hit)) continue;
+    sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit) +
+                               outgoing(hit, -branch[b].direction, depth + 1, carried, random, log));
+  }
+  return sum;
+}
+
+Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
+                      RandomStream& random, ShadingLog& log) const {
+  const Bsdf bsdf(rays_.scene(), point);
+  Rgb light(0);
+  if (bsdf.has_diffuse()) {
+    const Interpolated cached = records_.interpolate(point.position, point.smooth_normal);
+    if (cached.weight > 0)
+      light += cached.irradiance * bsdf.diffuse_reflectance() / kPi;
+    else
+      log.misses.push_back({point.position, point.smooth_normal});
+  }
+  const bool glossy = bsdf.has_gloss();
+  if (bsdf.has_diffuse() || glossy)
+    light += direct(point, bsdf, wo, 1, glossy && depth < kGlossDepth ? 1 : 0, random).radiance;
+  if (glossy) {
+    if (depth < kGlossDepth) {
+      Rgb from_lamps;
+      light += gloss(point, bsdf, wo, 1, 1, depth, random, log, from_lamps);
+      light += from_lamps;
+    } else {
+      log.counters.count("glossy paths cut");
+    }
+  }
+  return light + specular(point, bsdf, wo, depth, throughput, random, log);
+}
+
+}  // namespace phos

@@ -1,0 +1,71 @@
+// Light leaving a visible point: direct by shadow rays, indirect from the cache, gloss and specular by traced
+// paths.
+#pragma once
+
+#include <vector>
+
+#include "cache/irradiance_cache.h"
+#include "core/counters.h"
+#include "core/random.h"
+#include "scene/bsdf.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+struct ShadingOptions {
+  int light_samples = 16;   ///< shadow rays per area light at the visible surface
+  int gloss_samples = 8;    ///< rays per glossy visible surface
+  int specular_depth = 16;  ///< longest chain of mirrors and glass
+};
+
+/// Direct light at a point.
+struct DirectLight {
+  Rgb radiance{0};     ///< cd/m2 towards the viewer
+  Rgb variance{0};     ///< of radiance
+  Rgb illuminance{0};  ///< lx on the shading normal's side
+};
+
+/// A visible point without a valid record.
+struct Miss {
+  Vec3 position{0}, normal{0, 0, 1};
+};
+
+/// What one thread's shading leaves besides light.
+struct ShadingLog {
+  std::vector<Miss> misses;
+  Counters counters;
+};
+
+class Shading {
+ public:
+  Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
+          const ShadingOptions& options)
+      : rays_(rays), lights_(lights), records_(records), options_(options) {}
+
+  /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
+  /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
+  /// Veach 1997 ch. 9).
+  DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples, int gloss_rays,
+                     RandomStream& random) const;
+
+  /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
+  /// they land; lamps that they hit count with the weight that direct() leaves them. cd/m2 (`from_lamps`:
+  /// that part).
+  Rgb gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples, int light_samples,
+            int depth, RandomStream& random, ShadingLog& log, Rgb& from_lamps) const;
+
+  /// Light through mirrors and smooth glass: every branch, deterministic, to options.specular_depth. cd/m2
+  Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
+               RandomStream& random, ShadingLog& log) const;
+
+ private:
+  Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
+               RandomStream& random, ShadingLog& log) const;
+  const RayScene& rays_;
+  const Luminaires& lights_;
+  const RecordTree& records_;
+  ShadingOptions options_;
+};
+
+}  // namespace phos

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that phos is built from, only those that are missing.
+#   pipelines/install.sh [--tests]      --tests: also what the tests need
+set -euo pipefail
+
+packages=(g++ cmake ninja-build pkg-config
+  libembree-dev libtbb-dev librandom123-dev libcli11-dev nlohmann-json3-dev libxxhash-dev libglm-dev
+  libopenexr-dev libpng-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libflann-dev liblz4-dev libcgal-dev
+  libosmesa6-dev)
+[[ ${1:-} == --tests ]] && packages+=(libgtest-dev libbenchmark-dev)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "packages: all ${#packages[@]} are installed"
+  exit 0
+fi
+echo "packages: installing ${missing[*]}"
+as_root=()
+if ((EUID != 0)); then
+  command -v sudo >/dev/null || { echo "run as root, or install sudo: apt-get install ${missing[*]}" >&2; exit 3; }
+  as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

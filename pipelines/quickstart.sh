@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds phos, and renders a scene end to end:
+#   pipelines/quickstart.sh [SCENE]       default: Sponza if it is beside the project, else the Cornell box of data/
+# Prints where the pictures are. Safe to run again: packages, build and caches are reused.
+set -euo pipefail
+start=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scene=${1:-}
+[[ -z $scene || $scene == /* ]] || scene=$start/$scene
+if [[ -z $scene ]]; then
+  scene=data/cornell-measured.glb
+  [[ -f ../shared/scenes/sponza.glb ]] && scene=../shared/scenes/sponza.glb
+fi
+pipelines/build.sh
+echo "rendering $scene"
+pipelines/render.sh "$scene" "$PWD/build/quickstart"

@@ -1,0 +1,112 @@
+// phos-splat: scene + irradiance cache -> OpenEXR picture.
+#include <algorithm>
+#include <cmath>
+
+#include "cache/irradiance_cache.h"
+#include "file/container.h"
+#include "file/tool.h"
+#include "image/image.h"
+#include "scene/load.h"
+#include "scene/rays.h"
+#include "splat/render.h"
+
+namespace {
+
+using namespace phos;
+
+void report(Tool& tool, const Rendering& rendering) {
+  for (const auto& [part, seconds] : rendering.seconds.as_object()) tool.stat("seconds." + part, seconds);
+  tool.stat("renderer", rendering.renderer);
+  tool.stat("cache lookups", rendering.looked_up);
+  tool.stat("cache misses", rendering.missed);
+  tool.counters().merge(rendering.counters);
+  if (rendering.missed > 0)
+    tool.warn(text(
+        shortest(std::ceil(1e4 * static_cast<double>(rendering.missed) /
+                           static_cast<double>(rendering.looked_up)) /
+                 100),
+        " % of the visible points have no record (dark there); write them with --misses, fill them with ",
+        "phos-irradiance --at, or raise --accuracy"));
+}
+
+void require_finite(const Image& image) {
+  for (const auto& [name, values] : image.channels())
+    for (const float v : values)
+      if (!std::isfinite(v))
+        throw Error(ExitCode::numerical, "",
+                    "channel " + name + " has a non-finite value; please report this scene");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-splat", "renders a scene from its irradiance cache",
+            "Draws every record of the caches over the visible surface, adds direct light by shadow rays and "
+            "what mirrors, "
+            "glass and glossy surfaces reflect, and writes an OpenEXR image with the layers beauty (R G B), "
+            "direct, "
+            "indirect, glossy, specular, emission, stderr, albedo in cd/m2, illuminance.Y in lx, weight, "
+            "normal, position "
+            "and Z. Another camera, size or --accuracy needs no new cache.",
+            1);
+  Options& options = tool.options();
+  std::string scene_path, misses_path;
+  std::vector<std::string> cache_paths;
+  bool allow_mismatch = false;
+  options.input("SCENE", scene_path, "glTF or OBJ scene");
+  options.inputs("CACHE", cache_paths, "irradiance caches of that scene; several are joined");
+  RenderOptions render;
+  SceneOptions scene_options;
+  declare_options(options, render);
+  declare_options(options, scene_options);
+  options.section("Output");
+  options.file("misses", misses_path,
+               "write the visible points without a record here (CSV), for phos-irradiance --at");
+  options.flag("allow-mismatch", allow_mismatch, "accept a cache of another version of the scene (recorded)");
+  options.example("phos-splat room.glb room.irradiance -o room.exr", "the first camera, 1000 pixels wide");
+  options.example("phos-splat room.glb room.irradiance --camera desk --misses m.csv -o desk.exr",
+                  "another camera from the same cache, and the points it lacks");
+
+  return tool.run(argc, argv, [&] {
+    tool.add_input("scene", scene_files(scene_path));
+    for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
+    render.seed = tool.seed();
+    tool.set_key_reader([](const std::string& path) { return read_attribute(path, "phos.key"); });
+
+    std::vector<Container> files;
+    for (const std::string& path : cache_paths) files.push_back(Container::open(path, "irradiance"));
+    const Scene scene = [&] {
+      const auto timer = tool.time("load scene");
+      return load_scene(scene_path, scene_options);
+    }();
+    IrradianceCache cache;
+    for (const Container& file : files) {
+      if (!allow_mismatch) require_same_scene(file, scene_path, scene.hash, scene.parts);
+      const IrradianceCache more = read_irradiance(file);
+      cache.accuracy = cache.records.empty() ? more.accuracy : std::min(cache.accuracy, more.accuracy);
+      cache.quantity = more.quantity;
+      cache.records.insert(cache.records.end(), more.records.begin(), more.records.end());
+    }
+    if (cache.quantity == "all" && !options.given("direct")) {
+      render.direct = DirectBy::none;
+      tool.say("the cache holds direct light too: --direct none");
+    }
+    resolve(render, find_camera(scene, render.camera), cache);
+    if (tool.up_to_date()) return;
+
+    const RayScene rays = [&] {
+      const auto timer = tool.time("build rays");
+      return RayScene(scene, {render.isa});
+    }();
+    Rendering rendering = render_scene(rays, cache, render);
+    report(tool, rendering);
+    require_finite(rendering.image);
+    if (!misses_path.empty()) write_misses(misses_path, rendering.misses);
+    for (const auto& [key, value] : metadata(tool.provenance("image", scene.hash, scene.parts)))
+      rendering.image.attributes["phos." + key] = value;
+    const auto timer = tool.time("write");
+    write_exr(tool.output(), rendering.image);
+    tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ", cache.records.size(),
+                  " records"));
+  });
+}
