@@ -12,8 +12,8 @@
 
 namespace phos {
 
-/// Planar float channels of one size, row 0 at the top. Names follow DESIGN ("R", "indirect.R", "normal.X", "Z").
-/// Light is photometric RGB (cd/m2, or lx for illuminance.Y), linear Rec.709.
+/// Planar float channels of one size, row 0 at the top. Names follow DESIGN ("R", "indirect.R", "normal.X",
+/// "Z"). Light is photometric RGB (cd/m2, or lx for illuminance.Y), linear Rec.709.
 class Image {
  public:
   Image() = default;
@@ -47,8 +47,9 @@ class Image {
 /// "R" for layer "", else "layer.R".
 std::string channel_name(const std::string& layer, const std::string& component);
 
-/// EXR or Radiance HDR, told apart by content. HDR becomes photometric: x 179 lm/W, primaries to Rec.709, EXPOSURE
-/// divided out, VIEW kept as attribute. Throws Error(bad_input) for missing, truncated or damaged files.
+/// EXR or Radiance HDR, told apart by content. HDR becomes photometric: x 179 lm/W, primaries to Rec.709,
+/// EXPOSURE divided out, VIEW kept as attribute. Throws Error(bad_input) for missing, truncated or damaged
+/// files.
 Image read_image(const std::string& path);
 
 /// 32-bit float, ZIP, whiteLuminance 1, Rec.709 chromaticities; same image gives the same bytes. Atomic.

@@ -1,0 +1,241 @@
+#include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "image/formats.h"
+#include "image/primaries.h"
+
+namespace phos {
+
+namespace {
+
+class MemoryIn : public Imf::IStream {
+ public:
+  MemoryIn(std::string_view bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char* out, int n) override {
+    const auto wanted = static_cast<std::size_t>(std::max(n, 0));
+    if (wanted > bytes_.size() - at_) throw Iex::InputExc("the file ends too early");
+    std::memcpy(out, bytes_.data() + at_, wanted);
+    at_ += wanted;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t at) override {
+    if (at > bytes_.size()) throw Iex::InputExc("the file ends too early");
+    at_ = static_cast<std::size_t>(at);
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+class MemoryOut : public Imf::OStream {
+ public:
+  MemoryOut() : OStream("memory") {}
+  void write(const char* data, int n) override {
+    const auto size = static_cast<std::size_t>(n);
+    if (at_ + size > bytes_.size()) {
+      if (at_ + size > bytes_.capacity()) bytes_.reserve(2 * (at_ + size));
+      bytes_.resize(at_ + size);
+    }
+    std::memcpy(bytes_.data() + at_, data, size);
+    at_ += size;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t at) override { at_ = static_cast<std::size_t>(at); }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+void use_our_threads() {
+  const int workers = thread_count() > 1 ? thread_count() : 0;
+  if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
+}
+
+/// Bytes of pixels that one byte of file can stand for at most: deflate does 1032, the wavelet and cosine
+/// codecs more on black pictures.
+std::uint64_t best_ratio(Imf::Compression c) {
+  switch (c) {
+    case Imf::NO_COMPRESSION:
+      return 2;  // half to float
+    case Imf::RLE_COMPRESSION:
+      return 256;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 2200;
+    default:
+      return 16384;
+  }
+}
+
+std::uint64_t extent(int lo, int hi) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, std::int64_t{hi} - lo + 1));
+}
+
+/// A damaged header may ask for terabytes: refuse what the file cannot hold, before anything is allocated.
+void require_plausible(const Imf::Header& header, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kSide = 1u << 18, kAllowance = 16u << 20;
+  std::uint64_t channels = 1;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+  for (const Imath::Box2i& box : {header.dataWindow(), header.displayWindow()}) {
+    const std::uint64_t width = extent(box.min.x, box.max.x), height = extent(box.min.y, box.max.y);
+    if (width == 0 || height == 0 || width > kSide || height > kSide)
+      throw Iex::InputExc(text("a picture of ", width, " x ", height, " pixels"));
+    if (width * height * channels > (kAllowance + file_bytes * best_ratio(header.compression())) / 4)
+      throw Iex::InputExc(text("the file is too short for ", width, " x ", height, " pixels"));
+  }
+}
+
+struct Window {
+  Imath::Box2i data, display;
+};
+
+/// Pixels of the data window into the display window; the rest stays zero.
+void place(const std::vector<float>& data, const Window& w, std::span<float> out) {
+  const auto data_width = static_cast<std::int64_t>(extent(w.data.min.x, w.data.max.x));
+  const auto width = static_cast<std::int64_t>(extent(w.display.min.x, w.display.max.x));
+  const int y0 = std::max(w.data.min.y, w.display.min.y), y1 = std::min(w.data.max.y, w.display.max.y);
+  const int x0 = std::max(w.data.min.x, w.display.min.x), x1 = std::min(w.data.max.x, w.display.max.x);
+  if (x0 > x1) return;
+  for (std::int64_t y = y0; y <= y1; ++y) {
+    const auto from = data.begin() + (y - w.data.min.y) * data_width + (x0 - w.data.min.x);
+    std::copy(from, from + (x1 - x0 + 1),
+              out.begin() + (y - w.display.min.y) * width + (x0 - w.display.min.x));
+  }
+}
+
+void read_part(Imf::MultiPartInputFile& file, int index, const std::string& prefix,
+               const Imath::Box2i& display, Image& image) {
+  const Imf::Header& header = file.header(index);
+  const Window window{header.dataWindow(), display};
+  Imf::InputPart part(file, index);
+  const std::size_t width = extent(window.data.min.x, window.data.max.x);
+  const std::size_t pixels = width * extent(window.data.min.y, window.data.max.y);
+  std::map<std::string, std::vector<float>> values;
+  Imf::FrameBuffer buffer;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+      throw Iex::InputExc(text("channel ", c.name(), " is subsampled; save the picture with full channels"));
+    std::vector<float>& v = values[c.name()];
+    v.resize(pixels);
+    buffer.insert(c.name(),
+                  Imf::Slice::Make(Imf::FLOAT, v.data(), window.data, sizeof(float), width * sizeof(float)));
+  }
+  part.setFrameBuffer(buffer);
+  part.readPixels(window.data.min.y, window.data.max.y);
+  for (auto& [name, v] : values) {
+    const bool add = !prefix.empty() && !name.starts_with(prefix + ".");
+    place(v, window, image.channel(add ? prefix + "." + name : name));
+    v = {};
+  }
+}
+
+/// Rec.709 and cd/m2 from what the header says of the colours.
+void convert_colours(const Imf::Header& header, Image& image) {
+  const float white = Imf::hasWhiteLuminance(header) ? Imf::whiteLuminance(header) : 1.0f;
+  const float scale = std::isfinite(white) && white > 0 ? white : 1.0f;
+  Primaries from = kRec709;
+  if (Imf::hasChromaticities(header)) {
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    from = {{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
+    if (!is_valid(from)) throw Iex::InputExc("the chromaticities are not a colour space");
+  }
+  const Mat3 m = convert_primaries(from, kRec709);
+  if (scale == 1 && m == Mat3(1)) return;
+  for (const std::string& layer : image.layers()) {
+    std::vector<Rgb> values = image.rgb(layer);
+    const Mat3 colour = (layer == "albedo" ? 1.0f : scale) * m;
+    for (Rgb& v : values) v = colour * v;
+    image.set_rgb(layer, values);
+  }
+}
+
+Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes) {
+  for (int i = 0; i < file.parts(); ++i) require_plausible(file.header(i), file_bytes);
+  const Imf::Header& first = file.header(0);
+  const Imath::Box2i display = first.displayWindow();
+  Image image(static_cast<int>(extent(display.min.x, display.max.x)),
+              static_cast<int>(extent(display.min.y, display.max.y)));
+  for (int i = 0; i < file.parts(); ++i) {
+    const Imf::Header& header = file.header(i);
+    if (header.hasType() && Imf::isDeepData(header.type()))
+      throw Iex::InputExc("deep pixels cannot be used; flatten the picture");
+    read_part(file, i, i > 0 && header.hasName() ? header.name() : "", display, image);
+  }
+  for (auto a = first.begin(); a != first.end(); ++a)
+    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+      image.attributes[a.name()] = s->value();
+  for (const char* structural : {"type", "name", "view"}) image.attributes.erase(structural);
+  convert_colours(first, image);
+  return image;
+}
+
+}  // namespace
+
+Image decode_exr(std::string_view bytes, const std::string& where) {
+  use_our_threads();
+  try {
+    MemoryIn stream(bytes, where);
+    Imf::MultiPartInputFile file(stream, Imf::globalThreadCount(), false);
+    if (file.parts() < 1) throw Iex::InputExc("the file holds no picture");
+    return read_parts(file, bytes.size());
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    std::string why = e.what();
+    for (char& c : why)
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    throw Error(ExitCode::bad_input, where, "damaged or truncated OpenEXR file (" + why + "); make it again");
+  }
+}
+
+std::string encode_exr(const Image& image) {
+  PHOS_CHECK(image.pixels() > 0 && !image.channels().empty(), image.width(), " x ", image.height(),
+             " pixels, ", image.channels().size(), " channels");
+  use_our_threads();
+  Imf::Header header(image.width(), image.height());
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.lineOrder() = Imf::INCREASING_Y;
+  Imf::addWhiteLuminance(header, 1.0f);
+  const auto xy = [](const Vec2& v) { return Imath::V2f(v.x, v.y); };
+  Imf::addChromaticities(header, {xy(kRec709.red), xy(kRec709.green), xy(kRec709.blue), xy(kRec709.white)});
+  for (const auto& [name, value] : image.attributes)
+    if (header.find(name) == header.end()) header.insert(name, Imf::StringAttribute(value));
+  Imf::FrameBuffer buffer;
+  const std::size_t row = static_cast<std::size_t>(image.width()) * sizeof(float);
+  for (const auto& [name, values] : image.channels()) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // The library only reads through the pointer.
+    auto* data = reinterpret_cast<char*>(const_cast<float*>(values.data()));
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, data, sizeof(float), row));
+  }
+  MemoryOut stream;
+  {
+    Imf::OutputFile file(stream, header, Imf::globalThreadCount());
+    file.setFrameBuffer(buffer);
+    file.writePixels(image.height());
+  }
+  return stream.take();
+}
+
+}  // namespace phos

@@ -1,0 +1,29 @@
+// Image files as bytes: one decoder and one encoder per format. For the readers in image.h and for tests.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "image/image.h"
+
+namespace phos {
+
+/// Each decoder throws Error(bad_input) with `where` for bytes that are truncated or damaged, and allocates
+/// no more than the bytes can hold at the format's best compression.
+///
+/// OpenEXR: scanline or tiled, half, float or unsigned channels. The image is the display window: pixels
+/// outside the data window are zero. A part after the first adds its channels as layers of its name. Colour
+/// of other chromaticities becomes Rec.709 and is multiplied by whiteLuminance (OpenEXR technical
+/// introduction: cd/m2 of RGB 1,1,1).
+Image decode_exr(std::string_view bytes, const std::string& where);
+std::string encode_exr(const Image& image);
+
+/// Radiance RGBE or XYZE: flat, old or new run lengths, any of the eight orientations.
+Image decode_hdr(std::string_view bytes, const std::string& where);
+/// Negative and non-finite values become 0, as the format has neither.
+std::string encode_hdr(const Image& image);
+
+Picture decode_png(std::string_view bytes, const std::string& where);
+std::string encode_png(const Picture& picture);
+
+}  // namespace phos
