@@ -14,12 +14,12 @@ namespace phos {
 
 /// One record. Gradients are absolute (FORMULAS A5), world space: row c is the gradient of channel c.
 struct IrradianceRecord {
-  Vec3 position{0};           ///< m
-  Vec3 normal{0, 0, 1};       ///< unit, on the side it lights
-  Rgb irradiance{0};          ///< lx
-  Rgb stderr_lx{0};           ///< standard error of irradiance
-  float distance_m = 0;       ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
-  float radius_m = 0;         ///< R of the weight; the zone of influence is accuracy * radius
+  Vec3 position{0};              ///< m
+  Vec3 normal{0, 0, 1};          ///< unit, on the side it lights
+  Rgb irradiance{0};             ///< lx
+  Rgb stderr_lx{0};              ///< standard error of irradiance
+  float distance_m = 0;          ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
+  float radius_m = 0;            ///< R of the weight; the zone of influence is accuracy * radius
   Vec3 rotation_gradient[3];     ///< lx per radian: E += dot(cross(n_i, n), g_r)
   Vec3 translation_gradient[3];  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
 };
@@ -40,27 +40,32 @@ IrradianceCache read_irradiance(const Container& file);
 inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   return glm::length(p - r.position) / r.radius_m + glm::length(n - r.normal) * 0.70710678f;
 }
-/// FORMULAS A6: is the record in front of p's surface (so that it must not light p)? Also true unless dot(n, n_i) > 0.
+/// FORMULAS A6: is the record in front of p's surface (so that it must not light p)? Also true unless dot(n,
+/// n_i) > 0.
 bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// A5 without clamping below: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]. lx
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 
-/// Weight of FORMULAS A4 "lin": 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and lookup.
+/// Weight of FORMULAS A4 "lin": 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and
+/// lookup.
 inline float record_weight(float eps, float accuracy) { return eps < accuracy ? 1.f - eps / accuracy : 0.f; }
 
 struct Interpolated {
   Rgb irradiance{0};  ///< lx
   Rgb stderr_lx{0};
-  float weight = 0;   ///< sum of weights; 0: a miss
+  float weight = 0;  ///< sum of weights; 0: a miss
 };
 
-/// Lookup structure over records: point queries in any order and from any thread; records may be added serially.
+/// Lookup structure over records: point queries in any order and from any thread; records may be added
+/// serially.
 class RecordTree {
  public:
   RecordTree(const Bounds& bounds, double accuracy);
   ~RecordTree();
   RecordTree(RecordTree&&) noexcept;
   void insert(const IrradianceRecord& record);
+  /// Gives a record (by its place in records()) a smaller radius; a larger one is our mistake.
+  void shrink(std::size_t record, float radius_m);
   std::size_t size() const;
   std::span<const IrradianceRecord> records() const;
   /// Is any record valid at p, n? (A3 with w_min = 0.)

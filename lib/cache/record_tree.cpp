@@ -36,6 +36,7 @@ struct RecordTree::Impl {
   std::vector<IrradianceRecord> records;
   std::vector<Cell> cells{1};
   std::vector<Entry> entries;
+  std::vector<std::size_t> first_entry;  // per record; a record's entries lie together
 
   /// Octant of a point, and the corner of that octant. Points outside of the root fall into its border cells:
   /// insertion and lookup clamp alike, so nothing is missed.
@@ -107,6 +108,7 @@ void RecordTree::insert(const IrradianceRecord& r) {
   PHOS_CHECK(r.radius_m > 0 && is_finite(r.position), "radius ", r.radius_m);
   const auto index = static_cast<std::uint32_t>(impl_->records.size());
   impl_->records.push_back(r);
+  impl_->first_entry.push_back(impl_->entries.size());
   const double reach = static_cast<double>(impl_->accuracy) * static_cast<double>(r.radius_m);
   // The lookup measures in float: let the box be larger by its rounding.
   const Vec3 size = glm::abs(r.position);
@@ -115,6 +117,15 @@ void RecordTree::insert(const IrradianceRecord& r) {
   const double half = std::min(reach, 1e35) + slack;
   impl_->hang(0, impl_->lo, impl_->side_m, centre - half, centre + half, half, 0,
               Entry{r.position, r.radius_m, r.normal, index, kNone});
+}
+
+void RecordTree::shrink(std::size_t record, float radius_m) {
+  PHOS_CHECK(record < impl_->records.size() && radius_m > 0 && radius_m <= impl_->records[record].radius_m,
+             "record ", record, " radius ", radius_m);
+  const std::size_t last =
+      record + 1 < impl_->records.size() ? impl_->first_entry[record + 1] : impl_->entries.size();
+  for (std::size_t i = impl_->first_entry[record]; i < last; ++i) impl_->entries[i].radius_m = radius_m;
+  impl_->records[record].radius_m = radius_m;
 }
 
 std::size_t RecordTree::size() const { return impl_->records.size(); }

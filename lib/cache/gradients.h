@@ -1,0 +1,51 @@
+// Gradients of irradiance from the photons of one zone.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// The photons of a zone, as columns. Directions and normals are world space and unit.
+struct ZonePhotons {
+  std::vector<Vec2> offset_m;           ///< on the tangent plane, from the zone's centre
+  std::vector<Rgb> flux_lm;             ///< per unit of tangent-plane area
+  std::vector<Vec3> direction;          ///< towards where it came from
+  std::vector<float> inverse_distance;  ///< 1/m; 0 from infinitely far
+  std::vector<Vec3> source_normal;      ///< of the surface it left; minus `direction` where there is none
+  std::size_t size() const { return offset_m.size(); }
+  void clear() {
+    offset_m.clear(), flux_lm.clear(), direction.clear(), inverse_distance.clear(), source_normal.clear();
+  }
+};
+
+enum class GradientMode {
+  photon,      ///< each photon's own analytic term (FORMULAS D2)
+  hemisphere,  ///< thesis 6.3: photons binned in a discretised hemisphere, differences between its cells (D1,
+               ///< B1, B2)
+  none,
+};
+
+/// Rows are channels, as in IrradianceRecord.
+struct Gradients {
+  Vec3 rotation[3]{Vec3(0), Vec3(0), Vec3(0)};     ///< lx/rad
+  Vec3 translation[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx/m, tangent to the surface
+};
+
+/// Relative change of what photon i brings per metre of movement of the receiver, 1/m, tangent to `normal`
+/// (FORMULAS D2; the emitter's cosine is kept above 0.1).
+Vec3 photon_translation_term(const ZonePhotons& photons, std::size_t i, const Vec3& normal);
+
+/// Sums over the photons with used[i] != 0, divided by `area_m2`. Rotation: ring means of the tangent on 8
+/// rings (B1), so that grazing photons have bounded weight. Blind to dark occluders (D4).
+Gradients photon_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
+                           const Frame& frame);
+
+/// The same from `rings` x round(pi rings) cells of equal projected solid angle. Empty cells are dark and
+/// infinitely far.
+Gradients hemisphere_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
+                               const Frame& frame, int rings);
+
+}  // namespace phos

@@ -1,0 +1,75 @@
+#include "photon/hull.h"
+
+#include <CGAL/Convex_hull_traits_adapter_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
+#include <CGAL/property_map.h>
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PointMap = CGAL::Pointer_property_map<Kernel::Point_2>::type;
+using Traits = CGAL::Convex_hull_traits_adapter_2<Kernel, PointMap>;
+
+struct Scratch {
+  std::vector<Kernel::Point_2> points;
+  std::vector<std::size_t> finite, extreme;
+};
+
+/// Area and centroid of the polygon, relative to its first vertex so that nothing cancels.
+void measure(std::span<const Vec2> points, Hull& hull) {
+  hull.area = 0, hull.centroid = glm::dvec2(0);
+  if (hull.vertices.empty()) return;
+  const glm::dvec2 first(points[hull.vertices[0]]);
+  glm::dvec2 moment(0), sum(0);
+  for (std::size_t i = 1; i + 1 < hull.vertices.size(); ++i) {
+    const glm::dvec2 a = glm::dvec2(points[hull.vertices[i]]) - first;
+    const glm::dvec2 b = glm::dvec2(points[hull.vertices[i + 1]]) - first;
+    const double twice = a.x * b.y - a.y * b.x;
+    hull.area += twice / 2;
+    moment += twice / 6 * (a + b);
+  }
+  for (const std::uint32_t v : hull.vertices) sum += glm::dvec2(points[v]) - first;
+  hull.area = std::max(hull.area, 0.0);
+  hull.centroid =
+      first + (hull.area > 0 ? moment / hull.area : sum / static_cast<double>(hull.vertices.size()));
+}
+
+}  // namespace
+
+void convex_hull(std::span<const Vec2> points, Hull& hull) {
+  thread_local Scratch scratch;
+  scratch.points.assign(points.size(), Kernel::Point_2(0, 0));
+  scratch.finite.clear(), scratch.extreme.clear(), hull.vertices.clear();
+  glm::dvec2 lo(HUGE_VAL), hi(-HUGE_VAL);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) continue;
+    scratch.finite.push_back(i);
+    lo = glm::min(lo, glm::dvec2(points[i])), hi = glm::max(hi, glm::dvec2(points[i]));
+  }
+  if (scratch.finite.empty()) return measure(points, hull);
+  const glm::dvec2 centre = (lo + hi) / 2.0;
+  const double size = std::max(hi.x - lo.x, hi.y - lo.y), scale = size > 0 ? 1 / size : 1;
+  for (const std::size_t i : scratch.finite) {
+    const glm::dvec2 q = (glm::dvec2(points[i]) - centre) * scale;
+    scratch.points[i] = Kernel::Point_2(q.x, q.y);
+  }
+  try {
+    CGAL::convex_hull_2(scratch.finite.begin(), scratch.finite.end(), std::back_inserter(scratch.extreme),
+                        Traits(CGAL::make_property_map(scratch.points)));
+  } catch (const std::exception& e) {
+    throw Error(ExitCode::numerical, "",
+                text("convex hull of ", points.size(), " photons failed: ", e.what()));
+  }
+  for (const std::size_t i : scratch.extreme) hull.vertices.push_back(static_cast<std::uint32_t>(i));
+  measure(points, hull);
+}
+
+}  // namespace phos
