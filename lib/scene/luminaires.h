@@ -12,23 +12,28 @@ namespace phos {
 /// Luminance leaving a surface point towards the side it is seen from, cd/m2 (0 behind a one-sided emitter).
 Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point);
 
+/// Factor of a spot light's intensity at an angle from its axis: glTF's ((c - outer) / (inner - outer))^2, 1
+/// inside the inner cone, 0 outside the outer one; a step where the two are equal.
+float spot_falloff(const Light& light, float cos_angle);
+
 /// Light arriving at a point from a light's sample, visibility not yet tested.
 struct Illumination {
-  Vec3 direction{0};   ///< unit, from the point towards the light
-  Vec3 position{0};    ///< of the sample on the light (unused for directional)
+  Vec3 direction{0};  ///< unit, from the point towards the light
+  Vec3 position{0};   ///< of the sample on the light (unused for directional)
   float distance_m = kInfinity;
-  float error_m = 0;   ///< rounding error at the far end, for RayScene::visible
-  Rgb value{0};        ///< area: luminance, cd/m2. Delta lights: illuminance on a surface facing it, lx
-  float density = 0;   ///< per sr; 0 for delta lights (value then needs only the cosine)
+  float error_m = 0;  ///< rounding error at the far end, for RayScene::visible
+  Rgb value{0};       ///< area: luminance, cd/m2. Delta lights: illuminance on a surface facing it, lx
+  float density = 0;  ///< per sr; 0 for delta lights (value then needs only the cosine)
 };
 
 /// A point from which a light emits.
 struct EmissionPoint {
-  Vec3 position{0}, normal{0, 0, 1};
+  Vec3 position{0},
+      normal{0, 0, 1};  ///< of the front side; a double-sided light shines from both, the caller chooses
   float error_m = 0;
   std::uint32_t triangle = 0;
-  Rgb luminance{0};  ///< cd/m2
-  float density = 0; ///< per m2
+  Rgb luminance{0};   ///< cd/m2
+  float density = 0;  ///< per m2 (of one side)
 };
 
 class Luminaires {
@@ -37,10 +42,13 @@ class Luminaires {
   std::size_t size() const { return scene_->light.size(); }
   const Light& operator[](std::size_t i) const { return scene_->light[i]; }
 
-  /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the cone).
-  bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u, Illumination& result) const;
-  /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m` hit
-  /// `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
+  /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
+  /// cone). Area lights: uniform over a triangle chosen by u_triangle in proportion to its power. A
+  /// parallelogram of two triangles is sampled by `u` alone, so that strata of `u` are strata of the light.
+  bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
+                  Illumination& result) const;
+  /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m`
+  /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
   float density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const;
   /// Index of the area light that a triangle belongs to, or -1.
   std::int32_t light_of(std::uint32_t triangle) const;
@@ -48,12 +56,28 @@ class Luminaires {
   /// A point on area light i, chosen in proportion to the emitted power of its triangles.
   EmissionPoint sample_point(std::size_t i, float u_triangle, const Vec2& u) const;
 
-  /// Probability of each light in proportion to its flux (luminance of flux_lm), each at least `minimum_share`/size().
+  /// Probability of each light in proportion to its flux (luminance of flux_lm), each at least
+  /// `minimum_share`/size(). All equal where no light has any flux.
   std::vector<double> power_shares(double minimum_share) const;
 
  private:
+  struct Shape {
+    std::vector<double> cdf;            // over the triangles, ends at 1
+    std::vector<float> density_per_m2;  // of each triangle; 0 for one that is never chosen
+    bool parallelogram = false;
+    std::uint8_t corner[2] = {0,
+                              0};  // the corners (of the two triangles) that lie opposite their common edge
+  };
+  struct Spot {
+    std::uint32_t triangle;
+    Vec2 weights;  // of the second and third vertex
+  };
+  Shape make_shape(const Light& light) const;
+  void find_parallelogram(const Instance& instance, Shape& shape) const;
+  Spot choose(const Light& light, const Shape& shape, float u_triangle, const Vec2& u) const;
+
   const Scene* scene_;
-  std::vector<std::vector<float>> cdf_;  // per area light, over its triangles
+  std::vector<Shape> shape_;  // per light; empty for one without area
   std::vector<std::int32_t> instance_light_;
 };
 

@@ -26,13 +26,13 @@ struct SurfacePoint {
   Vec3 geometric_normal{0, 0, 1};  ///< on the side it is seen from
   Vec3 smooth_normal{0, 0, 1};     ///< interpolated vertex normal on the same side; what caches use
   Vec3 normal{0, 0, 1};            ///< smooth_normal with the normal map applied; what BSDFs use
-  Vec3 tangent{1, 0, 0};
-  Vec2 uv0{0}, uv1{0};
+  Vec3 tangent{1, 0, 0};           ///< orthogonal to normal; along growing u where the material needs it
+  Vec2 uv0{0}, uv1{0};             ///< of the sets that the material's textures use; else 0
   Vec4 colour{1};
   std::uint32_t triangle = 0, instance = 0, material = 0;
-  bool front = true;      ///< seen from the counter-clockwise side
-  float error_m = 0;      ///< bound on the rounding error of position; rays start this far off the surface
-  float distance_m = 0;   ///< travelled by the ray that found it
+  bool front = true;     ///< seen from the counter-clockwise side
+  float error_m = 0;     ///< bound on the rounding error of position; rays start this far off the surface
+  float distance_m = 0;  ///< travelled by the ray that found it
 
   /// Origin for a ray leaving towards `direction`, off the surface on that side by error_m.
   Vec3 leave(const Vec3& direction) const {
@@ -44,7 +44,8 @@ struct RayOptions {
   std::string isa;  ///< "" = best of this machine; "sse2" for byte-exact files across machines
 };
 
-/// The acceleration structure. Queries are const and may be made from any thread. Holds a reference to the scene.
+/// The acceleration structure. Queries are const and may be made from any thread. Holds a reference to the
+/// scene.
 class RayScene {
  public:
   explicit RayScene(const Scene& scene, const RayOptions& options = {});
@@ -53,7 +54,8 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   const Scene& scene() const;
-  /// Nearest hit, alpha-masked texels passed through. False if the ray escapes.
+  /// Nearest hit, alpha-masked texels passed through (blended ones too, below half coverage). False if the
+  /// ray escapes.
   bool intersect(const Ray& ray, Hit& hit) const;
   /// Is anything in the way, within (t_min, t_max)?
   bool occluded(const Ray& ray) const;

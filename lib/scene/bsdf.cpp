@@ -1,0 +1,298 @@
+#include "scene/bsdf.h"
+
+#include <algorithm>
+
+#include "core/sampling.h"
+#include "scene/microfacet.h"
+#include "scene/texture.h"
+
+namespace phos {
+
+namespace {
+
+float normal_reflectance(float ior) {
+  const float root = (ior - 1) / (ior + 1);
+  return root * root;
+}
+
+}  // namespace
+
+// What the material is, at this point.
+
+Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
+    : frame_{point.tangent, glm::cross(point.normal, point.tangent), point.normal},
+      geometric_normal_(point.geometric_normal),
+      front_(point.front) {
+  const Material& material = scene.material[point.material];
+  Rgb base = material.kd * Rgb(point.colour);
+  if (material.base_colour.used()) base *= Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
+  specular_ = material.ks;
+  ior_ = material.ior;
+  switch (material.model) {
+    case Model::lambert:
+      diffuse_ = base;
+      break;
+    case Model::phong:
+      diffuse_ = base;
+      exponent_ = std::max(material.exponent, 0.f);
+      lobe_ = max_component(specular_) > 0 ? Lobe::phong : Lobe::none;
+      break;
+    case Model::ward:
+      diffuse_ = base;
+      if (max_component(specular_) > 0) resolve_rough(Lobe::ward, material.alpha_x, material.alpha_y);
+      break;
+    case Model::conductor:
+      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
+      break;
+    case Model::mirror:
+      delta_ = Delta::mirror;
+      break;
+    case Model::dielectric:
+    case Model::thin_dielectric:
+      delta_ = material.model == Model::dielectric ? Delta::dielectric : Delta::thin;
+      if (!(ior_ > 0)) ior_ = 1;
+      break;
+    case Model::plastic:
+      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_x);
+      resolve_plastic(base);
+      break;
+    case Model::metallic_roughness:
+      resolve_metallic_roughness(scene, point, base);
+      break;
+  }
+}
+
+void Bsdf::resolve_rough(Lobe lobe, float alpha_x, float alpha_y) {
+  // GGX is defined by its slope distribution, for which more than 1 has no use; Ward's may be wider.
+  if (lobe == Lobe::ggx) alpha_x = std::min(alpha_x, 1.f), alpha_y = std::min(alpha_y, 1.f);
+  if (std::max(alpha_x, alpha_y) < kSmoothestAlpha) {
+    delta_ = lobe == Lobe::ward ? Delta::mirror : Delta::schlick;
+    return;
+  }
+  lobe_ = lobe;
+  alpha_x_ = std::max(alpha_x, kSmoothestAlpha), alpha_y_ = std::max(alpha_y, kSmoothestAlpha);
+}
+
+void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection) {
+  if (!(max_component(base) > 0)) return;
+  coated_ = true;
+  const float transmitted = 1 - ggx_mean_albedo(coat_alpha_, f0, f90);
+  // k_interreflection is 1/eta^2 of the coat, or 0 for a base whose colour already is what leaves the coat.
+  Rgb k(transmitted > 0 ? 1 / transmitted : 0.f);
+  if (k_interreflection > 0) {
+    const float internal = std::max(0.f, 1 - transmitted * k_interreflection);
+    k = Rgb(k_interreflection) / (Rgb(1) - internal * glm::min(base, Rgb(1)));
+  }
+  base_ = k * base;
+  diffuse_ = base_ * (transmitted * transmitted);
+}
+
+void Bsdf::resolve_plastic(const Rgb& kd) {
+  const float eta = std::max(ior_, 1.f), f0 = normal_reflectance(eta);
+  specular_ = Rgb(f0);
+  coat_f0_ = f0, coat_f90_ = 1, coat_alpha_ = alpha_x_;
+  put_under_coat(kd, f0, 1, 1 / (eta * eta));
+}
+
+void Bsdf::resolve_metallic_roughness(const Scene& scene, const SurfacePoint& point, const Rgb& base) {
+  const Material& material = scene.material[point.material];
+  float roughness = material.roughness, metallic = material.metallic;
+  if (material.metallic_roughness.used()) {
+    const Vec4 texel = look_up(scene, material.metallic_roughness, point.uv0, point.uv1);
+    roughness *= texel.y, metallic *= texel.z;
+  }
+  roughness = std::clamp(roughness, 0.f, 1.f), metallic = std::clamp(metallic, 0.f, 1.f);
+  const Rgb f0 = material.specular * glm::min(normal_reflectance(ior_) * material.specular_colour, Rgb(1));
+  // Schlick is linear in its ends, so glTF's mix of a metal and a dielectric is one lobe.
+  specular_ = (1 - metallic) * f0 + metallic * base;
+  f90_ = (1 - metallic) * material.specular + metallic;
+  resolve_rough(Lobe::ggx, roughness * roughness, roughness * roughness);
+  coat_f0_ = max_component(f0), coat_f90_ = material.specular, coat_alpha_ = alpha_x_;
+  const Rgb beneath = (1 - metallic) * base;
+  put_under_coat((1 - material.transmission) * beneath, coat_f0_, coat_f90_, 0);
+  sheet_ = material.transmission * beneath;
+  if (max_component(sheet_) > 0 && delta_ == Delta::none) delta_ = Delta::sheet;
+}
+
+// What it does.
+
+bool Bsdf::above(const Vec3& wo, const Vec3& wi, Vec3& o, Vec3& i) const {
+  o = frame_.to_local(wo), i = frame_.to_local(wi);
+  return o.z > 0 && i.z > 0 && glm::dot(wo, geometric_normal_) > 0 && glm::dot(wi, geometric_normal_) > 0;
+}
+
+Rgb Bsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
+  Vec3 o, i;
+  if (!above(wo, wi, o, i)) return Rgb(0);
+  return base_value(o, i) + lobe_value(o, i);
+}
+
+Rgb Bsdf::evaluate_gloss(const Vec3& wo, const Vec3& wi) const {
+  Vec3 o, i;
+  if (!has_gloss() || !above(wo, wi, o, i)) return Rgb(0);
+  Rgb value = lobe_value(o, i);
+  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  return value;
+}
+
+Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count) const {
+  Choice p;
+  p.diffuse = luminance(diffuse_);
+  if (coated_) {
+    // diffuse_ / base_ is the square of the coat's mean transmittance.
+    p.diffuse *= coat_transmittance(o.z) / (1 - ggx_mean_albedo(coat_alpha_, coat_f0_, coat_f90_));
+  }
+  if (lobe_ != Lobe::none) p.gloss = luminance(lobe_ == Lobe::ggx ? schlick(o.z) : specular_);
+  for (int b = 0; b < count; ++b) p.delta[b] = luminance(branches[b].weight);
+  const float sum = p.diffuse + p.gloss + p.delta[0] + p.delta[1];
+  if (!(sum > 0)) return {};
+  p.diffuse /= sum, p.gloss /= sum, p.delta[0] /= sum, p.delta[1] /= sum;
+  return p;
+}
+
+float Bsdf::density(const Vec3& wo, const Vec3& wi) const {
+  Vec3 o, i;
+  if (!above(wo, wi, o, i)) return 0;
+  if (lobe_ == Lobe::none && delta_ == Delta::none) return has_diffuse() ? i.z / kPi : 0.f;
+  BsdfSample branches[2];
+  // Choices weigh flux, so that luminance and photons share one density.
+  const Choice p = choice(o, branches, specular_branches(wo, branches, TransportMode::flux));
+  float density = p.diffuse * i.z / kPi;
+  if (p.gloss > 0) density += p.gloss * lobe_density(o, i);
+  return density;
+}
+
+float Bsdf::flux_correction(const Vec3& wo, const Vec3& wi) const {
+  const float ratio = std::fabs(glm::dot(wo, frame_.z) * glm::dot(wi, geometric_normal_)) /
+                      std::fabs(glm::dot(wo, geometric_normal_) * glm::dot(wi, frame_.z));
+  return std::isfinite(ratio) ? ratio : 0.f;
+}
+
+bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
+  const Vec3 o = frame_.to_local(wo);
+  if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
+  const bool plain = lobe_ == Lobe::none && delta_ == Delta::none;
+  Choice p;
+  if (plain) {
+    if (!has_diffuse()) return false;
+    p.diffuse = 1;
+  } else {
+    BsdfSample branches[2];
+    const int count = specular_branches(wo, branches, TransportMode::flux);
+    p = choice(o, branches, count);
+    const float beyond = u_lobe - (p.diffuse + p.gloss);
+    if (count > 0 && beyond >= 0) {
+      const int b = count == 2 && beyond >= p.delta[0] ? 1 : 0;
+      if (!(p.delta[b] > 0)) return false;
+      if (mode == TransportMode::radiance) specular_branches(wo, branches, mode);
+      result = branches[b];
+      result.weight /= p.delta[b];
+      if (mode == TransportMode::flux) result.weight *= flux_correction(wo, result.direction);
+      return true;
+    }
+  }
+  Vec3 i;
+  if (p.gloss == 0 || u_lobe < p.diffuse) {
+    if (!(p.diffuse > 0)) return false;
+    i = sample_cosine_hemisphere(u);
+  } else if (!sample_lobe(o, u, i)) {
+    return false;
+  }
+  const Vec3 wi = frame_.to_world(i);
+  if (!(i.z > 0) || !(glm::dot(wi, geometric_normal_) > 0)) return false;
+  result = BsdfSample();
+  result.direction = wi;
+  result.density = p.diffuse * i.z / kPi;
+  if (p.gloss > 0) result.density += p.gloss * lobe_density(o, i);
+  if (!(result.density > 0)) return false;
+  result.weight =
+      plain && !coated_ ? diffuse_ : (base_value(o, i) + lobe_value(o, i)) * (i.z / result.density);
+  if (mode == TransportMode::flux) result.weight *= flux_correction(wo, wi);
+  return true;
+}
+
+int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMode mode) const {
+  if (delta_ == Delta::none) return 0;
+  const Vec3 o = frame_.to_local(wo);
+  if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return 0;
+  int count = 0;
+  const auto add = [&](const Vec3& local, const Rgb& weight, bool transmitted) {
+    const Vec3 direction = glm::normalize(frame_.to_world(local));
+    if (!(max_component(weight) > 0) || (glm::dot(direction, geometric_normal_) < 0) != transmitted) return;
+    branches[count++] = {direction, weight, 0, true, transmitted};
+  };
+  const Vec3 reflected(-o.x, -o.y, o.z);
+  switch (delta_) {
+    case Delta::none:
+      break;
+    case Delta::mirror:
+      add(reflected, specular_, false);
+      break;
+    case Delta::schlick:
+      add(reflected, schlick(o.z), false);
+      add(-o, coat_transmittance(o.z) * sheet_, true);
+      break;
+    case Delta::sheet:
+      add(-o, coat_transmittance(o.z) * sheet_, true);
+      break;
+    case Delta::dielectric: {
+      const float eta = front_ ? ior_ : 1 / ior_;
+      float cos_t;
+      const float f = fresnel_dielectric(o.z, eta, cos_t);
+      add(reflected, Rgb(f), false);
+      const float scale = mode == TransportMode::radiance ? 1 / (eta * eta) : 1.f;
+      add({-o.x / eta, -o.y / eta, -cos_t}, Rgb((1 - f) * scale), true);
+      break;
+    }
+    case Delta::thin: {
+      // Both faces, and all that goes to and fro between them: 2F/(1+F) back.
+      float cos_t;
+      const float f = fresnel_dielectric(o.z, ior_, cos_t);
+      const float back = 2 * f / (1 + f);
+      add(reflected, Rgb(back), false);
+      add(-o, Rgb(1 - back), true);
+      break;
+    }
+  }
+  return count;
+}
+
+float Bsdf::broad_share(const Vec3& o) const {
+  if (!coated_) return 0;
+  if (lobe_ == Lobe::none) return 1;
+  const float mean = 1 - ggx_mean_albedo(coat_alpha_, coat_f0_, coat_f90_);
+  const float broad = luminance(base_) * mean * (std::fabs(coat_transmittance(o.z) - mean) + 0.04f);
+  // Never more than half, as a narrow lobe sees more contrast than a broad one.
+  return std::clamp(broad / (broad + luminance(schlick(o.z))), 0.1f, 0.5f);
+}
+
+float Bsdf::density_gloss(const Vec3& wo, const Vec3& wi) const {
+  Vec3 o, i;
+  if (!has_gloss() || !above(wo, wi, o, i)) return 0;
+  const float broad = broad_share(o);
+  return broad * i.z / kPi + (1 - broad) * lobe_density(o, i);
+}
+
+bool Bsdf::sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const {
+  const Vec3 o = frame_.to_local(wo);
+  if (!has_gloss() || !(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
+  const float broad = broad_share(o);
+  Vec3 i;
+  if (u.x < broad) {
+    i = sample_cosine_hemisphere({u.x / broad, u.y});
+  } else if (!sample_lobe(o, {std::min((u.x - broad) / (1 - broad), 0x1.fffffep-1f), u.y}, i)) {
+    return false;
+  }
+  const Vec3 wi = frame_.to_world(i);
+  if (!(i.z > 0) || !(glm::dot(wi, geometric_normal_) > 0)) return false;
+  result = BsdfSample();
+  result.direction = wi;
+  result.density = broad * i.z / kPi + (1 - broad) * lobe_density(o, i);
+  if (!(result.density > 0)) return false;
+  Rgb value = lobe_value(o, i);
+  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  result.weight = value * (i.z / result.density);
+  return true;
+}
+
+}  // namespace phos

@@ -1,0 +1,215 @@
+#include "scene/luminaires.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/sampling.h"
+#include "scene/offset.h"
+#include "scene/shading_frame.h"
+#include "scene/texture.h"
+
+namespace phos {
+
+Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point) {
+  const Material& material = scene.material[point.material];
+  if (!material.emits() || !(point.front || material.double_sided)) return Rgb(0);
+  return material.emission * Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
+}
+
+float spot_falloff(const Light& light, float cos_angle) {
+  if (cos_angle >= light.cos_inner) return 1;
+  if (cos_angle <= light.cos_outer) return 0;
+  const float t = (cos_angle - light.cos_outer) / (light.cos_inner - light.cos_outer);
+  return t * t;
+}
+
+namespace {
+
+struct Corners {
+  Vec3 p[3];
+  float error_m() const { return offset_m(p[0], p[1], p[2]); }
+  Vec3 at(const Vec2& weights) const {
+    const auto u = static_cast<double>(weights.x), v = static_cast<double>(weights.y);
+    return Vec3((1 - u - v) * glm::dvec3(p[0]) + u * glm::dvec3(p[1]) + v * glm::dvec3(p[2]));
+  }
+  Vec3 normal() const { return normal_of(p[0], p[1], p[2]); }
+  double area_m2() const {
+    return 0.5 *
+           glm::length(glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0])));
+  }
+};
+
+Corners corners_of(const Scene& scene, std::uint32_t triangle) {
+  const auto& v = scene.triangle[triangle].v;
+  return {{scene.position[v[0]], scene.position[v[1]], scene.position[v[2]]}};
+}
+
+/// Mean luminance of a triangle's emission, from 16 points of it.
+double mean_emission(const Scene& scene, std::uint32_t triangle) {
+  constexpr int kSide = 4;
+  if (!scene.material_of(triangle).emissive.used()) return luminance(scene.material_of(triangle).emission);
+  double sum = 0;
+  for (int k = 0; k < kSide * kSide; ++k) {
+    const Vec2 u((static_cast<float>(k % kSide) + 0.5f) / kSide,
+                 (static_cast<float>(k / kSide) + 0.5f) / kSide);
+    const Vec2 weights = sample_triangle(u);
+    sum += luminance(emission_at(scene, triangle, weights.x, weights.y));
+  }
+  return sum / (kSide * kSide);
+}
+
+}  // namespace
+
+Luminaires::Luminaires(const Scene& scene) : scene_(&scene) {
+  instance_light_.assign(scene.instance.size(), -1);
+  shape_.resize(scene.light.size());
+  for (std::size_t i = 0; i < scene.light.size(); ++i) {
+    const Light& light = scene.light[i];
+    if (light.kind != Light::Kind::area) continue;
+    instance_light_[light.instance] = static_cast<std::int32_t>(i);
+    shape_[i] = make_shape(light);
+  }
+}
+
+Luminaires::Shape Luminaires::make_shape(const Light& light) const {
+  const Instance& instance = scene_->instance[light.instance];
+  const std::size_t n = instance.triangle_count;
+  std::vector<double> area(n), mean(n);
+  double power = 0, total_area = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto triangle = static_cast<std::uint32_t>(instance.first_triangle + k);
+    area[k] = corners_of(*scene_, triangle).area_m2();
+    mean[k] = mean_emission(*scene_, triangle);
+    power += area[k] * mean[k], total_area += area[k];
+  }
+  // A triangle whose probed texels are all dark may still shine somewhere: it keeps a tenth of the mean.
+  const double least = total_area > 0 ? 0.1 * power / total_area : 0;
+  Shape shape;
+  shape.cdf.resize(n), shape.density_per_m2.resize(n);
+  double sum = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    sum += area[k] * (power > 0 ? std::max(mean[k], least) : 1.0);
+    shape.cdf[k] = sum;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    shape.cdf[k] = sum > 0 ? shape.cdf[k] / sum : static_cast<double>(k + 1) / static_cast<double>(n);
+    const double share = shape.cdf[k] - (k > 0 ? shape.cdf[k - 1] : 0);
+    shape.density_per_m2[k] = area[k] > 0 ? static_cast<float>(share / area[k]) : 0.f;
+  }
+  if (n == 2 && std::fabs(shape.cdf[0] - 0.5) < 1e-6) find_parallelogram(instance, shape);
+  return shape;
+}
+
+void Luminaires::find_parallelogram(const Instance& instance, Shape& shape) const {
+  const Corners t[2] = {corners_of(*scene_, instance.first_triangle),
+                        corners_of(*scene_, instance.first_triangle + 1)};
+  for (unsigned a = 0; a < 3; ++a) {
+    for (unsigned b = 0; b < 3; ++b) {
+      const Vec3 &p = t[0].p[(a + 1) % 3], &q = t[0].p[(a + 2) % 3];
+      // The common edge runs the other way round in the second triangle.
+      if (p != t[1].p[(b + 2) % 3] || q != t[1].p[(b + 1) % 3]) continue;
+      const Vec3 gap = (p - t[0].p[a]) - (t[1].p[b] - q);
+      const float size = glm::length(p - q) + t[0].error_m();
+      if (glm::length(gap) > 1e-5f * size) continue;
+      shape.parallelogram = true;
+      shape.corner[0] = static_cast<std::uint8_t>(a), shape.corner[1] = static_cast<std::uint8_t>(b);
+    }
+  }
+}
+
+Luminaires::Spot Luminaires::choose(const Light& light, const Shape& shape, float u_triangle,
+                                    const Vec2& u) const {
+  const Instance& instance = scene_->instance[light.instance];
+  if (shape.parallelogram) {
+    // Across the square: one triangle below its diagonal, the other above it, turned by half a turn.
+    const bool second = u.x + u.y > 1;
+    const Vec2 edge = second ? Vec2(1 - u.x, 1 - u.y) : u;
+    const unsigned corner = shape.corner[second ? 1 : 0];
+    float weight[3];
+    weight[corner] = 1 - edge.x - edge.y;
+    weight[(corner + 1) % 3] = edge.x;
+    weight[(corner + 2) % 3] = edge.y;
+    return {instance.first_triangle + (second ? 1u : 0u), {weight[1], weight[2]}};
+  }
+  const auto it = std::upper_bound(shape.cdf.begin(), shape.cdf.end(), static_cast<double>(u_triangle));
+  auto k = static_cast<std::size_t>(it - shape.cdf.begin());
+  k = std::min(k, shape.cdf.size() - 1);
+  return {static_cast<std::uint32_t>(instance.first_triangle + k), sample_triangle(u)};
+}
+
+EmissionPoint Luminaires::sample_point(std::size_t i, float u_triangle, const Vec2& u) const {
+  const Light& light = scene_->light[i];
+  PHOS_CHECK(light.kind == Light::Kind::area && !shape_[i].cdf.empty(), "light ", i, " has no area");
+  const Spot spot = choose(light, shape_[i], u_triangle, u);
+  const Corners corners = corners_of(*scene_, spot.triangle);
+  EmissionPoint point;
+  point.position = corners.at(spot.weights);
+  point.normal = corners.normal();
+  point.error_m = corners.error_m();
+  point.triangle = spot.triangle;
+  point.luminance = emission_at(*scene_, spot.triangle, spot.weights.x, spot.weights.y);
+  point.density = shape_[i].density_per_m2[spot.triangle - scene_->instance[light.instance].first_triangle];
+  return point;
+}
+
+bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
+                            Illumination& result) const {
+  const Light& light = scene_->light[i];
+  result = Illumination();
+  if (light.kind == Light::Kind::directional) {
+    result.direction = -light.direction;
+    result.value = light.intensity;
+    return true;
+  }
+  const bool area = light.kind == Light::Kind::area;
+  if (area && shape_[i].cdf.empty()) return false;
+  const EmissionPoint point = area ? sample_point(i, u_triangle, u) : EmissionPoint();
+  result.position = area ? point.position : light.position;
+  const Vec3 way = result.position - from;
+  result.direction = normalized_or_zero(way);
+  if (result.direction == Vec3(0)) return false;
+  result.distance_m = glm::dot(way, result.direction);
+  const float distance2_m2 = result.distance_m * result.distance_m;
+  if (area) {
+    const float cosine = -glm::dot(result.direction, point.normal);
+    const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
+    if (!(cos_light > 0)) return false;
+    result.value = point.luminance;
+    result.error_m = point.error_m;
+    result.density = point.density * distance2_m2 / cos_light;
+    return result.density > 0 && std::isfinite(result.density);
+  }
+  float share = 1;
+  if (light.kind == Light::Kind::spot)
+    share = spot_falloff(light, -glm::dot(result.direction, light.direction));
+  result.value = light.intensity * (share / distance2_m2);
+  return share > 0 && is_finite(result.value);
+}
+
+float Luminaires::density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const {
+  const Light& light = scene_->light[i];
+  if (light.kind != Light::Kind::area || !(cos_light > 0)) return 0;
+  const Instance& instance = scene_->instance[light.instance];
+  const std::uint32_t k = triangle - instance.first_triangle;  // wraps for one before it
+  if (k >= instance.triangle_count) return 0;
+  return shape_[i].density_per_m2[k] * distance_m * distance_m / cos_light;
+}
+
+std::int32_t Luminaires::light_of(std::uint32_t triangle) const {
+  return instance_light_[scene_->triangle_instance[triangle]];
+}
+
+std::vector<double> Luminaires::power_shares(double minimum_share) const {
+  const std::size_t n = size();
+  double total = 0;
+  for (const Light& light : scene_->light) total += static_cast<double>(luminance(light.flux_lm));
+  std::vector<double> shares(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double even = 1 / static_cast<double>(n);
+    const double own = total > 0 ? static_cast<double>(luminance(scene_->light[i].flux_lm)) / total : even;
+    shares[i] = minimum_share * even + (1 - minimum_share) * own;
+  }
+  return shares;
+}
+
+}  // namespace phos

@@ -1,0 +1,263 @@
+#include "scene/rays.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstring>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "scene/offset.h"
+#include "scene/shading_frame.h"
+#include "scene/texture.h"
+
+namespace phos {
+
+namespace {
+
+constexpr unsigned kOpaque = 0, kMasked = 1;
+
+/// Geometric normal of the front side, and the offset of rays that leave.
+struct Plane {
+  Vec3 normal;
+  float offset_m;
+};
+
+/// A texel that rays pass through. Blending is not simulated: what is less than half there is a hole.
+bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
+  const Material& material = scene.material_of(triangle);
+  float alpha = material.alpha;
+  if (material.base_colour.used()) {
+    const Vec2 uv = texture_coordinates(scene, triangle, material.base_colour.set, u, v);
+    alpha *= look_up(scene, material.base_colour, uv, uv).w;
+  }
+  if (!scene.colour.empty()) {
+    const auto& corner = scene.triangle[triangle].v;
+    alpha *= (1 - u - v) * scene.colour[corner[0]].w + u * scene.colour[corner[1]].w +
+             v * scene.colour[corner[2]].w;
+  }
+  return alpha < (material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : 0.5f);
+}
+
+void throw_if_failed(RTCDevice device) {
+  const RTCError code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_NONE) return;
+  if (code == RTC_ERROR_OUT_OF_MEMORY) {
+    throw Error(ExitCode::bad_input, "",
+                "not enough memory for the ray tracing structure; use a smaller scene");
+  }
+  throw Error(
+      ExitCode::bad_input, "",
+      text("Embree reports error ", static_cast<int>(code), " while building the ray tracing structure"));
+}
+
+RTCRayHit embree_ray(const Ray& ray) {
+  RTCRayHit query;
+  query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
+  query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
+  query.ray.tnear = ray.t_min_m, query.ray.tfar = ray.t_max_m;
+  query.ray.time = 0;
+  query.ray.mask = 0xffffffffu;
+  query.ray.id = 0;
+  query.ray.flags = 0;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  explicit Impl(const Scene& s) : scene(s) {}
+  ~Impl() {
+    if (tree) rtcReleaseScene(tree);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  const Scene& scene;
+  RTCDevice device = nullptr;
+  RTCScene tree = nullptr;
+  std::vector<std::uint32_t> triangle_of[2];  // per Embree geometry; empty where primitive i is triangle i
+  std::vector<Plane> plane;                   // per triangle
+  std::vector<Reads> reads;                   // per material
+
+  void make_device(const std::string& isa);
+  void make_planes();
+  void attach(unsigned geometry, const std::vector<std::uint32_t>* triangles);
+  void build();
+  std::uint32_t triangle(unsigned geometry, unsigned primitive) const {
+    return triangle_of[geometry].empty() ? primitive : triangle_of[geometry][primitive];
+  }
+  static void filter(const RTCFilterFunctionNArguments* args);
+};
+
+void RayScene::Impl::make_device(const std::string& isa) {
+  const std::string config = isa.empty() ? "" : "isa=" + isa;
+  device = rtcNewDevice(config.empty() ? nullptr : config.c_str());
+  if (device) return;
+  const RTCError code = rtcGetDeviceError(nullptr);
+  throw Error(
+      ExitCode::usage, isa.empty() ? "" : "isa",
+      text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"", " (error ",
+           static_cast<int>(code), "); use sse2, sse4.2, avx, avx2 or avx512, as this machine has them"));
+}
+
+void RayScene::Impl::make_planes() {
+  plane.resize(scene.triangle.size());
+  parallel_for(plane.size(), 4096, [&](std::size_t i) {
+    const auto& corner = scene.triangle[i].v;
+    const Vec3 &a = scene.position[corner[0]], &b = scene.position[corner[1]], &c = scene.position[corner[2]];
+    plane[i] = {normal_of(a, b, c), phos::offset_m(a, b, c)};
+  });
+}
+
+/// Called for each candidate hit of the masked geometry, one ray at a time.
+void RayScene::Impl::filter(const RTCFilterFunctionNArguments* args) {
+  const Impl& impl = *static_cast<const Impl*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const std::uint32_t triangle = impl.triangle(kMasked, RTCHitN_primID(args->hit, args->N, i));
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    if (is_hole(impl.scene, triangle, u, v)) args->valid[i] = 0;
+  }
+}
+
+void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* triangles) {
+  const std::size_t count = triangles ? triangles->size() : scene.triangle.size();
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree's own buffers: it reads 16 bytes at the last vertex, which an array of Vec3 does not have.
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3), scene.position.size());
+  auto* indices = static_cast<Triangle*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), count));
+  if (vertices && indices) {
+    std::memcpy(vertices, scene.position.data(), scene.position.size() * sizeof(Vec3));
+    for (std::size_t i = 0; i < count; ++i) indices[i] = scene.triangle[triangles ? (*triangles)[i] : i];
+    if (id == kMasked) {
+      rtcSetGeometryUserData(geometry, this);
+      rtcSetGeometryIntersectFilterFunction(geometry, filter);
+      rtcSetGeometryOccludedFilterFunction(geometry, filter);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tree, geometry, id);
+  }
+  rtcReleaseGeometry(geometry);
+  throw_if_failed(device);
+}
+
+void RayScene::Impl::build() {
+  tree = rtcNewScene(device);
+  throw_if_failed(device);
+  rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
+  std::vector<std::uint32_t> triangles[2];
+  for (std::size_t i = 0; i < scene.triangle.size(); ++i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    const bool opaque = scene.material_of(index).alpha_mode == Material::Alpha::opaque;
+    triangles[opaque ? kOpaque : kMasked].push_back(index);
+  }
+  if (triangles[kMasked].empty()) {
+    if (!scene.triangle.empty()) attach(kOpaque, nullptr);
+  } else {
+    for (const unsigned id : {kOpaque, kMasked}) {
+      triangle_of[id] = std::move(triangles[id]);
+      if (!triangle_of[id].empty()) attach(id, &triangle_of[id]);
+    }
+  }
+  rtcCommitScene(tree);
+  throw_if_failed(device);
+}
+
+RayScene::RayScene(const Scene& scene, const RayOptions& options) : impl_(std::make_unique<Impl>(scene)) {
+  impl_->make_device(options.isa);
+  impl_->make_planes();
+  for (const Material& material : scene.material) impl_->reads.push_back(reads_of(scene, material));
+  impl_->build();
+}
+
+RayScene::~RayScene() = default;
+
+const Scene& RayScene::scene() const { return impl_->scene; }
+
+void* RayScene::native() const { return impl_->tree; }
+
+bool RayScene::intersect(const Ray& ray, Hit& hit) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  alignas(16) RTCRayHit query = embree_ray(ray);
+  rtcIntersect1(impl_->tree, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit.distance_m = query.ray.tfar;
+  hit.triangle = impl_->triangle(query.hit.geomID, query.hit.primID);
+  hit.u = query.hit.u, hit.v = query.hit.v;
+  return true;
+}
+
+bool RayScene::occluded(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query = embree_ray(ray);
+  rtcOccluded1(impl_->tree, &context, &query.ray);
+  return query.ray.tfar < 0;
+}
+
+namespace {
+
+bool clear_between(const RayScene& rays, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  const Vec3 direction = normalized_or_zero(way);
+  if (direction == Vec3(0)) return true;
+  return !rays.occluded({from, direction, 0, glm::dot(way, direction)});
+}
+
+}  // namespace
+
+bool RayScene::visible(const SurfacePoint& a, const SurfacePoint& b) const {
+  const Vec3 way = b.position - a.position;
+  // The nearer the origin of coordinates, the smaller a point's own bound; the ray carries the larger of the
+  // two.
+  SurfacePoint from = a, to = b;
+  from.error_m = to.error_m = std::max(a.error_m, b.error_m);
+  return clear_between(*this, from.leave(way), to.leave(-way));
+}
+
+bool RayScene::visible(const SurfacePoint& a, const Vec3& point, float error_m) const {
+  const Vec3 way = point - a.position;
+  const Vec3 origin = a.leave(way);
+  const Vec3 direction = normalized_or_zero(point - origin);
+  if (direction == Vec3(0)) return true;
+  // Shortened along the ray, by the light's slack and by the rounding of the origin.
+  const float distance = glm::dot(point - origin, direction) - std::max(error_m, a.error_m);
+  return !(distance > 0) || !occluded({origin, direction, 0, distance});
+}
+
+SurfacePoint RayScene::surface(const Ray& ray, const Hit& hit) const {
+  const Scene& scene = impl_->scene;
+  const auto& corner = scene.triangle[hit.triangle].v;
+  const Plane& plane = impl_->plane[hit.triangle];
+  const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+
+  SurfacePoint point;
+  point.triangle = hit.triangle;
+  point.instance = scene.triangle_instance[hit.triangle];
+  point.material = scene.instance[point.instance].material;
+  point.distance_m = hit.distance_m;
+  point.error_m = plane.offset_m;
+  // In double: the point then lies on the plane to within the rounding of its coordinates.
+  const double u = hit.u, v = hit.v, w = 1 - u - v;
+  const Vec3 &a = scene.position[corner[0]], &b = scene.position[corner[1]], &c = scene.position[corner[2]];
+  point.position =
+      Vec3(static_cast<float>(w * a.x + u * b.x + v * c.x), static_cast<float>(w * a.y + u * b.y + v * c.y),
+           static_cast<float>(w * a.z + u * b.z + v * c.z));
+  point.front = glm::dot(ray.direction, plane.normal) <= 0;
+  point.geometric_normal = point.front ? plane.normal : -plane.normal;
+  shade(scene, impl_->reads[point.material], weight, -ray.direction, point);
+  return point;
+}
+
+bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point) {
+  Hit hit;
+  if (!rays.intersect(ray, hit)) return false;
+  point = rays.surface(ray, hit);
+  return true;
+}
+
+}  // namespace phos

@@ -1,0 +1,26 @@
+// Interpolated and mapped normals, tangents, texture coordinates and colours of a point on a triangle.
+#pragma once
+
+#include "scene/rays.h"
+#include "scene/scene.h"
+
+namespace phos {
+
+/// What a material needs to know of a point beyond its normals, so that plain ones pay for nothing.
+struct Reads {
+  bool uv0 = false, uv1 = false;
+  bool tangent = false;  ///< normal map, or anisotropic
+  bool normal_map = false;
+  bool colour = false;
+};
+Reads reads_of(const Scene& scene, const Material& material);
+
+/// Unit normal by winding; +z for a triangle without area.
+Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Fills smooth_normal, normal, tangent, uv and colour of a point whose other fields are set. `weight` are
+/// the barycentric weights; `towards_eye` is the unit direction it is seen from.
+void shade(const Scene& scene, const Reads& reads, const float weight[3], const Vec3& towards_eye,
+           SurfacePoint& point);
+
+}  // namespace phos

@@ -1,0 +1,83 @@
+#include "scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phos {
+
+namespace {
+
+/// Maps a coordinate into [0,1]; 0 for one that is not finite.
+float wrapped(float t, Texture::Wrap wrap) {
+  if (!std::isfinite(t)) return 0;
+  switch (wrap) {
+    case Texture::Wrap::clamp:
+      return std::clamp(t, 0.f, 1.f);
+    case Texture::Wrap::mirror: {
+      const float period = t - 2.f * std::floor(0.5f * t);
+      return period > 1.f ? 2.f - period : period;
+    }
+    case Texture::Wrap::repeat:
+      break;
+  }
+  return t - std::floor(t);
+}
+
+/// Index of a texel that may lie one beyond either end.
+int wrapped_texel(int i, int n, Texture::Wrap wrap) {
+  if (wrap == Texture::Wrap::repeat) return i < 0 ? i + n : (i >= n ? i - n : i);
+  return std::clamp(i, 0, n - 1);  // mirrored, the neighbour of an end texel is itself
+}
+
+}  // namespace
+
+Vec4 Texture::at(const Vec2& uv) const {
+  if (width <= 0 || height <= 0 || texels.empty()) return Vec4(1);
+  const float x = wrapped(uv.x, wrap_u) * static_cast<float>(width);
+  const float y = wrapped(uv.y, wrap_v) * static_cast<float>(height);
+  const auto texel = [&](int i, int j) -> const Vec4& {
+    return texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(i)];
+  };
+  if (nearest) {
+    return texel(std::min(static_cast<int>(x), width - 1), std::min(static_cast<int>(y), height - 1));
+  }
+  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
+  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
+  const int i0 = wrapped_texel(static_cast<int>(x0), width, wrap_u);
+  const int i1 = wrapped_texel(static_cast<int>(x0) + 1, width, wrap_u);
+  const int j0 = wrapped_texel(static_cast<int>(y0), height, wrap_v);
+  const int j1 = wrapped_texel(static_cast<int>(y0) + 1, height, wrap_v);
+  const Vec4 top = (1 - fx) * texel(i0, j0) + fx * texel(i1, j0);
+  const Vec4 bottom = (1 - fx) * texel(i0, j1) + fx * texel(i1, j1);
+  return (1 - fy) * top + fy * bottom;
+}
+
+Vec2 transformed(const TextureUse& use, const Vec2& uv) {
+  const Vec2 scaled = use.scale * uv;
+  if (use.rotation_rad == 0) return scaled + use.offset;
+  // Counter-clockwise as seen with v pointing down.
+  const float c = std::cos(use.rotation_rad), s = std::sin(use.rotation_rad);
+  return Vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y) + use.offset;
+}
+
+Vec4 look_up(const Scene& scene, const TextureUse& use, const Vec2& uv0, const Vec2& uv1) {
+  if (!use.used()) return Vec4(1);
+  return scene.texture[static_cast<std::size_t>(use.texture)].at(transformed(use, use.set == 0 ? uv0 : uv1));
+}
+
+Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, float u, float v) {
+  const std::vector<Vec2>& uv = set == 0 ? scene.uv0 : scene.uv1;
+  if (uv.empty()) return Vec2(0);
+  const auto& corner = scene.triangle[triangle].v;
+  return (1 - u - v) * uv[corner[0]] + u * uv[corner[1]] + v * uv[corner[2]];
+}
+
+Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
+  const Material& material = scene.material_of(triangle);
+  if (!material.emissive.used()) return material.emission;
+  const Vec2 uv = texture_coordinates(scene, triangle, material.emissive.set, u, v);
+  return material.emission * Rgb(look_up(scene, material.emissive, uv, uv));
+}
+
+}  // namespace phos

@@ -1,0 +1,21 @@
+// Looking textures up where a surface uses them.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace phos {
+
+/// Texture coordinates after KHR_texture_transform (scale, then rotation, then offset).
+Vec2 transformed(const TextureUse& use, const Vec2& uv);
+
+/// The texture at texture coordinates of its own set; (1,1,1,1) where the use names no texture.
+Vec4 look_up(const Scene& scene, const TextureUse& use, const Vec2& uv0, const Vec2& uv1);
+
+/// Texture coordinates of a point of a triangle, `set` 0 or 1; (0,0) where the scene has none. `u` and `v`
+/// are the barycentric weights of the second and third vertex.
+Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, float u, float v);
+
+/// Luminance leaving the shining side of a triangle at a point of it, cd/m2, emissive texture included.
+Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v);
+
+}  // namespace phos
