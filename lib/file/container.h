@@ -23,14 +23,38 @@ const char* dtype_name(Dtype);  ///< "U8", "F32", ... as safetensors writes them
 
 template <class T>
 constexpr Dtype dtype_of();
-template <> constexpr Dtype dtype_of<std::uint8_t>() { return Dtype::u8; }
-template <> constexpr Dtype dtype_of<std::uint16_t>() { return Dtype::u16; }
-template <> constexpr Dtype dtype_of<std::int32_t>() { return Dtype::i32; }
-template <> constexpr Dtype dtype_of<std::uint32_t>() { return Dtype::u32; }
-template <> constexpr Dtype dtype_of<std::int64_t>() { return Dtype::i64; }
-template <> constexpr Dtype dtype_of<std::uint64_t>() { return Dtype::u64; }
-template <> constexpr Dtype dtype_of<float>() { return Dtype::f32; }
-template <> constexpr Dtype dtype_of<double>() { return Dtype::f64; }
+template <>
+constexpr Dtype dtype_of<std::uint8_t>() {
+  return Dtype::u8;
+}
+template <>
+constexpr Dtype dtype_of<std::uint16_t>() {
+  return Dtype::u16;
+}
+template <>
+constexpr Dtype dtype_of<std::int32_t>() {
+  return Dtype::i32;
+}
+template <>
+constexpr Dtype dtype_of<std::uint32_t>() {
+  return Dtype::u32;
+}
+template <>
+constexpr Dtype dtype_of<std::int64_t>() {
+  return Dtype::i64;
+}
+template <>
+constexpr Dtype dtype_of<std::uint64_t>() {
+  return Dtype::u64;
+}
+template <>
+constexpr Dtype dtype_of<float>() {
+  return Dtype::f32;
+}
+template <>
+constexpr Dtype dtype_of<double>() {
+  return Dtype::f64;
+}
 
 using Shape = std::vector<std::uint64_t>;
 
@@ -44,26 +68,42 @@ struct Tensor {
 
 /// What a file says about how it was made (the __metadata__ of DESIGN). Nothing volatile.
 struct Provenance {
-  std::string kind;     ///< "photons", "irradiance", ...
-  int version = 1;      ///< of the kind's layout
-  std::string tool;     ///< "phos-photons 0.1.0"
-  std::string command;  ///< rebuilt from the resolved parameters
-  Json parameters;      ///< object
+  std::string kind;   ///< "photons", "irradiance", ...
+  int version = 1;    ///< of the kind's layout
+  std::string tool;   ///< "phos-photons 0.1.0"
+  int algorithm = 0;  ///< of the tool: raised when the same command would give other numbers; 0 = not stated
+  std::string command;                        ///< rebuilt from the resolved parameters
+  Json parameters;                            ///< object
   std::map<std::string, std::string> inputs;  ///< role ("scene", "photons") -> content hash
   std::string scene_hash;
   Json scene_parts;  ///< what the scene hash is made of, so that a mismatch can be named (see scene/scene.h)
   Json history = Json::Array{};  ///< the provenance of each earlier stage, oldest first
-  std::string key;   ///< what --reuse compares
-  Json extra;        ///< kind-specific scalars (object): totals, bounds, shard, ...
+  std::string key;               ///< what --reuse compares
+  Json extra;                    ///< kind-specific scalars (object): totals, bounds, shard, ...
   Counters counters;
 };
 
-/// An open file, memory-mapped. Reading never trusts the file: sizes, offsets, overlaps and dtypes are checked on
-/// open; checksums by verify(). Copies share the mapping.
+/// Provenance as text by name (the header of a container, the attributes of an EXR image): strings as they
+/// are, the rest as JSON text. Empty values have no entry.
+using Metadata = std::map<std::string, std::string>;
+Metadata to_metadata(const Provenance& provenance);
+/// Throws Error(bad_input) for an entry of another type.
+Provenance from_metadata(const Metadata& metadata, const std::string& where);
+/// What a later stage keeps of this one in its history.
+Json history_entry(const Provenance& provenance);
+
+/// The layout version of a kind that this library reads and writes.
+inline constexpr int kLayoutVersion = 1;
+
+/// Is this a phos file (by its content; false for a missing or unreadable one)?
+bool is_container(const std::string& path);
+
+/// An open file, memory-mapped. Reading never trusts the file: sizes, offsets, overlaps and dtypes are
+/// checked on open; checksums by verify(). Copies share the mapping.
 class Container {
  public:
-  /// Throws Error(bad_input) naming what is wrong: missing, not a phos file, truncated, damaged, another major version.
-  /// If `kind` is not empty, another kind is an error that names both.
+  /// Throws Error(bad_input) naming what is wrong: missing, not a phos file, truncated, damaged, another
+  /// major version. If `kind` is not empty, another kind is an error that names both.
   static Container open(const std::string& path, const std::string& kind = "");
 
   const std::string& path() const;
@@ -71,8 +111,8 @@ class Container {
   bool has(const std::string& tensor) const;
   const std::map<std::string, Tensor>& tensors() const;
 
-  /// The tensor's values, in place. Throws Error(bad_input) if it is absent, of another dtype, or its shape does not
-  /// match `shape` (0 = any extent). Alignment is guaranteed.
+  /// The tensor's values, in place. Throws Error(bad_input) if it is absent, of another dtype, or its shape
+  /// does not match `shape` (0 = any extent). Alignment is guaranteed.
   template <class T>
   std::span<const T> values(const std::string& name, const Shape& shape) const {
     const Tensor& t = require(name, dtype_of<T>(), shape);

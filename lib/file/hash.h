@@ -18,9 +18,11 @@ struct Hash128 {
 };
 
 Hash128 hash_bytes(std::span<const std::byte> bytes);
-inline Hash128 hash_text(std::string_view s) { return hash_bytes(std::as_bytes(std::span(s.data(), s.size()))); }
-/// Of a file's contents. A phos container is identified by its header alone (which holds the checksums of its data), so
-/// that this takes milliseconds. Throws Error(bad_input).
+inline Hash128 hash_text(std::string_view s) {
+  return hash_bytes(std::as_bytes(std::span(s.data(), s.size())));
+}
+/// Of a file's contents. A phos container is identified by its header alone (which holds the checksums of its
+/// data), so that this takes milliseconds. Throws Error(bad_input).
 Hash128 hash_file(const std::string& path);
 
 /// Hash of a sequence of values, for composing keys. Floats hash by their bits (-0 as 0).
@@ -34,7 +36,7 @@ class Hasher {
   void add(std::string_view s);
   void add(float v);
   template <class T>
-    requires std::is_integral_v<T> || std::is_enum_v<T>
+  requires std::is_integral_v<T> || std::is_enum_v<T>
   void add(T v) {
     const auto wide = static_cast<std::int64_t>(v);
     add_bytes(&wide, sizeof wide);

@@ -38,8 +38,8 @@ class Tool {
 
   Options& options() { return options_; }
 
-  /// Adds the common options (--threads --seed -o --stats --progress --quiet --verbose --reuse --why ...), parses, calls
-  /// body, writes --stats, and turns every exception into one line on stderr and an exit code.
+  /// Adds the common options (--threads --seed -o --stats --progress --quiet --verbose --reuse --why ...),
+  /// parses, calls body, writes --stats, and turns every exception into one line on stderr and an exit code.
   int run(int argc, const char* const* argv, const std::function<void()>& body);
 
   /// A command that worked but whose answer is "no" (phos-compare above a limit) ends with this code.
@@ -49,17 +49,19 @@ class Tool {
   const std::string& output() const { return output_; }
   bool verbose() const { return verbose_; }
 
-  /// Registers an input by content hash (of several files together where one input is many). A phos container's own
-  /// history is appended to ours.
+  /// Registers an input by content hash (of several files together where one input is many). A phos
+  /// container's own history is appended to ours.
   void add_input(const std::string& role, const std::string& path);
   void add_input(const std::string& role, const std::vector<std::string>& paths);
 
-  /// With --reuse: true if the output already holds what this command would make (then says so, and the caller returns).
-  /// With --why: prints what differs to stdout. Call after every add_input and before the work.
+  /// With --reuse: true if the output already holds what this command would make (then says so, and the
+  /// caller returns). With --why: prints what differs to stdout. Call after every add_input and before the
+  /// work.
   bool up_to_date();
 
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
-  Provenance provenance(const std::string& kind, const std::string& scene_hash, const Json& scene_parts) const;
+  Provenance provenance(const std::string& kind, const std::string& scene_hash,
+                        const Json& scene_parts) const;
 
   Counters& counters() { return counters_; }
   /// A line for people on stderr, unless --quiet.

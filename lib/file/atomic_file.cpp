@@ -1,0 +1,147 @@
+#include "file/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <memory>
+
+#include "core/error.h"
+#include "file/mapped_file.h"
+
+namespace phos {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  const char* remedy = "choose another path";
+  if (error == ENOSPC || error == EDQUOT) remedy = "free some space, or choose another path";
+  if (error == ENOENT || error == ENOTDIR) remedy = "make the folder first, or choose another path";
+  throw Error(ExitCode::bad_input, path, "cannot write: " + system_message(error) + "; " + remedy);
+}
+
+/// Folder of a path, with its final '/'; "" is the current one.
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+
+/// The standard streams by name: opening them anew would lose the place a shell redirection left them at.
+int standard_stream(const std::string& path) {
+  if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1") return 1;
+  if (path == "/dev/stderr" || path == "/dev/fd/2" || path == "/proc/self/fd/2") return 2;
+  return -1;
+}
+
+/// Where a symbolic link leads, so that the link stays and its target is replaced.
+std::string without_links(const std::string& path) {
+  struct stat info {};
+  if (::lstat(path.c_str(), &info) != 0 || !S_ISLNK(info.st_mode)) return path;
+  const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
+  return real ? std::string(real.get()) : path;
+}
+
+struct Temporary {
+  int fd;
+  std::string path;
+};
+
+/// An empty new file beside `path`. The name is short, so that it is legal wherever `path` is.
+Temporary make_temporary(const std::string& path) {
+  static std::atomic<unsigned> number{0};
+  for (;;) {
+    std::string name = text(folder_of(path), ".phos-", ::getpid(), "-", number++, ".tmp");
+    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0) return {fd, std::move(name)};
+    if (errno != EEXIST && errno != EINTR) fail(path, errno);
+  }
+}
+
+/// True if `path` exists and is to be written in place (a device, a pipe). Throws for a folder or a
+/// write-protected file.
+bool in_place(const std::string& path, mode_t* mode) {
+  struct stat info {};
+  if (path.empty()) throw Error(ExitCode::bad_input, "", "cannot write: the output path is empty");
+  if (::stat(path.c_str(), &info) != 0) {
+    if (errno != ENOENT) fail(path, errno);
+    return false;
+  }
+  if (S_ISDIR(info.st_mode)) fail(path, EISDIR);
+  if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
+  if (mode != nullptr) *mode = info.st_mode & 07777;
+  return !S_ISREG(info.st_mode);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  if (const int stream = standard_stream(path_); stream >= 0) {
+    fd_ = ::fcntl(stream, F_DUPFD_CLOEXEC, 0);
+    if (fd_ < 0) fail(path_, errno);
+    return;
+  }
+  path_ = without_links(path_);
+  mode_t mode = 0;
+  if (in_place(path_, &mode)) {
+    fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd_ < 0) fail(path_, errno);
+    return;
+  }
+  Temporary temporary = make_temporary(path_);
+  fd_ = temporary.fd;
+  temporary_ = std::move(temporary.path);
+  if (mode != 0) static_cast<void>(::fchmod(fd_, mode));  // keep the rights of the file that is replaced
+}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  PHOS_CHECK(fd_ >= 0, path_, " is committed");
+  while (!bytes.empty()) {
+    const std::size_t most = std::min<std::size_t>(bytes.size(), std::size_t{1} << 30);
+    const ssize_t n = ::write(fd_, bytes.data(), most);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path_, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+void AtomicFile::commit() {
+  PHOS_CHECK(fd_ >= 0, path_, " is committed twice");
+  const bool atomic = !temporary_.empty();
+  // Some file systems cannot sync and say so; that is no failure to write.
+  if (atomic && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
+    fail(path_, errno);
+  const int fd = fd_;
+  fd_ = -1;
+  if (::close(fd) != 0 && errno != EINTR) fail(path_, errno);
+  if (!atomic) return;
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+  temporary_.clear();
+  const std::string folder = folder_of(path_);
+  const int folder_fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_fd >= 0) {
+    ::fsync(folder_fd);  // best effort: the name survives a power cut
+    ::close(folder_fd);
+  }
+}
+
+void require_writable(const std::string& path) {
+  if (standard_stream(path) >= 0) return;
+  const std::string real = without_links(path);
+  if (in_place(real, nullptr)) return;
+  const Temporary temporary = make_temporary(real);
+  ::close(temporary.fd);
+  ::unlink(temporary.path.c_str());
+}
+
+std::string read_text(const std::string& path) {
+  const MappedFile file(path);
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+}
+
+}  // namespace phos

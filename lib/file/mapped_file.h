@@ -1,0 +1,35 @@
+// A file's bytes in memory, without trusting what kind of file it is.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace phos {
+
+/// Read-only bytes of a file: mapped, or read into memory where it cannot be mapped (a pipe). Aligned to 64
+/// bytes.
+class MappedFile {
+ public:
+  /// Throws Error(bad_input): missing, a folder, unreadable.
+  explicit MappedFile(const std::string& path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  struct alignas(64) Block {
+    std::byte bytes[64];
+  };
+  void read_all(int fd, const std::string& path);
+  std::span<const std::byte> bytes_;
+  std::unique_ptr<Block[]> copy_;
+  void* mapping_ = nullptr;
+};
+
+/// "No space left on device" and so on for an errno.
+std::string system_message(int error);
+
+}  // namespace phos

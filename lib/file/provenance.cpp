@@ -1,0 +1,200 @@
+#include <charconv>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "file/container.h"
+#include "file/json_parse.h"
+
+namespace phos {
+
+namespace {
+
+constexpr const char* kFormatPrefix = "phos/";
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+/// Length of the well-formed UTF-8 character at s[i], 0 if there is none (RFC 3629).
+std::size_t utf8_length(const std::string& s, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
+  const unsigned char lead = byte(i);
+  if (lead < 0x80) return 1;
+  const std::size_t n = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || i + n > s.size()) return 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if (!is_continuation(s[i + k])) return 0;
+  const unsigned char second = byte(i + 1);
+  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
+                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
+  return wrong ? 0 : n;
+}
+
+/// Names from scenes may be in any encoding, but JSON is UTF-8: stray bytes become U+FFFD.
+std::string valid_utf8(const std::string& s) {
+  std::string out;
+  for (std::size_t i = 0; i < s.size();) {
+    const std::size_t n = utf8_length(s, i);
+    if (n == 0) {
+      out += "\xef\xbf\xbd", ++i;
+    } else {
+      out.append(s, i, n), i += n;
+    }
+  }
+  return out;
+}
+
+void put(Metadata& metadata, const std::string& name, const std::string& value) {
+  if (!value.empty()) metadata[name] = valid_utf8(value);
+}
+
+void put(Metadata& metadata, const std::string& name, const Json& value) {
+  if (!value.is_null()) metadata[name] = valid_utf8(value.dump());
+}
+
+std::string get(const Metadata& metadata, const std::string& name) {
+  const auto found = metadata.find(name);
+  return found == metadata.end() ? std::string() : found->second;
+}
+
+Json get_json(const Metadata& metadata, const std::string& name, const std::string& where) {
+  const auto found = metadata.find(name);
+  return found == metadata.end() ? Json() : parse_json(found->second, where);
+}
+
+Json counts_of(const Counters& counters) {
+  Json counts(Json::Object{});
+  for (const auto& [event, n] : counters.counts()) counts[event] = n;
+  return counts;
+}
+
+Json inputs_of(const Provenance& p) {
+  Json inputs(Json::Object{});
+  for (const auto& [role, hash] : p.inputs) inputs[role] = hash;
+  return inputs;
+}
+
+std::string format_of(const Provenance& p) { return text(kFormatPrefix, p.kind, '/', p.version); }
+
+/// "phos/photons/1" -> kind and version; false for anything else.
+bool read_format(const std::string& format, Provenance& p) {
+  const std::string prefix = kFormatPrefix;
+  const std::size_t slash = format.rfind('/');
+  if (!format.starts_with(prefix) || slash <= prefix.size()) return false;
+  p.kind = format.substr(prefix.size(), slash - prefix.size());
+  const char* const end = format.data() + format.size();
+  const auto [last, error] = std::from_chars(format.data() + slash + 1, end, p.version);
+  return error == std::errc() && last == end && p.version > 0;
+}
+
+std::string made_by(const Container& file) {
+  const std::string tool = file.provenance().tool;
+  return tool.empty() ? "the stage that made it" : tool.substr(0, tool.find(' '));
+}
+
+/// Which named node differs between the two scenes; "" if none.
+std::string node_change(const Json* then, const Json* now) {
+  if (then == nullptr || now == nullptr || !then->is_object() || !now->is_object()) return "";
+  for (const auto& [name, hash] : then->as_object()) {
+    const Json* present = now->find(name);
+    if (present == nullptr) return "node \"" + name + "\" is gone";
+    if (!(*present == hash)) return "node \"" + name + "\" moved";
+  }
+  for (const auto& [name, hash] : now->as_object())
+    if (then->find(name) == nullptr) return "node \"" + name + "\" is new";
+  return "";
+}
+
+std::string scene_change(const Json& then, const Json& now) {
+  const Json *time_then = then.find("time"), *time_now = now.find("time");
+  if (time_then != nullptr && time_now != nullptr && time_then->is_number() && time_now->is_number() &&
+      time_then->as_number() != time_now->as_number())
+    return text("time ", shortest(time_then->as_number()), " s is now ", shortest(time_now->as_number()),
+                " s");
+  const std::string node = node_change(then.find("nodes"), now.find("nodes"));
+  if (!node.empty()) return node;
+  for (const char* part : {"geometry", "materials", "lights"}) {
+    const Json *a = then.find(part), *b = now.find(part);
+    if (a != nullptr && b != nullptr && !(*a == *b)) return text(part, " changed");
+  }
+  return "";
+}
+
+}  // namespace
+
+Metadata to_metadata(const Provenance& p) {
+  Metadata m;
+  put(m, "format", format_of(p));
+  put(m, "tool", p.tool);
+  if (p.algorithm != 0) m["algorithm"] = std::to_string(p.algorithm);
+  put(m, "command", p.command);
+  put(m, "parameters", p.parameters);
+  m["inputs"] = valid_utf8(inputs_of(p).dump());
+  put(m, "scene", p.scene_hash);
+  put(m, "scene_parts", p.scene_parts);
+  put(m, "history", p.history);
+  put(m, "key", p.key);
+  put(m, "extra", p.extra);
+  m["counters"] = valid_utf8(counts_of(p.counters).dump());
+  return m;
+}
+
+Provenance from_metadata(const Metadata& m, const std::string& where) {
+  Provenance p;
+  if (!read_format(get(m, "format"), p))
+    throw Error(ExitCode::bad_input, where, "is not a phos file (its metadata have no \"format\" of phos)");
+  try {
+    p.tool = get(m, "tool");
+    const Json algorithm = get_json(m, "algorithm", where);
+    if (!algorithm.is_null()) p.algorithm = static_cast<int>(algorithm.as_integer());
+    p.command = get(m, "command");
+    p.parameters = get_json(m, "parameters", where);
+    const Json inputs = get_json(m, "inputs", where);
+    if (!inputs.is_null())
+      for (const auto& [role, hash] : inputs.as_object()) p.inputs[role] = hash.as_string();
+    p.scene_hash = get(m, "scene");
+    p.scene_parts = get_json(m, "scene_parts", where);
+    const Json history = get_json(m, "history", where);
+    if (!history.is_null()) p.history = Json(history.as_array());
+    p.key = get(m, "key");
+    p.extra = get_json(m, "extra", where);
+    const Json counters = get_json(m, "counters", where);
+    if (!counters.is_null())
+      for (const auto& [event, n] : counters.as_object()) {
+        if (n.as_integer() < 0) throw std::runtime_error("a count below 0");
+        p.counters.count(event, static_cast<std::uint64_t>(n.as_integer()));
+      }
+  } catch (const Error& e) {
+    throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());
+  } catch (const std::runtime_error& e) {
+    throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());
+  }
+  return p;
+}
+
+Json history_entry(const Provenance& p) {
+  Json entry(Json::Object{});
+  entry["format"] = format_of(p);
+  entry["tool"] = p.tool;
+  if (p.algorithm != 0) entry["algorithm"] = p.algorithm;
+  entry["command"] = p.command;
+  entry["parameters"] = p.parameters;
+  entry["inputs"] = inputs_of(p);
+  if (!p.scene_hash.empty()) entry["scene"] = p.scene_hash;
+  entry["key"] = p.key;
+  entry["counters"] = counts_of(p.counters);
+  return entry;
+}
+
+void require_same_scene(const Container& file, const std::string& scene_path, const std::string& scene_hash,
+                        const Json& scene_parts) {
+  const Provenance& p = file.provenance();
+  if (p.scene_hash == scene_hash) return;
+  const std::string remedy = text("; rerun ", made_by(file), ", or pass --allow-mismatch");
+  if (p.scene_hash.empty())
+    throw Error(ExitCode::mismatch, file.path(), "does not say which scene it was made from" + remedy);
+  const std::string change = scene_change(p.scene_parts, scene_parts);
+  throw Error(ExitCode::mismatch, file.path(),
+              text("made from another scene (", scene_path, " has changed since", change.empty() ? "" : ": ",
+                   change, ")", remedy));
+}
+
+}  // namespace phos
