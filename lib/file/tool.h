@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,15 @@ class Tool {
   /// work.
   bool up_to_date();
 
+  /// For outputs that are no phos container (an EXR image): reads the key that was stored in `path`, nothing
+  /// if there is none. May throw Error(bad_input), which counts as none.
+  using KeyReader = std::function<std::optional<std::string>(const std::string& path)>;
+  void set_key_reader(KeyReader reader) { key_reader_ = std::move(reader); }
+
+  /// What tells this output from others of the same command, though it is no parameter ("shard 1/4"): the key
+  /// becomes "key:variant". Call before up_to_date() and provenance().
+  void set_variant(const std::string& variant) { variant_ = variant; }
+
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
   Provenance provenance(const std::string& kind, const std::string& scene_hash,
                         const Json& scene_parts) const;
@@ -88,12 +99,19 @@ class Tool {
   Timer time(const std::string& name) { return Timer(*this, name); }
 
  private:
+  void declare_common();
+  void begin();
+  void write_stats(double seconds) const;
   std::string key() const;
+  bool explain() const;
+  std::string name_;
   Options options_;
   int algorithm_;
   Output wants_output_;
   std::int64_t threads_ = 0, seed_ = 0;
-  std::string output_, stats_path_;
+  std::string output_, stats_path_, variant_;
+  std::string asked_key_;  ///< the key when up_to_date() was called: before automatic values were filled in
+  KeyReader key_reader_;
   bool quiet_ = false, verbose_ = false, reuse_ = false, why_ = false;
   ProgressMode progress_ = ProgressMode::automatic;
   ExitCode exit_ = ExitCode::done;

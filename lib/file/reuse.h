@@ -1,0 +1,15 @@
+// Why an existing output is not what a command would make.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/container.h"
+
+namespace phos {
+
+/// One line per difference between how `then` was made and how `now` would be: algorithm, parameters, inputs.
+/// A parameter that is null now is found while working, so it is not compared.
+std::vector<std::string> differences(const Provenance& then, const Provenance& now);
+
+}  // namespace phos

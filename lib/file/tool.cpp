@@ -1,0 +1,262 @@
+#include "file/tool.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "core/interrupt.h"
+#include "core/parallel.h"
+#include "file/atomic_file.h"
+#include "file/hash.h"
+#include "file/reuse.h"
+
+namespace phos {
+
+namespace {
+
+std::string one_line(std::string s) {
+  for (char& c : s)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return s;
+}
+
+void print_line(const std::string& line) {
+  const std::string whole = one_line(line) + '\n';  // one call, so that lines of several programs do not mix
+  std::fwrite(whole.data(), 1, whole.size(), stderr);
+}
+
+int report(const std::string& tool, const std::string& where, const std::string& message, ExitCode code) {
+  std::cout.flush();
+  std::fflush(stdout);
+  print_line(where.empty() ? text(tool, ": ", message) : text(tool, ": ", where, ": ", message));
+  return static_cast<int>(code);
+}
+
+/// Makes a full disk behind a redirected stdout an error.
+void finish_stdout() {
+  std::cout.flush();
+  if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error(ExitCode::bad_input, "standard output",
+                "cannot write; free some space, or redirect it elsewhere");
+}
+
+/// A file opened while 0, 1 or 2 is closed would take that number, and messages would be written into it.
+void occupy_standard_streams() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (::fcntl(fd, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDWR));
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Tool::Tool(const std::string& name, const std::string& summary, const std::string& description, int algorithm,
+           Output output)
+    : name_(name),
+      options_(name, summary, description),
+      algorithm_(algorithm),
+      wants_output_(output),
+      stats_(Json::Object{}) {}
+
+void Tool::declare_common() {
+  options_.section("Common options");
+  if (wants_output_ != Output::none)
+    options_.file("output,o", output_, "where the result goes; it appears whole or not at all",
+                  wants_output_ == Output::required);
+  options_.integer("threads", threads_, "N",
+                   "threads to use; 0 is all cores (the result does not depend on it)", {0, 4096, false},
+                   Recorded::no);
+  options_.integer("seed", seed_, "N", "seed of the random numbers", kNotNegative);
+  options_.file("stats", stats_path_, "write times, counts and memory to this file (JSON)");
+  options_.choice<ProgressMode>("progress", progress_,
+                                {{"auto", ProgressMode::automatic},
+                                 {"always", ProgressMode::always},
+                                 {"never", ProgressMode::never},
+                                 {"json", ProgressMode::json}},
+                                "progress on standard error", Recorded::no);
+  options_.flag("quiet", quiet_, "no messages but warnings and errors", Recorded::no);
+  options_.flag("verbose", verbose_, "more messages", Recorded::no);
+  if (wants_output_ == Output::none) return;
+  options_.flag("reuse", reuse_, "do nothing if the output already holds exactly this result", Recorded::no);
+  options_.flag("why", why_, "print what differs from the existing output, and do nothing else",
+                Recorded::no);
+}
+
+void Tool::begin() {
+  const bool silent = quiet_ && progress_ == ProgressMode::automatic;
+  set_progress_mode(silent ? ProgressMode::never : progress_);
+  set_threads(static_cast<int>(threads_));
+  install_interrupt_handler();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  if (!stats_path_.empty()) require_writable(stats_path_);
+  if (!output_.empty() && !why_) require_writable(output_);
+}
+
+int Tool::run(int argc, const char* const* argv, const std::function<void()>& body) {
+  const auto start = std::chrono::steady_clock::now();
+  occupy_standard_streams();
+  try {
+    declare_common();
+    if (options_.parse(argc, argv)) {
+      begin();
+      body();
+      if (!stats_path_.empty()) write_stats(seconds_since(start));
+    }
+    finish_stdout();
+    return static_cast<int>(exit_);
+  } catch (const Error& e) {
+    return report(name_, e.where(), e.what(), e.code());
+  } catch (const std::bad_alloc&) {
+    const std::uint64_t mebibytes = peak_memory_bytes() >> 20;
+    return report(name_, "",
+                  text("out of memory (", mebibytes, " MiB in use); ask for less, or use a larger machine"),
+                  ExitCode::bad_input);
+  } catch (const std::exception& e) {
+    return report(name_, "", text("internal error: ", e.what(), "; please report it with the command"),
+                  ExitCode::bad_input);
+  }
+}
+
+void Tool::add_input(const std::string& role, const std::string& path) {
+  add_input(role, std::vector<std::string>{path});
+}
+
+void Tool::add_input(const std::string& role, const std::vector<std::string>& paths) {
+  PHOS_CHECK(!paths.empty(), role);
+  std::string unique = role;
+  for (int n = 2; inputs_.contains(unique); ++n) unique = text(role, '.', n);
+  std::string& hash = inputs_[unique];
+  Hasher together;
+  for (const std::string& path : paths) {
+    hash = hash_file(path).hex();
+    together.add(hash);
+    if (!is_container(path)) continue;
+    const Provenance p = Container::open(path).provenance();
+    Json::Array stages = p.history.as_array();
+    stages.push_back(history_entry(p));
+    const Json::Array& known = history_.as_array();
+    for (const Json& stage : stages)
+      if (std::find(known.begin(), known.end(), stage) == known.end()) history_.push_back(stage);
+  }
+  if (paths.size() > 1) hash = together.finish().hex();
+}
+
+std::string Tool::key() const {
+  if (!asked_key_.empty()) return asked_key_;
+  Hasher hasher;
+  hasher.add(name_);
+  hasher.add(algorithm_);
+  hasher.add(options_.recorded().dump());
+  for (const auto& [role, hash] : inputs_) {
+    hasher.add(role);
+    hasher.add(hash);
+  }
+  const std::string hex = hasher.finish().hex();
+  return variant_.empty() ? hex : hex + ':' + variant_;
+}
+
+bool Tool::up_to_date() {
+  asked_key_ = key();
+  if (output_.empty() || (!reuse_ && !why_)) return false;
+  if (why_) return explain();
+  std::optional<std::string> existing;
+  try {
+    if (is_container(output_)) {
+      existing = Container::open(output_).provenance().key;
+    } else if (key_reader_ && ::access(output_.c_str(), R_OK) == 0) {
+      existing = key_reader_(output_);
+    }
+  } catch (const Error&) {
+    return false;  // damaged or of another version: it is made anew
+  }
+  if (existing != asked_key_) return false;
+  say(output_ + ": up to date");
+  return true;
+}
+
+bool Tool::explain() const {
+  std::vector<std::string> lines;
+  try {
+    if (::access(output_.c_str(), F_OK) != 0) {
+      lines.push_back("not there");
+    } else if (key_reader_ && !is_container(output_)) {
+      const std::optional<std::string> existing = key_reader_(output_);
+      if (!existing) lines.push_back("does not say how it was made");
+      if (existing && *existing != asked_key_)
+        lines.push_back("made with other parameters or from other inputs");
+    } else {
+      const Provenance then = Container::open(output_).provenance();
+      if (then.key != asked_key_) lines = differences(then, provenance(then.kind, "", {}));
+      if (then.key != asked_key_ && lines.empty())
+        lines.push_back(
+            text("key: ", then.key, " -> ", asked_key_, " (another shard, or an automatic parameter)"));
+    }
+  } catch (const Error& e) {
+    lines.push_back(e.what());
+  }
+  for (const std::string& line : lines) std::cout << output_ << ": " << line << '\n';
+  if (lines.empty()) std::cout << output_ << ": nothing differs\n";
+  return true;
+}
+
+Provenance Tool::provenance(const std::string& kind, const std::string& scene_hash,
+                            const Json& scene_parts) const {
+  Provenance p;
+  p.kind = kind;
+  p.tool = text(name_, ' ', phos::version());
+  p.algorithm = algorithm_;
+  p.command = options_.command();
+  p.parameters = options_.recorded();
+  p.inputs = inputs_;
+  p.scene_hash = scene_hash;
+  p.scene_parts = scene_parts;
+  p.history = history_;
+  p.key = key();
+  p.counters = counters_;
+  return p;
+}
+
+void Tool::say(const std::string& line) const {
+  if (!quiet_) print_line(text(name_, ": ", line));
+}
+
+void Tool::warn(const std::string& line) const { print_line(text(name_, ": warning: ", line)); }
+
+void Tool::write_stats(double seconds) const {
+  Json out = stats_;
+  out["tool"] = text(name_, ' ', phos::version());
+  out["command"] = options_.command();
+  out["exit_code"] = static_cast<int>(exit_);
+  out["threads"] = thread_count();
+  out["seconds.total"] = seconds;
+  out["peak_memory_bytes"] = peak_memory_bytes();
+  Json counters(Json::Object{});
+  for (const auto& [event, n] : counters_.counts()) counters[event] = n;
+  out["counters"] = counters;
+  AtomicFile file(stats_path_);
+  file.write(out.dump(2) + "\n");
+  file.commit();
+}
+
+Tool::Timer::Timer(Tool& tool, std::string name)
+    : tool_(tool), name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
+
+Tool::Timer::~Timer() { tool_.stat("seconds." + name_, seconds()); }
+
+double Tool::Timer::seconds() const { return seconds_since(start_); }
+
+}  // namespace phos
