@@ -49,14 +49,6 @@ struct Reader {
 
 }  // namespace
 
-FluxSum FluxSum::of(const Rgb& flux_lm, int exponent) {
-  FluxSum result;
-  for (int c = 0; c < 3; ++c)
-    result.units[static_cast<std::size_t>(c)] =
-        std::llround(std::ldexp(static_cast<double>(flux_lm[c]), -exponent));
-  return result;
-}
-
 Rgb FluxSum::lm(int exponent) const {
   Rgb result;
   for (int c = 0; c < 3; ++c)

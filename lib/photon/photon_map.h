@@ -47,8 +47,13 @@ struct FluxSum {
     for (std::size_t c = 0; c < 3; ++c) units[c] -= o.units[c];
     return *this;
   }
-  /// Nearest whole number of units. `flux` must be finite and below 2^63 units.
-  static FluxSum of(const Rgb& flux_lm, int exponent);
+  /// Nearest whole number of units, of which there are `units_per_lm` = 2^-exponent. `flux` must be finite.
+  static FluxSum of(const Rgb& flux_lm, double units_per_lm) {
+    const auto units = [&](float v) {
+      return std::int64_t{std::lrint(static_cast<double>(v) * units_per_lm)};
+    };
+    return {{units(flux_lm.x), units(flux_lm.y), units(flux_lm.z)}};
+  }
   Rgb lm(int exponent) const;
 };
 

@@ -1,0 +1,166 @@
+#include "photon/emission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/sampling.h"
+
+namespace phos {
+namespace {
+
+constexpr std::uint64_t kLastTick = std::numeric_limits<std::uint64_t>::max();
+constexpr int kFluxBits = 46;
+
+std::uint64_t reversed_bits(std::uint64_t v) {
+  v = (v & 0x5555555555555555u) << 1 | (v >> 1 & 0x5555555555555555u);
+  v = (v & 0x3333333333333333u) << 2 | (v >> 2 & 0x3333333333333333u);
+  v = (v & 0x0f0f0f0f0f0f0f0fu) << 4 | (v >> 4 & 0x0f0f0f0f0f0f0f0fu);
+  return __builtin_bswap64(v);
+}
+
+// The intensity is 1 in the cap and rises to it through the ring.
+struct Cone {
+  double cap, ring, outer, rise;
+};
+
+Cone cone(float cos_inner, float cos_outer) {
+  const double outer = cos_outer, inner = std::max(outer, static_cast<double>(cos_inner));
+  return {1 - inner, (inner - outer) / 3, outer, inner - outer};
+}
+
+}  // namespace
+
+double spot_solid_angle_sr(float cos_inner, float cos_outer) {
+  const Cone c = cone(cos_inner, cos_outer);
+  return 2 * std::numbers::pi * (c.cap + c.ring);
+}
+
+float sample_spot_cosine(float cos_inner, float cos_outer, float u) {
+  const Cone c = cone(cos_inner, cos_outer);
+  const double x = static_cast<double>(u) * (c.cap + c.ring);
+  const double cosine = x < c.cap ? 1 - x : c.outer + c.rise * std::cbrt((x - c.cap) / c.ring);
+  return static_cast<float>(std::clamp(cosine, -1.0, 1.0));
+}
+
+Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed)
+    : scene_(&scene), luminaires_(scene), paths_(paths), bounding_radius_m_(bounding_radius_m(scene)) {
+  if (luminaires_.size() == 0)
+    throw Error(
+        ExitCode::bad_input, scene.path,
+        "no light: the scene has no lamp and no emissive material; add one (phos-scene shows what it has)");
+  share_ = luminaires_.power_shares(minimum_share);
+  Rgb total(0);
+  double shares = 0;
+  for (std::size_t i = 0; i < share_.size(); ++i) {
+    const Rgb flux = luminaires_[i].flux_lm;
+    if (!(max_component(flux) > 0)) share_[i] = 0;
+    total += flux;
+    shares += share_[i];
+  }
+  if (!(shares > 0) || !is_finite(total))
+    throw Error(ExitCode::bad_input, scene.path,
+                text("no light: the ", share_.size(), " lights of the scene emit ", max_component(total),
+                     " lm; give them a finite power above 0"));
+  double sum = 0;
+  for (double& share : share_) {
+    share /= shares;
+    sum += share;
+    last_.push_back(sum >= 1 ? kLastTick : static_cast<std::uint64_t>(std::ldexp(sum, 64)));
+  }
+  // Rounding must not leave the last ticks to nobody, nor give them to a dark light.
+  std::size_t last = share_.size() - 1;
+  while (share_[last] == 0) --last;
+  std::fill(last_.begin() + static_cast<std::ptrdiff_t>(last), last_.end(), kLastTick);
+  flux_exponent_ = std::ilogb(max_component(total)) + 1 - kFluxBits;
+  RandomStream random(seed, Stage::emission, 0);
+  random.start_bounce(0);
+  rotation_ = static_cast<std::uint64_t>(random.bits()) << 32;
+  rotation_ |= random.bits();
+}
+
+std::size_t Emitter::light_of(std::uint64_t path) const {
+  const std::uint64_t tick = reversed_bits(path) + rotation_;
+  return static_cast<std::size_t>(std::lower_bound(last_.begin(), last_.end(), tick) - last_.begin());
+}
+
+EmittedPhoton Emitter::emit(std::uint64_t path, RandomStream& random) const {
+  const std::size_t i = light_of(path);
+  const Light& light = luminaires_[i];
+  EmittedPhoton photon;
+  switch (light.kind) {
+    case Light::Kind::area:
+      photon = from_area(i, random);
+      break;
+    case Light::Kind::point:
+      photon = from_point(light, random);
+      break;
+    case Light::Kind::spot:
+      photon = from_spot(light, random);
+      break;
+    case Light::Kind::directional:
+      photon = from_infinity(light, random);
+      break;
+  }
+  photon.flux_lm *= static_cast<float>(1 / (share_[i] * static_cast<double>(paths_)));
+  return photon;
+}
+
+EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
+  const float u_triangle = random.uniform();
+  const Vec2 u = random.uniform2();
+  const Vec2 u_direction = random.uniform2();
+  const EmissionPoint point = luminaires_.sample_point(i, u_triangle, u);
+  EmittedPhoton photon;
+  if (!(point.density > 0)) return photon;
+  const bool both_sides = scene_->material_of(point.triangle).double_sided;
+  const bool back = both_sides && random.uniform() < 0.5f;
+  photon.source_normal = back ? -point.normal : point.normal;
+  photon.ray.direction = make_frame(photon.source_normal).to_world(sample_cosine_hemisphere(u_direction));
+  photon.ray.origin = point.position + point.error_m * photon.source_normal;
+  // Exitance of one side is pi L; the cosine and 1/pi of the direction cancel.
+  photon.flux_lm = (both_sides ? 2 * kPi : kPi) / point.density * point.luminance;
+  return photon;
+}
+
+EmittedPhoton Emitter::from_point(const Light& light, RandomStream& random) const {
+  EmittedPhoton photon;
+  photon.ray.origin = light.position;
+  photon.ray.direction = sample_uniform_sphere(random.uniform2());
+  photon.source_normal = photon.ray.direction;
+  photon.flux_lm = 4 * kPi * light.intensity;
+  return photon;
+}
+
+EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const {
+  const Vec2 u = random.uniform2();
+  const float cosine = sample_spot_cosine(light.cos_inner, light.cos_outer, u.x);
+  const float sine = std::sqrt(std::fmax(0.0f, 1 - cosine * cosine)), phi = 2 * kPi * u.y;
+  EmittedPhoton photon;
+  photon.ray.origin = light.position;
+  photon.ray.direction =
+      make_frame(light.direction).to_world(Vec3(sine * std::cos(phi), sine * std::sin(phi), cosine));
+  photon.source_normal = photon.ray.direction;
+  photon.flux_lm =
+      static_cast<float>(spot_solid_angle_sr(light.cos_inner, light.cos_outer)) * light.intensity;
+  return photon;
+}
+
+EmittedPhoton Emitter::from_infinity(const Light& light, RandomStream& random) const {
+  const float radius_m = bounding_radius_m_;
+  const Frame frame = make_frame(light.direction);
+  const Vec2 disc = radius_m * sample_disc(random.uniform2());
+  EmittedPhoton photon;
+  // A thousandth of the radius before the sphere, so that what touches the sphere is not behind the start.
+  photon.ray.origin =
+      scene_->bounds.centre() - 1.001f * radius_m * frame.z + disc.x * frame.x + disc.y * frame.y;
+  photon.ray.direction = light.direction;
+  photon.source_normal = light.direction;
+  photon.from_infinity = true;
+  photon.flux_lm = kPi * radius_m * radius_m * light.intensity;
+  return photon;
+}
+
+}  // namespace phos

@@ -1,0 +1,64 @@
+// Photons leaving the lights.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+struct EmittedPhoton {
+  Ray ray;
+  Rgb flux_lm{0};
+  Vec3 source_normal{
+      0, 0, 1};  ///< geometric, on the side it left; the flight direction where the light has no surface
+  bool from_infinity = false;  ///< directional light
+};
+
+/// Emits path 0 .. paths-1 of a run. What a path starts with depends on its number and the seed alone.
+class Emitter {
+ public:
+  /// Each light gets a share of the paths in proportion to its flux, but at least minimum_share / (number of
+  /// lights). Throws Error(bad_input) if no light shines.
+  Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed);
+
+  /// The light that a path starts from. Lights are dealt by a van der Corput sequence with a random start:
+  /// after any number of paths each light has had its share to within a few paths, so that the choice adds no
+  /// noise.
+  std::size_t light_of(std::uint64_t path) const;
+  /// Probability of a light.
+  double share(std::size_t light) const { return share_[light]; }
+
+  /// Starts a path; draws from `random` (the path's stream at bounce 0). The expected sum over all paths is
+  /// the flux of every light.
+  EmittedPhoton emit(std::uint64_t path, RandomStream& random) const;
+
+  /// Exponent of FluxSum units for this run: total flux is 2^46 units, which leaves room for 2^16 bounces.
+  int flux_exponent() const { return flux_exponent_; }
+
+ private:
+  EmittedPhoton from_area(std::size_t i, RandomStream& random) const;
+  EmittedPhoton from_point(const Light& light, RandomStream& random) const;
+  EmittedPhoton from_spot(const Light& light, RandomStream& random) const;
+  EmittedPhoton from_infinity(const Light& light, RandomStream& random) const;
+
+  const Scene* scene_;
+  Luminaires luminaires_;
+  std::uint64_t paths_, rotation_ = 0;
+  std::vector<double> share_;
+  std::vector<std::uint64_t>
+      last_;  // light i takes the ticks up to and including last_[i], after those of i-1
+  float bounding_radius_m_ = 0;
+  int flux_exponent_ = 0;
+};
+
+/// Spot light of glTF (KHR_lights_punctual): intensity falls from I at cos_inner to 0 at cos_outer as the
+/// square of a linear ramp in the cosine. Solid angle by which I gives the flux, sr.
+double spot_solid_angle_sr(float cos_inner, float cos_outer);
+/// Cosine to the axis with density proportional to the intensity.
+float sample_spot_cosine(float cos_inner, float cos_outer, float u);
+
+}  // namespace phos

@@ -1,0 +1,233 @@
+#include "photon/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/random.h"
+#include "photon/emission.h"
+#include "photon/photon_file.h"
+#include "scene/bsdf.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kPathChunk = 1024;
+// Chunks of a wave wait in memory for each other before they are joined in order.
+constexpr std::uint64_t kPathWave = 256 * kPathChunk;
+constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
+
+/// What one chunk of paths gives.
+struct Part {
+  Photons photons;
+  FluxSum emitted, stored, escaped, absorbed;
+  std::uint64_t escaped_paths = 0, non_finite = 0, too_long = 0;
+  std::vector<Ray> rays;
+};
+
+/// A photon in flight.
+struct Flight {
+  Ray ray;
+  Rgb flux_lm{0};
+  Vec3 source_normal{0, 0, 1};
+  std::uint32_t bounce = 0;
+  bool from_infinity = false;
+  bool specular_only = true;  // since the light
+
+  PhotonPath path() const {
+    if (bounce == 0) return PhotonPath::direct;
+    return specular_only ? PhotonPath::caustic : PhotonPath::indirect;
+  }
+};
+
+bool stores(const Bsdf& bsdf) { return !bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss(); }
+
+void store(Photons& photons, const Flight& flight, const SurfacePoint& point) {
+  photons.position.push_back(point.position);
+  photons.flux.push_back(flight.flux_lm);
+  photons.direction.push_back(encode_octahedral(-flight.ray.direction));
+  photons.normal.push_back(encode_octahedral(point.smooth_normal));
+  photons.distance.push_back(flight.from_infinity ? kInfinity : point.distance_m);
+  photons.source_normal.push_back(encode_octahedral(flight.source_normal));
+  photons.path.push_back(static_cast<std::uint8_t>(flight.path()));
+  photons.bounce.push_back(static_cast<std::uint8_t>(std::min(flight.bounce, 255u)));
+}
+
+class PathTracer {
+ public:
+  PathTracer(const RayScene& rays, const Emitter& emitter, std::uint64_t seed, bool log)
+      : rays_(rays),
+        emitter_(emitter),
+        seed_(seed),
+        log_(log),
+        units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {}
+
+  void trace_path(std::uint64_t path, Part& part) const {
+    RandomStream random(seed_, Stage::photon_path, path);
+    random.start_bounce(0);
+    const EmittedPhoton start = emitter_.emit(path, random);
+    if (!is_finite(start.flux_lm)) {
+      ++part.non_finite;
+      return;
+    }
+    part.emitted += units(start.flux_lm);
+    Flight flight{start.ray, start.flux_lm, start.source_normal, 0, start.from_infinity, true};
+    while (max_component(flight.flux_lm) > 0 && step(flight, random, part)) {
+    }
+  }
+
+ private:
+  FluxSum units(const Rgb& flux_lm) const { return FluxSum::of(flux_lm, units_per_lm_); }
+
+  /// To the next surface and off it again. False: the photon is no more.
+  bool step(Flight& flight, RandomStream& random, Part& part) const {
+    if (log_) part.rays.push_back(flight.ray);
+    SurfacePoint point;
+    if (!trace(rays_, flight.ray, point)) {
+      part.escaped += units(flight.flux_lm);
+      ++part.escaped_paths;
+      return false;
+    }
+    const Bsdf bsdf(rays_.scene(), point);
+    const FluxSum arriving = units(flight.flux_lm);
+    if (stores(bsdf)) {
+      store(part.photons, flight, point);
+      part.stored += arriving;
+    }
+    part.absorbed += arriving;
+    if (!scatter(bsdf, point, flight, random, part)) return false;
+    part.absorbed -= units(flight.flux_lm);
+    return true;
+  }
+
+  /// Samples the material and plays Russian roulette.
+  bool scatter(const Bsdf& bsdf, const SurfacePoint& point, Flight& flight, RandomStream& random,
+               Part& part) const {
+    if (flight.bounce == kMaxBounces) {
+      ++part.too_long;
+      return false;
+    }
+    random.start_bounce(++flight.bounce);
+    const float u_lobe = random.uniform();
+    const Vec2 u = random.uniform2();
+    const Vec3 wo = -flight.ray.direction;
+    BsdfSample sample;
+    if (!bsdf.sample(wo, u_lobe, u, sample, TransportMode::flux)) return false;
+    const Rgb flux = sample.weight * flight.flux_lm;
+    if (!is_finite(flux)) {
+      ++part.non_finite;
+      return false;
+    }
+    const float survival = std::fmin(1.0f, max_component(flux) / max_component(flight.flux_lm));
+    if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return false;
+    flight.flux_lm = flux / survival;
+    flight.ray = Ray{point.leave(sample.direction), sample.direction};
+    flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
+                                                                                   : -point.geometric_normal;
+    flight.from_infinity = false;
+    flight.specular_only = flight.specular_only && sample.specular;
+    return true;
+  }
+
+  const RayScene& rays_;
+  const Emitter& emitter_;
+  std::uint64_t seed_;
+  bool log_;
+  double units_per_lm_;
+};
+
+void reserve(Photons& p, std::size_t rows) {
+  p.position.reserve(rows), p.flux.reserve(rows), p.direction.reserve(rows), p.normal.reserve(rows);
+  p.distance.reserve(rows), p.source_normal.reserve(rows), p.path.reserve(rows), p.bounce.reserve(rows);
+}
+
+void join(Part& part, Photons& photons, PhotonTotals& totals, Counters& counters, std::vector<Ray>* log) {
+  totals.stored += part.photons.size();
+  totals.emitted_sum += part.emitted, totals.stored_sum += part.stored;
+  totals.escaped_sum += part.escaped, totals.absorbed_sum += part.absorbed;
+  const auto count = [&](const char* event, std::uint64_t times) {
+    if (times > 0) counters.count(event, times);
+  };
+  count(kEscapedEvent, part.escaped_paths);
+  count(kNonFiniteEvent, part.non_finite), count(kTooLongEvent, part.too_long);
+  append(photons, std::move(part.photons));
+  if (log) log->insert(log->end(), part.rays.begin(), part.rays.end());
+  part = Part();
+}
+
+}  // namespace
+
+void declare_options(Options& options, PhotonOptions& p) {
+  options.section("Photons");
+  options.integer(
+      "photons", p.paths, "N",
+      "paths emitted from the lights; each stores a photon on every surface it reaches that is not purely "
+      "mirror or glass (both numbers are printed)",
+      {0, 0x1p40});
+  options.number(
+      "minimum-share", p.minimum_share, "SHARE",
+      "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
+      "0 is by power alone, 1 is equal shares",
+      {0, 1});
+  options.text("isa", p.isa, "NAME",
+               "instruction set of the ray tracer: sse2 gives the same bytes on every x86 machine; empty is "
+               "the fastest");
+  options.text("shard", p.shard, "I/N",
+               "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);
+}
+
+PathRange path_range(const std::string& shard, std::int64_t paths) {
+  PHOS_CHECK(paths >= 0, "paths = ", paths);
+  const auto total = static_cast<std::uint64_t>(paths);
+  if (shard.empty()) return {0, total};
+  std::uint64_t part = 0, parts = 0;
+  char slash = 0, more = 0;
+  std::istringstream in(shard);
+  if (shard.find_first_not_of("0123456789/") != std::string::npos || !(in >> part >> slash >> parts) ||
+      slash != '/' || in >> more || part < 1 || part > parts || parts > (1u << 20))
+    throw Error(ExitCode::usage, "--shard",
+                text("\"", shard, "\" is not I/N with 1 <= I <= N <= 1048576 (for instance 2/4)"));
+  const std::uint64_t first = total * (part - 1) / parts;
+  return {first, total * part / parts - first};
+}
+
+Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::uint64_t seed,
+                      PhotonTotals& totals, Counters& counters, std::vector<Ray>* log) {
+  const PathRange range = path_range(options.shard, options.paths);
+  totals = {};
+  totals.emitted = static_cast<std::uint64_t>(options.paths);
+  totals.first_path = range.first, totals.paths = range.count;
+  Photons photons;
+  if (options.paths == 0) return photons;
+  const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed);
+  totals.flux_exponent = emitter.flux_exponent();
+  const PathTracer tracer(rays, emitter, seed, log != nullptr);
+  Progress progress("photons", range.count, "paths");
+  for (std::uint64_t done = 0; done < range.count;) {
+    const std::uint64_t wave = std::min(kPathWave, range.count - done), first = range.first + done;
+    std::vector<Part> parts((wave + kPathChunk - 1) / kPathChunk);
+    parallel_chunks(wave, kPathChunk, [&](std::size_t begin, std::size_t end) {
+      Part& part = parts[begin / kPathChunk];
+      for (std::size_t i = begin; i < end; ++i) tracer.trace_path(first + i, part);
+      progress.advance(end - begin);
+    });
+    std::size_t rows = photons.size();
+    for (const Part& part : parts) rows += part.photons.size();
+    done += wave;
+    if (rows >
+        photons.position.capacity()) {  // what the rest will need, by what there was, and a little more
+      const double expected =
+          static_cast<double>(rows) / static_cast<double>(done) * static_cast<double>(range.count);
+      reserve(photons, std::max(rows, static_cast<std::size_t>(1.01 * expected)));
+    }
+    for (Part& part : parts) join(part, photons, totals, counters, log);
+  }
+  totals.settle();
+  return photons;
+}
+
+}  // namespace phos

@@ -1,0 +1,44 @@
+// Tracing photons from the lights through the scene.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/counters.h"
+#include "core/options.h"
+#include "photon/photon_map.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+struct PhotonOptions {
+  std::int64_t paths = 1'000'000;  ///< emitted from the lights
+  double minimum_share = 0.1;      ///< of an equal share of the paths, for each light
+  std::string isa;                 ///< RayOptions::isa
+  std::string shard;               ///< "i/n", or empty: all
+};
+void declare_options(Options& options, PhotonOptions& photons);
+
+/// Path numbers [first, first + count) of a shard "i/n" of `paths` (all if empty): the whole is cut without
+/// gap or overlap. Throws Error(usage) unless 1 <= i <= n.
+struct PathRange {
+  std::uint64_t first = 0, count = 0;
+};
+PathRange path_range(const std::string& shard, std::int64_t paths);
+
+/// Names of the events that trace_photons counts.
+inline constexpr const char* kEscapedEvent = "photon left the scene";
+inline constexpr const char* kNonFiniteEvent = "photon with non-finite flux";
+inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended";
+
+/// Photons of the paths that options.shard names, in path order: one at each hit on a surface that is not
+/// purely specular (black and glowing ones too), carrying the flux that arrives. A path ends when it escapes
+/// or by Russian roulette, which keeps the flux of the survivors about equal; there is no other limit.
+/// Unbiased: the expected flux stored on a piece of surface is its irradiance, all bounces, times its area.
+/// The same for any number of threads and any shards. Throws Error(bad_input) if nothing shines, unless there
+/// are no paths. `log`, if given, gets every ray that was traced.
+Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::uint64_t seed,
+                      PhotonTotals& totals, Counters& counters, std::vector<Ray>* log = nullptr);
+
+}  // namespace phos

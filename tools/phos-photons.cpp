@@ -1,0 +1,106 @@
+// Traces photons from the lights of a scene and writes the map of where they land.
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "file/tool.h"
+#include "photon/photon_map.h"
+#include "photon/trace.h"
+#include "scene/load.h"
+#include "scene/rays.h"
+
+namespace {
+
+using namespace phos;
+
+// Shards of one run share their key (merged, they are the whole), so --reuse must also look at which part a
+// file holds.
+bool holds_part(const std::string& path, const std::string& shard) {
+  if (!std::filesystem::is_regular_file(path)) return true;  // nothing there: up_to_date() says so
+  try {
+    const Container file = Container::open(path, "photons");
+    const Json* held = file.provenance().extra.find("shard");
+    return (held && held->is_string() ? held->as_string() : "") == shard;
+  } catch (const Error&) {
+    return true;  // up_to_date() says what is wrong with it
+  }
+}
+
+double percent(double part, double whole) { return whole > 0 ? std::round(1000 * part / whole) / 10 : 0; }
+
+void report(Tool& tool, const PhotonTotals& totals) {
+  const double escaped = luminance(totals.escaped_flux_lm), emitted = luminance(totals.emitted_flux_lm);
+  const double per_path =
+      totals.paths > 0 ? static_cast<double>(totals.stored) / static_cast<double>(totals.paths) : 0;
+  tool.say(text(totals.paths, " paths emitted, ", totals.stored, " photons stored (",
+                std::round(100 * per_path) / 100, " per path); ", luminance(totals.emitted_flux_lm),
+                " lm emitted, ", percent(escaped, emitted), " % of it left the scene"));
+  if (totals.stored == 0)
+    tool.warn(totals.paths == 0
+                  ? "warning: no paths were emitted (--photons 0): the map is empty"
+                  : "warning: every photon left the scene: the map is empty; do the lights face surfaces?");
+  tool.stat("paths", totals.paths);
+  tool.stat("stored", totals.stored);
+}
+
+void check_events(const Counters& counters, const PhotonTotals& totals) {
+  const std::uint64_t trials = totals.stored + totals.paths;
+  counters.require_at_most(kNonFiniteEvent, 1e-6, trials, "check the powers of the lights and the materials");
+  counters.require_at_most(kTooLongEvent, 1e-6, trials,
+                           "a material reflects all of its light: lower its reflectance");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-photons", "traces photons from the lights and stores where they land",
+            "Emits photons from every light of the scene, follows them from surface to surface (Russian "
+            "roulette, no limit "
+            "on bounces) and stores one at each surface they reach. The file holds the photons and a kd-tree "
+            "over them, and "
+            "feeds phos-irradiance. The same command gives the same bytes on any number of threads.",
+            1);
+  std::string scene_path;
+  SceneOptions scene_options;
+  PhotonOptions options;
+  tool.options().input("SCENE", scene_path, "glTF (.glb, .gltf) or OBJ scene");
+  declare_options(tool.options(), options);
+  declare_options(tool.options(), scene_options);
+  tool.options().example("phos-photons room.glb --photons 1000000 -o room.photons", "a million paths");
+  tool.options().example("phos-photons room.glb --shard 1/2 -o a.photons",
+                         "half of them, to be joined by phos-merge");
+  return tool.run(argc, argv, [&] {
+    path_range(options.shard, options.paths);  // a wrong --shard is said before the work
+    tool.add_input("scene", scene_files(scene_path));
+    if (holds_part(tool.output(), options.shard) && tool.up_to_date()) return;
+
+    std::optional<Scene> scene;
+    std::optional<RayScene> rays;
+    {
+      const Tool::Timer timer = tool.time("load");
+      scene = load_scene(scene_path, scene_options);
+      rays.emplace(*scene, RayOptions{options.isa});
+    }
+    PhotonTotals totals;
+    Photons photons;
+    {
+      const Tool::Timer timer = tool.time("trace");
+      photons = trace_photons(*rays, options, tool.seed(), totals, tool.counters());
+    }
+    check_events(tool.counters(), totals);
+    report(tool, totals);
+    const Provenance provenance = tool.provenance("photons", scene->hash, scene->parts);
+    if (!options.shard.empty()) {
+      const Tool::Timer timer = tool.time("write");
+      write_shard(tool.output(), photons, totals, options.shard, provenance);
+      return;
+    }
+    std::optional<PhotonMap> map;
+    {
+      const Tool::Timer timer = tool.time("kdtree");
+      map = PhotonMap::build(std::move(photons), totals);
+    }
+    const Tool::Timer timer = tool.time("write");
+    map->write(tool.output(), provenance);
+  });
+}
