@@ -1,0 +1,16 @@
+// Steps of finalize() (scene.h).
+#pragma once
+
+#include "scene/scene.h"
+
+namespace phos {
+
+/// Replaces the area lights by one per emitting instance, and fills area and flux of every light. Needs
+/// bounds.
+void fill_lights(Scene& scene);
+/// Fills hash and parts. Needs everything else.
+void fill_hash(Scene& scene);
+/// Mean luminance over a triangle, the emissive texture included, cd/m2.
+Rgb mean_emission(const Scene& scene, std::uint32_t triangle);
+
+}  // namespace phos

@@ -1,0 +1,147 @@
+#include <array>
+#include <map>
+
+#include "file/hash.h"
+#include "scene/finalize.h"
+
+namespace phos {
+namespace {
+
+/// More names than this and the parts would outgrow the header of a small cache.
+constexpr std::size_t kMaxNamedNodes = 256;
+
+/// Floats by their bits, -0 as 0 (x + 0 turns one into the other).
+void add_floats(Hasher& hasher, const float* values, std::size_t n) {
+  std::array<float, 1024> block;
+  hasher.add(static_cast<std::int64_t>(n));
+  for (std::size_t i = 0; i < n; i += block.size()) {
+    const std::size_t m = std::min(block.size(), n - i);
+    for (std::size_t k = 0; k < m; ++k) block[k] = values[i + k] + 0.0f;
+    hasher.add_bytes(block.data(), m * sizeof(float));
+  }
+}
+
+template <class V>
+void add_vectors(Hasher& hasher, const std::vector<V>& values) {
+  static_assert(sizeof(V) == sizeof(float) * static_cast<std::size_t>(V::length()));
+  add_floats(hasher, reinterpret_cast<const float*>(values.data()),
+             values.size() * static_cast<std::size_t>(V::length()));
+}
+
+template <class V>
+void add_vector(Hasher& hasher, const V& v) {
+  for (int c = 0; c < V::length(); ++c) hasher.add(v[c]);
+}
+
+void add_use(Hasher& hasher, const TextureUse& use) {
+  hasher.add(use.texture);
+  if (!use.used()) return;
+  hasher.add(use.set);
+  add_vector(hasher, use.offset);
+  add_vector(hasher, use.scale);
+  hasher.add(use.rotation_rad);
+}
+
+void add_material(Hasher& hasher, const Material& m) {
+  hasher.add(m.model);
+  for (const Rgb& c : {m.kd, m.ks, m.specular_colour, m.emission}) add_vector(hasher, c);
+  for (const float v : {m.exponent, m.alpha_x, m.alpha_y, m.roughness, m.metallic, m.ior, m.specular,
+                        m.transmission, m.normal_scale, m.alpha, m.alpha_cutoff}) {
+    hasher.add(v);
+  }
+  for (const TextureUse* use : {&m.base_colour, &m.metallic_roughness, &m.normal, &m.emissive})
+    add_use(hasher, *use);
+  hasher.add(m.double_sided);
+  hasher.add(m.alpha_mode);
+}
+
+std::string hash_geometry(const Scene& scene) {
+  Hasher hasher;
+  add_vectors(hasher, scene.position);
+  add_vectors(hasher, scene.normal);
+  add_vectors(hasher, scene.uv0);
+  add_vectors(hasher, scene.uv1);
+  add_vectors(hasher, scene.tangent);
+  add_vectors(hasher, scene.colour);
+  hasher.add_span(std::span<const Triangle>(scene.triangle));
+  for (const Instance& i : scene.instance) {
+    hasher.add(i.material);
+    hasher.add(i.triangle_count);
+  }
+  return hasher.finish().hex();
+}
+
+std::string hash_materials(const Scene& scene) {
+  Hasher hasher;
+  for (const Material& m : scene.material) add_material(hasher, m);
+  for (const Texture& t : scene.texture) {
+    hasher.add(t.width);
+    hasher.add(t.height);
+    hasher.add(t.wrap_u);
+    hasher.add(t.wrap_v);
+    hasher.add(t.nearest);
+    add_vectors(hasher, t.texels);
+  }
+  return hasher.finish().hex();
+}
+
+void add_light(Hasher& hasher, const Light& light) {
+  hasher.add(light.kind);
+  add_vector(hasher, light.position);
+  add_vector(hasher, light.direction);
+  add_vector(hasher, light.intensity);
+  hasher.add(light.cos_inner);
+  hasher.add(light.cos_outer);
+  add_vector(hasher, light.flux_lm);
+}
+
+std::string hash_lights(const Scene& scene) {
+  Hasher hasher;
+  for (const Light& light : scene.light) add_light(hasher, light);
+  return hasher.finish().hex();
+}
+
+/// What each named thing is and where, so that a mismatch can say which one moved. Null if there are too
+/// many.
+Json hash_nodes(const Scene& scene) {
+  std::map<std::string, std::vector<const Instance*>> instances;
+  std::map<std::string, std::vector<const Light*>> lights;
+  for (const Instance& i : scene.instance) instances[i.node].push_back(&i);
+  for (const Light& l : scene.light) {
+    if (l.kind != Light::Kind::area) lights[l.name].push_back(&l);
+  }
+  std::map<std::string, Hasher> hashers;
+  for (const auto& [name, list] : instances) {
+    Hasher& hasher = hashers[name];
+    for (const Instance* i : list) {
+      for (std::uint32_t t = i->first_triangle; t < i->first_triangle + i->triangle_count; ++t) {
+        for (const std::uint32_t v : scene.triangle[t].v) add_vector(hasher, scene.position[v]);
+      }
+    }
+  }
+  for (const auto& [name, list] : lights) {
+    Hasher& hasher = hashers[name];
+    for (const Light* l : list) add_light(hasher, *l);
+  }
+  if (hashers.size() > kMaxNamedNodes) return Json();
+  Json out = Json::Object{};
+  for (const auto& [name, hasher] : hashers) out[name] = hasher.finish().hex().substr(0, 16);
+  return out;
+}
+
+}  // namespace
+
+void fill_hash(Scene& scene) {
+  const std::string geometry = hash_geometry(scene), materials = hash_materials(scene),
+                    lights = hash_lights(scene);
+  Json parts = Json::Object{};
+  parts["geometry"] = geometry;
+  parts["materials"] = materials;
+  parts["lights"] = lights;
+  parts["time"] = scene.time_s + 0.0;
+  if (Json nodes = hash_nodes(scene); !nodes.is_null()) parts["nodes"] = std::move(nodes);
+  scene.parts = std::move(parts);
+  scene.hash = hash_text(geometry + materials + lights).hex();
+}
+
+}  // namespace phos

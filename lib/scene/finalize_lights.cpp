@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scene/finalize.h"
+#include "scene/texture.h"
+
+namespace phos {
+namespace {
+
+/// Points per side of the grid over a triangle on which an emissive texture is averaged; texels beyond it are
+/// sampled.
+constexpr int kMaxGrid = 64;
+
+/// KHR_lights_punctual: (t)^2 with t linear in the cosine from the outer to the inner cone, integrated over
+/// the sphere.
+Rgb spot_flux_lm(const Light& light) {
+  const double inner = light.cos_inner, outer = light.cos_outer;
+  const double solid_angle_sr = 2 * std::numbers::pi * ((1 - inner) + (inner - outer) / 3);
+  return light.intensity * static_cast<float>(solid_angle_sr);
+}
+
+void fill_area_light(const Scene& scene, Light& light) {
+  const Instance& instance = scene.instance[light.instance];
+  const Material& material = scene.material[instance.material];
+  double area = 0;
+  glm::dvec3 flux(0);
+  for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+       ++t) {
+    const double a = area_m2(scene, t);
+    area += a;
+    flux += a * std::numbers::pi * glm::dvec3(mean_emission(scene, t));
+  }
+  light.area_m2 = static_cast<float>(area);
+  light.flux_lm = Rgb(material.double_sided ? 2.0 * flux : flux);
+}
+
+}  // namespace
+
+Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
+  const Material& material = scene.material_of(triangle);
+  const TextureUse& use = material.emissive;
+  if (!use.used()) return material.emission;
+  const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
+  const auto corner = [&](float u, float v) {
+    return transformed(use, texture_coordinates(scene, triangle, use.set, u, v));
+  };
+  const Vec2 size(texture.width, texture.height);
+  const Vec2 span =
+      glm::max(glm::abs(corner(1, 0) - corner(0, 0)), glm::abs(corner(0, 1) - corner(0, 0))) * size;
+  const float texels = std::max(span.x, span.y);
+  const int n =
+      std::isfinite(texels) ? static_cast<int>(std::clamp(std::ceil(texels), 1.0f, float{kMaxGrid})) : 1;
+  // Centroids of the n^2 equal triangles of an n-fold subdivision.
+  glm::dvec3 sum(0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      const int both = i + j + 1 < n ? 2 : 1;
+      for (int k = 0; k < both; ++k) {
+        const float third = k == 0 ? 1.0f / 3 : 2.0f / 3;
+        const float u = (static_cast<float>(i) + third) / static_cast<float>(n);
+        const float v = (static_cast<float>(j) + third) / static_cast<float>(n);
+        sum += glm::dvec3(emission_at(scene, triangle, u, v));
+      }
+    }
+  }
+  return Rgb(sum / (static_cast<double>(n) * n));
+}
+
+void fill_lights(Scene& scene) {
+  std::erase_if(scene.light, [](const Light& light) { return light.kind == Light::Kind::area; });
+  for (std::uint32_t i = 0; i < scene.instance.size(); ++i) {
+    const Instance& instance = scene.instance[i];
+    if (!scene.material[instance.material].emits()) continue;
+    Light light;
+    light.kind = Light::Kind::area;
+    light.name = instance.node;
+    light.instance = i;
+    fill_area_light(scene, light);
+    if (max_component(light.flux_lm) > 0) {
+      scene.light.push_back(light);
+    } else {
+      scene.warnings.push_back("light \"" + instance.node + "\" has no area or is black: it is ignored");
+    }
+  }
+  const float radius_m = bounding_radius_m(scene);
+  for (Light& light : scene.light) {
+    if (light.kind == Light::Kind::point) light.flux_lm = 4 * kPi * light.intensity;
+    if (light.kind == Light::Kind::spot) light.flux_lm = spot_flux_lm(light);
+    if (light.kind == Light::Kind::directional) light.flux_lm = light.intensity * (kPi * radius_m * radius_m);
+  }
+  std::erase_if(scene.light, [&](const Light& light) {
+    if (max_component(light.flux_lm) > 0) return false;
+    scene.warnings.push_back("light \"" + light.name + "\" has no intensity: it is ignored");
+    return true;
+  });
+}
+
+}  // namespace phos

@@ -1,0 +1,297 @@
+#include "scene/gltf_load.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <set>
+
+#include "scene/animation.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_material.h"
+#include "scene/gltf_mesh.h"
+#include "scene/load_mesh.h"
+#include "scene/load_textures.h"
+
+namespace phos {
+namespace {
+
+class SceneReader {
+ public:
+  SceneReader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+
+  void read(const SceneOptions& options) {
+    read_time(options);
+    std::vector<NodePose> poses = rest_poses(document_);
+    apply_animations(document_, scene_, poses);
+    read_length();
+    TexturePool textures;
+    read_gltf_materials(document_, textures, scene_);
+    textures.decode(scene_);
+    place_nodes(poses);
+    for (const std::size_t node : order_) read_node(node, poses[node]);
+    if (skipped_primitives_) {
+      scene_.warnings.push_back(
+          text(skipped_primitives_, " mesh primitives are points or lines, which give no surface"));
+    }
+  }
+
+ private:
+  const Json& default_scene() const {
+    return element(document_.json, "scenes", static_cast<std::size_t>(number_at(document_.json, "scene", 0)));
+  }
+
+  void read_time(const SceneOptions& options) {
+    if (const Json* fps = find_path(default_scene(), "extras/animation/fps"); fps && fps->is_number()) {
+      if (!(fps->as_number() > 0)) document_.fail("scenes[].extras.animation.fps must be above 0");
+      scene_.frames_per_s = fps->as_number();
+    }
+    if (options.time_s) scene_.time_s = *options.time_s;
+    if (options.frame) scene_.time_s = *options.frame / scene_.frames_per_s;
+  }
+
+  void read_length() {
+    double end_s = 0;
+    for (const Animation& a : scene_.animation) end_s = std::max(end_s, a.end_s);
+    if (!scene_.animation.empty())
+      scene_.frames = std::llround(std::min(end_s * scene_.frames_per_s, 1e15)) + 1;
+    const Json* frames = find_path(default_scene(), "extras/animation/frames");
+    if (frames && frames->is_number())
+      scene_.frames = std::llround(std::clamp(frames->as_number(), 0.0, 1e15));
+  }
+
+  std::vector<std::size_t> roots() const {
+    std::vector<std::size_t> out;
+    if (count_at(document_.json, "scenes") == 0) {  // no scene to choose: every node without a parent
+      std::set<int> children;
+      for (const tinygltf::Node& node : document_.model->nodes)
+        children.insert(node.children.begin(), node.children.end());
+      for (std::size_t i = 0; i < document_.model->nodes.size(); ++i) {
+        if (!children.count(static_cast<int>(i))) out.push_back(i);
+      }
+      return out;
+    }
+    if (const Json* nodes = default_scene().find("nodes")) {
+      for (const Json& n : nodes->as_array()) out.push_back(static_cast<std::size_t>(n.as_number()));
+    }
+    return out;
+  }
+
+  /// World transforms, depth first in file order. Every node has one parent, so that a second visit is a
+  /// mistake.
+  void place_nodes(const std::vector<NodePose>& poses) {
+    const std::size_t n = document_.model->nodes.size();
+    world_.assign(n, glm::dmat4(1));
+    std::vector<bool> seen(n, false);
+    std::vector<std::pair<std::size_t, glm::dmat4>> stack;
+    const std::vector<std::size_t> first = roots();
+    for (auto it = first.rbegin(); it != first.rend(); ++it) stack.emplace_back(*it, glm::dmat4(1));
+    while (!stack.empty()) {
+      const auto [node, parent] = stack.back();
+      stack.pop_back();
+      if (seen[node]) document_.fail(text("nodes[", node, "] is its own ancestor or has two parents"));
+      seen[node] = true;
+      world_[node] = parent * poses[node].local();
+      for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+          if (!std::isfinite(world_[node][c][r]))
+            document_.fail(text("nodes[", node, "] has a transform that is not finite"));
+        }
+      }
+      order_.push_back(node);
+      const std::vector<int>& children = document_.model->nodes[node].children;
+      for (auto it = children.rbegin(); it != children.rend(); ++it) {
+        stack.emplace_back(static_cast<std::size_t>(*it), world_[node]);
+      }
+    }
+  }
+
+  std::string node_name(std::size_t node) const {
+    const std::string& name = document_.model->nodes[node].name;
+    return name.empty() ? text("node ", node) : name;
+  }
+
+  void read_node(std::size_t index, const NodePose& pose) {
+    const tinygltf::Node& node = document_.model->nodes[index];
+    if (node.mesh >= 0) read_mesh(index, static_cast<std::size_t>(node.mesh), node.skin, pose);
+    if (node.camera >= 0) read_camera(index, static_cast<std::size_t>(node.camera));
+    if (const Json* light =
+            find_path(element(document_.json, "nodes", index), "extensions/KHR_lights_punctual/light")) {
+      read_light(index, static_cast<std::size_t>(light->as_number()));
+    }
+  }
+
+  void read_mesh(std::size_t node, std::size_t mesh, int skin, const NodePose& pose) {
+    const tinygltf::Mesh& from = document_.model->meshes[mesh];
+    std::vector<float> weights = pose.weights;
+    if (weights.empty()) {
+      for (const double w : from.weights) weights.push_back(static_cast<float>(w));
+    }
+    for (std::size_t p = 0; p < from.primitives.size(); ++p) {
+      const std::string what = text("mesh \"", from.name.empty() ? std::to_string(mesh) : from.name, "\"");
+      std::optional<MeshData> data = primitive(mesh, p, weights);
+      if (!data) {
+        ++skipped_primitives_;
+        continue;
+      }
+      glm::dmat4 to_world = world_[node];
+      if (skin >= 0 && apply_skin(document_, mesh, p, joints(static_cast<std::size_t>(skin)), *data)) {
+        to_world = glm::dmat4(1);
+      }
+      const std::uint32_t material = material_of(from.primitives[p].material);
+      const bool tangents = scene_.material[material].normal.used();
+      add_instance(scene_, std::move(*data), to_world, node_name(node), material, tangents, what);
+    }
+  }
+
+  /// Meshes that many nodes share are read once.
+  std::optional<MeshData> primitive(std::size_t mesh, std::size_t p, const std::vector<float>& weights) {
+    if (!weights.empty()) return read_primitive(document_, mesh, p, weights);
+    const auto [it, fresh] = primitives_.try_emplace({mesh, p});
+    if (fresh) it->second = read_primitive(document_, mesh, p, weights);
+    return it->second;
+  }
+
+  std::vector<glm::dmat4> joints(std::size_t skin) const {
+    const tinygltf::Skin& from = document_.model->skins[skin];
+    std::vector<float> inverse_bind;
+    if (from.inverseBindMatrices >= 0) inverse_bind = read_floats(document_, from.inverseBindMatrices, 16);
+    std::vector<glm::dmat4> out;
+    for (std::size_t j = 0; j < from.joints.size(); ++j) {
+      glm::dmat4 bind(1);
+      if (inverse_bind.size() >= 16 * (j + 1)) {
+        for (int c = 0; c < 4; ++c) {
+          for (int r = 0; r < 4; ++r) bind[c][r] = inverse_bind[16 * j + static_cast<std::size_t>(4 * c + r)];
+        }
+      }
+      out.push_back(world_[static_cast<std::size_t>(from.joints[j])] * bind);
+    }
+    return out;
+  }
+
+  std::uint32_t material_of(int index) {
+    if (index >= 0) return static_cast<std::uint32_t>(index);
+    if (!default_material_) {
+      default_material_ = static_cast<std::uint32_t>(scene_.material.size());
+      Material
+          m;  // glTF's default is a white metal of roughness 1, which nobody means: white paint stands in
+      m.name = "default";
+      m.kd = Rgb(0.5f);
+      scene_.material.push_back(m);
+      scene_.warnings.push_back("some meshes have no material: they are read as grey Lambert, kd 0.5");
+    }
+    return *default_material_;
+  }
+
+  /// The node's axes, without its scale.
+  static Mat4 rigid(const glm::dmat4& m) {
+    glm::dmat4 out(m);
+    for (int c = 0; c < 3; ++c) {
+      const double length = glm::length(DVec3(m[c]));
+      DVec3 axis(0);
+      axis[c] = 1;
+      out[c] = glm::dvec4(length > 0 && std::isfinite(length) ? DVec3(m[c]) / length : axis, 0);
+    }
+    return Mat4(out);
+  }
+
+  void read_camera(std::size_t node, std::size_t index) {
+    const tinygltf::Camera& from = document_.model->cameras[index];
+    Camera camera;
+    camera.name = !from.name.empty() ? from.name : node_name(node);
+    camera.to_world = rigid(world_[node]);
+    const Json& json = element(document_.json, "cameras", index);
+    const auto fail = [&](const char* what) { document_.fail(text("cameras[", index, "].", what)); };
+    if (from.type == "perspective" && json.find("perspective")) {
+      camera.yfov_rad = static_cast<float>(from.perspective.yfov);
+      if (!(camera.yfov_rad > 0 && camera.yfov_rad < kPi)) fail("perspective.yfov must be between 0 and pi");
+      if (from.perspective.aspectRatio > 0) camera.aspect = static_cast<float>(from.perspective.aspectRatio);
+    } else if (from.type == "orthographic" && json.find("orthographic")) {
+      camera.perspective = false;
+      camera.ymag_m = static_cast<float>(std::abs(from.orthographic.ymag));
+      if (!(camera.ymag_m > 0)) fail("orthographic.ymag must not be 0");
+      const auto xmag = static_cast<float>(std::abs(from.orthographic.xmag));
+      if (xmag > 0) camera.aspect = xmag / camera.ymag_m;
+    } else {
+      fail("type must be perspective or orthographic, with its values");
+    }
+    scene_.camera.push_back(camera);
+  }
+
+  /// A light's number as the file or, at this time, an animation pointer has it.
+  double light_number(std::size_t index, const char* key, double absent) const {
+    const auto it = document_.animated.find(text("/extensions/KHR_lights_punctual/lights/", index, "/", key));
+    if (it != document_.animated.end() && it->second.size() == 1) return it->second[0];
+    return number_at(light_json(index), key, absent);
+  }
+
+  const Json& light_json(std::size_t index) const {
+    return find_path(document_.json, "extensions/KHR_lights_punctual/lights")->as_array()[index];
+  }
+
+  Rgb light_colour(std::size_t index) const {
+    const auto it = document_.animated.find(text("/extensions/KHR_lights_punctual/lights/", index, "/color"));
+    if (it != document_.animated.end() && it->second.size() == 3)
+      return {it->second[0], it->second[1], it->second[2]};
+    return rgb_at(light_json(index), "color").value_or(Rgb(1));
+  }
+
+  void read_light(std::size_t node, std::size_t index) {
+    const Json& json = light_json(index);
+    Light light;
+    const std::string& name = document_.model->nodes[node].name;
+    light.name = !name.empty() ? name : text_at(json, "name", node_name(node));
+    const Mat4 axes = rigid(world_[node]);
+    light.position = Vec3(axes[3]);
+    light.direction = -Vec3(axes[2]);
+    light.intensity = light_colour(index) * static_cast<float>(light_number(index, "intensity", 1));
+    const auto fail = [&](const std::string& what) {
+      document_.fail(text("light \"", light.name, "\": ", what));
+    };
+    if (!is_finite(light.intensity) || light.intensity.x < 0 || light.intensity.y < 0 ||
+        light.intensity.z < 0) {
+      fail("intensity and color must not be negative");
+    }
+    if (!is_finite(light.position)) fail("its position is not finite");
+    const std::string type = text_at(json, "type", "");
+    if (type == "point") {
+      light.kind = Light::Kind::point;
+    } else if (type == "directional") {
+      light.kind = Light::Kind::directional;
+    } else if (type == "spot") {
+      light.kind = Light::Kind::spot;
+      const double inner = light_number(index, "spot/innerConeAngle", 0);
+      const double outer = light_number(index, "spot/outerConeAngle", 0.25 * std::numbers::pi);
+      if (!(inner >= 0 && inner < outer && outer <= 0.5 * std::numbers::pi)) {
+        fail("its cone angles must satisfy 0 <= inner < outer <= pi/2");
+      }
+      light.cos_inner = static_cast<float>(std::cos(inner));
+      light.cos_outer = static_cast<float>(std::cos(outer));
+    } else {
+      fail("type \"" + type + "\" is not point, spot or directional");
+    }
+    scene_.light.push_back(light);
+  }
+
+  GltfDocument& document_;
+  Scene& scene_;
+  std::vector<glm::dmat4> world_;
+  std::vector<std::size_t> order_;
+  std::map<std::pair<std::size_t, std::size_t>, std::optional<MeshData>> primitives_;
+  std::optional<std::uint32_t> default_material_;
+  std::uint64_t skipped_primitives_ = 0;
+};
+
+}  // namespace
+
+Scene load_gltf(const std::string& path, std::string_view bytes, const SceneOptions& options) {
+  GltfDocument document = read_gltf(path, bytes);
+  Scene scene;
+  scene.path = path;
+  SceneReader(document, scene).read(options);
+  scene.warnings.insert(scene.warnings.end(), document.warnings.begin(), document.warnings.end());
+  return scene;
+}
+
+}  // namespace phos

@@ -1,0 +1,318 @@
+#include "scene/gltf_material.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+
+#include "file/atomic_file.h"
+#include "scene/gltf_uri.h"
+
+namespace phos {
+namespace {
+
+/// GGX roughness below which transmission counts as smooth glass.
+constexpr double kSmoothRoughness = 0.1;
+
+struct ImageBytes {
+  std::string name, bytes, missing;
+};
+
+ImageBytes image_bytes(const GltfDocument& document, std::size_t i) {
+  const Json& image = element(document.json, "images", i);
+  const std::string uri = text_at(image, "uri", "");
+  ImageBytes out{text_at(image, "name", text("images[", i, "]")), "", ""};
+  if (const Json* view_index = image.find("bufferView")) {
+    const auto& view = document.model->bufferViews[static_cast<std::size_t>(view_index->as_number())];
+    const std::string& buffer = document.buffer[static_cast<std::size_t>(view.buffer)];
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+      document.fail(text("images[", i, "] reaches outside its buffer"));
+    }
+    out.bytes = buffer.substr(view.byteOffset, view.byteLength);
+  } else if (is_data_uri(uri)) {
+    std::optional<std::string> decoded = decode_data_uri(uri);
+    if (!decoded) out.missing = "is not valid base64";
+    if (decoded) out.bytes = std::move(*decoded);
+  } else {
+    out.name = uri.empty() ? out.name : uri;
+    const std::optional<std::string> file = uri_file(document.path, uri);
+    try {
+      if (file) out.bytes = read_text(*file);
+      if (!file) out.missing = "is not a relative path";
+    } catch (const Error&) {
+      out.missing = "cannot be read beside the scene";
+    }
+  }
+  return out;
+}
+
+Texture::Wrap wrap_of(int code) {
+  if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Texture::Wrap::clamp;
+  if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Texture::Wrap::mirror;
+  return Texture::Wrap::repeat;
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(const GltfDocument& document, TexturePool& textures, Scene& scene)
+      : document_(document), textures_(textures), scene_(scene) {}
+
+  void read(std::size_t index) {
+    index_ = index;
+    const tinygltf::Material& from = document_.model->materials[index];
+    json_ = &element(document_.json, "materials", index);
+    material_ = Material();
+    material_.name = from.name.empty() ? text("material ", index) : from.name;
+    read_core(from);
+    read_emission(from);
+    read_extensions();
+    if (const Json* phos = find_path(*json_, "extras/phos")) read_phos(*phos);
+    check_energy();
+    scene_.material.push_back(material_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    document_.fail(text("material \"", material_.name, "\": ", message));
+  }
+  void warn(const std::string& message) const {
+    scene_.warnings.push_back(text("material \"", material_.name, "\": ", message));
+  }
+
+  TextureUse use(const char* member, int texture, int set, bool srgb) {
+    TextureUse out;
+    if (texture < 0) return out;
+    if (set > 1) {
+      warn(text(member, " uses TEXCOORD_", set, ", which is not read; TEXCOORD_0 is used"));
+      set = 0;
+    }
+    const auto t = static_cast<std::size_t>(texture);
+    const tinygltf::Texture& from = document_.model->textures[t];
+    TexturePool::Sampling sampling;
+    if (from.sampler >= 0) {
+      const tinygltf::Sampler& s = document_.model->samplers[static_cast<std::size_t>(from.sampler)];
+      sampling = {wrap_of(s.wrapS), wrap_of(s.wrapT), s.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST};
+    }
+    ImageBytes image{text("textures[", t, "]"), "", "has no image that phos can read"};
+    if (from.source >= 0) image = image_bytes(document_, static_cast<std::size_t>(from.source));
+    out.texture =
+        textures_.add(std::to_string(t), image.name, std::move(image.bytes), image.missing, sampling, srgb);
+    out.set = static_cast<std::uint8_t>(set);
+    read_transform(find_path(*json_, std::string(member) + "/extensions/KHR_texture_transform"), out);
+    return out;
+  }
+
+  void read_transform(const Json* transform, TextureUse& out) const {
+    if (!transform) return;
+    const auto pair = [&](const char* key, Vec2 absent) {
+      const Json* v = transform->find(key);
+      if (!v) return absent;
+      if (!v->is_array() || v->as_array().size() != 2)
+        fail(text("KHR_texture_transform.", key, " must be two numbers"));
+      return Vec2(v->as_array()[0].as_number(), v->as_array()[1].as_number());
+    };
+    out.offset = pair("offset", out.offset);
+    out.scale = pair("scale", out.scale);
+    out.rotation_rad = static_cast<float>(number_at(*transform, "rotation", 0));
+    const double set = number_at(*transform, "texCoord", out.set);
+    if (set == 0 || set == 1) out.set = static_cast<std::uint8_t>(set);
+  }
+
+  void read_core(const tinygltf::Material& from) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    const auto factor = [&](std::size_t i) { return static_cast<float>(pbr.baseColorFactor[i]); };
+    material_.model = Model::metallic_roughness;
+    material_.kd = {factor(0), factor(1), factor(2)};
+    material_.alpha = factor(3);
+    material_.metallic = static_cast<float>(std::clamp(pbr.metallicFactor, 0.0, 1.0));
+    material_.roughness = static_cast<float>(std::clamp(pbr.roughnessFactor, 0.0, 1.0));
+    material_.alpha_x = material_.alpha_y = material_.roughness * material_.roughness;
+    material_.base_colour = use("pbrMetallicRoughness/baseColorTexture", pbr.baseColorTexture.index,
+                                pbr.baseColorTexture.texCoord, true);
+    material_.metallic_roughness =
+        use("pbrMetallicRoughness/metallicRoughnessTexture", pbr.metallicRoughnessTexture.index,
+            pbr.metallicRoughnessTexture.texCoord, false);
+    material_.normal = use("normalTexture", from.normalTexture.index, from.normalTexture.texCoord, false);
+    material_.normal_scale = static_cast<float>(from.normalTexture.scale);
+    material_.double_sided = from.doubleSided;
+    material_.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+    if (from.alphaMode == "MASK") material_.alpha_mode = Material::Alpha::mask;
+    if (from.alphaMode == "BLEND") material_.alpha_mode = Material::Alpha::blend;
+    check_colour("baseColorFactor", material_.kd);
+  }
+
+  void read_emission(const tinygltf::Material& from) {
+    const std::string pointer = text("/materials/", index_);
+    Rgb factor(0);
+    for (std::size_t c = 0; c < from.emissiveFactor.size() && c < 3; ++c) {
+      factor[static_cast<int>(c)] = static_cast<float>(from.emissiveFactor[c]);
+    }
+    if (const auto it = document_.animated.find(pointer + "/emissiveFactor");
+        it != document_.animated.end()) {
+      if (it->second.size() == 3) factor = {it->second[0], it->second[1], it->second[2]};
+    }
+    constexpr const char* kStrength = "extensions/KHR_materials_emissive_strength/emissiveStrength";
+    double strength = number_at(*json_, kStrength, 1);
+    if (const auto it = document_.animated.find(pointer + "/" + kStrength);
+        it != document_.animated.end() && !it->second.empty()) {
+      strength = it->second[0];
+    }
+    material_.emission = factor * static_cast<float>(strength);
+    check_colour("emission", material_.emission);
+    if (!material_.emits()) return;
+    material_.emissive =
+        use("emissiveTexture", from.emissiveTexture.index, from.emissiveTexture.texCoord, true);
+  }
+
+  void read_extensions() {
+    if (find_path(*json_, "extensions/KHR_materials_unlit"))
+      warn("KHR_materials_unlit is ignored: it is lit like others");
+    if (find_path(*json_, "extensions/KHR_materials_pbrSpecularGlossiness")) {
+      warn("KHR_materials_pbrSpecularGlossiness is ignored: the metallic-roughness values are used");
+    }
+    material_.ior = static_cast<float>(number_at(*json_, "extensions/KHR_materials_ior/ior", 1.5));
+    if (!(material_.ior == 0 || material_.ior >= 1)) fail("KHR_materials_ior.ior must be 1 or more");
+    if (material_.ior == 0) material_.ior = 1.5f;  // 0 asks for the legacy specular-glossiness Fresnel
+    material_.specular =
+        static_cast<float>(number_at(*json_, "extensions/KHR_materials_specular/specularFactor", 1));
+    if (const auto c = rgb_at(*json_, "extensions/KHR_materials_specular/specularColorFactor")) {
+      material_.specular_colour = *c;
+      check_colour("specularColorFactor", *c);
+    }
+    if (!(material_.specular >= 0 && material_.specular <= 1)) fail("specularFactor must be between 0 and 1");
+    const double t = number_at(*json_, "extensions/KHR_materials_transmission/transmissionFactor", 0);
+    if (!(t >= 0 && t <= 1)) fail("transmissionFactor must be between 0 and 1");
+    material_.transmission = static_cast<float>(t);
+    if (t > 0) read_transmission();
+  }
+
+  /// KHR_materials_transmission is an infinitely thin pane unless KHR_materials_volume gives it a body.
+  void read_transmission() {
+    if (find_path(*json_, "extras/phos/brdf")) return;
+    if (material_.transmission >= 0.5f && material_.roughness <= kSmoothRoughness) {
+      const bool solid = number_at(*json_, "extensions/KHR_materials_volume/thicknessFactor", 0) > 0;
+      become(solid ? Model::dielectric : Model::thin_dielectric);
+      return;
+    }
+    warn("rough or partial transmission is not modelled: it only reflects");
+  }
+
+  /// Only models with a Lambert part keep kd.
+  void become(Model model, const Rgb& kd = Rgb(0)) {
+    material_.model = model;
+    const bool lambertian = model == Model::lambert || model == Model::phong || model == Model::ward ||
+                            model == Model::plastic || model == Model::metallic_roughness;
+    material_.kd = lambertian ? kd : Rgb(0);
+  }
+
+  float parameter(const Json& phos, const char* key, double absent) const {
+    const Json* v = phos.find(key);
+    if (v && (!v->is_number() || !std::isfinite(v->as_number()) || v->as_number() < 0)) {
+      fail(text("extras.phos.", key, " must be a number that is not negative"));
+    }
+    return static_cast<float>(v ? v->as_number() : absent);
+  }
+
+  std::optional<Rgb> colour(const Json& phos, const char* key) const {
+    try {
+      const std::optional<Rgb> c = rgb_at(phos, key);
+      if (c) check_colour(text("extras.phos.", key), *c);
+      return c;
+    } catch (const std::runtime_error&) {
+      fail(text("extras.phos.", key, " must be three numbers that are not negative"));
+    }
+  }
+
+  /// "alpha" (one number or two), or "ax" and "ay".
+  void read_alpha(const Json& phos) {
+    const Json* alpha = phos.find("alpha");
+    if (alpha && alpha->is_array()) {
+      if (alpha->as_array().size() != 2) fail("extras.phos.alpha must be one number or two");
+      Json pair;
+      pair["x"] = alpha->as_array()[0];
+      pair["y"] = alpha->as_array()[1];
+      material_.alpha_x = parameter(pair, "x", 0);
+      material_.alpha_y = parameter(pair, "y", 0);
+      return;
+    }
+    const float both = parameter(phos, "alpha", 0);
+    material_.alpha_x = parameter(phos, "ax", both);
+    material_.alpha_y = parameter(phos, "ay", both);
+  }
+
+  /// The exact model. What it does not give stays as the core material has it.
+  void read_phos(const Json& phos) {
+    const Json* brdf = phos.find("brdf");
+    if (!brdf || !brdf->is_string()) fail("extras.phos needs a \"brdf\"");
+    static const std::map<std::string, Model> kModels = {
+        {"lambert", Model::lambert},
+        {"phong", Model::phong},
+        {"ward", Model::ward},
+        {"plastic", Model::plastic},
+        {"conductor", Model::conductor},
+        {"dielectric", Model::dielectric},
+        {"thindielectric", Model::thin_dielectric},
+        {"mirror", Model::mirror},
+    };
+    const auto model = kModels.find(brdf->as_string());
+    if (model == kModels.end())
+      fail("extras.phos.brdf \"" + brdf->as_string() + "\" is not a model phos has");
+    const Rgb base = material_.kd;
+    become(model->second, colour(phos, "kd").value_or(base));
+    material_.ks = Rgb(0);
+    material_.ior = parameter(phos, "ior", material_.ior);
+    if (material_.ior < 1) fail("extras.phos.ior must be 1 or more");
+    read_alpha(phos);
+    switch (model->second) {
+      case Model::phong:
+      case Model::ward:
+        material_.ks = colour(phos, "ks").value_or(Rgb(0));
+        break;
+      case Model::mirror:
+        material_.ks = colour(phos, "ks").value_or(base);
+        break;
+      case Model::conductor:
+        material_.ks = colour(phos, "f0").value_or(base);
+        break;
+      case Model::dielectric:
+      case Model::thin_dielectric:
+        if (material_.alpha_x > 0 || material_.alpha_y > 0)
+          warn("rough glass is not modelled: it is read as smooth");
+        material_.alpha_x = material_.alpha_y = 0;
+        break;
+      default:
+        break;
+    }
+    material_.exponent = parameter(phos, "exponent", 1);
+    if (model->second == Model::ward && !(material_.alpha_x > 0 && material_.alpha_y > 0)) {
+      fail("extras.phos: ward needs ax and ay above 0");
+    }
+  }
+
+  void check_colour(const std::string& what, const Rgb& c) const {
+    if (!is_finite(c) || c.x < 0 || c.y < 0 || c.z < 0) fail(what + " must be numbers that are not negative");
+  }
+
+  void check_energy() const {
+    if (max_component(material_.kd + (material_.model == Model::phong || material_.model == Model::ward
+                                          ? material_.ks
+                                          : Rgb(0))) > 1.0001f) {
+      warn("kd + ks is above 1: it reflects more light than it gets");
+    }
+  }
+
+  const GltfDocument& document_;
+  TexturePool& textures_;
+  Scene& scene_;
+  Material material_;
+  const Json* json_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+}  // namespace
+
+void read_gltf_materials(const GltfDocument& document, TexturePool& textures, Scene& scene) {
+  MaterialReader reader(document, textures, scene);
+  for (std::size_t i = 0; i < document.model->materials.size(); ++i) reader.read(i);
+}
+
+}  // namespace phos

@@ -1,0 +1,19 @@
+// What a glTF "uri" stands for: bytes within it, or a file beside the scene.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace phos {
+
+/// Is it "data:..."?
+bool is_data_uri(const std::string& uri);
+/// Bytes of a base64 data URI; nothing if it is malformed.
+std::optional<std::string> decode_data_uri(const std::string& uri);
+/// Path of the file a relative URI names, from the folder of `scene_path`; nothing for an absolute path,
+/// another scheme, or an empty URI. %20 and the like are decoded.
+std::optional<std::string> uri_file(const std::string& scene_path, const std::string& uri);
+/// Path of `name` in the folder of `scene_path`.
+std::string beside(const std::string& scene_path, const std::string& name);
+
+}  // namespace phos

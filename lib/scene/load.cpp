@@ -1,0 +1,77 @@
+#include "scene/load.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+#include "file/atomic_file.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_load.h"
+#include "scene/obj_load.h"
+
+namespace phos {
+namespace {
+
+bool is_gltf(const std::string& bytes) { return looks_like_glb(bytes) || looks_like_json(bytes); }
+
+/// A folder, say, opens but cannot be read.
+std::string scene_bytes(const std::string& path) {
+  std::string bytes = read_text(path);
+  if (bytes.empty()) throw Error(ExitCode::bad_input, path, "the file is empty; export the scene again");
+  return bytes;
+}
+
+}  // namespace
+
+void declare_options(Options& options, SceneOptions& scene) {
+  options.section("Scene");
+  options.number("time", scene.time_s, "SECONDS", "when animations are evaluated (default: 0)");
+  options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
+}
+
+Scene load_scene(const std::string& path, const SceneOptions& options) {
+  if (options.time_s && options.frame)
+    throw Error(ExitCode::usage, "--time", "give either --time or --frame");
+  const std::string bytes = scene_bytes(path);
+  Scene scene;
+  try {
+    scene = is_gltf(bytes) ? load_gltf(path, bytes, options) : load_obj(path, bytes, options);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitCode::bad_input, path, "the scene does not fit into memory");
+  } catch (const std::exception& e) {
+    throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
+  }
+  finalize(scene);
+  return scene;
+}
+
+std::vector<std::string> scene_files(const std::string& path) {
+  const std::string bytes = scene_bytes(path);
+  std::vector<std::string> files =
+      is_gltf(bytes) ? gltf_external_files(path, bytes) : obj_external_files(path, bytes);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  std::erase_if(files, [](const std::string& file) {
+    std::error_code ignored;
+    return !std::filesystem::is_regular_file(file, ignored);
+  });
+  files.insert(files.begin(), path);
+  return files;
+}
+
+const Camera& find_camera(const Scene& scene, const std::string& name) {
+  if (scene.camera.empty()) {
+    throw Error(ExitCode::bad_input, scene.path, "the scene has no camera; add one in the modeller");
+  }
+  if (name.empty()) return scene.camera.front();
+  std::string names;
+  for (const Camera& camera : scene.camera) {
+    if (camera.name == name) return camera;
+    names += (names.empty() ? "\"" : ", \"") + camera.name + "\"";
+  }
+  throw Error(ExitCode::usage, "--camera", "there is no camera \"" + name + "\"; the scene has " + names);
+}
+
+}  // namespace phos

@@ -1,0 +1,31 @@
+// From a mesh in its own coordinates, as a file holds it, to an instance in the world.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace phos {
+
+/// Local coordinates. Every array but position may be empty; else it is as long as position.
+struct MeshData {
+  std::vector<Vec3> position, normal;
+  std::vector<Vec2> uv0, uv1;
+  std::vector<Vec4> tangent, colour;
+  std::vector<Triangle> triangle;
+};
+
+/// Appends one instance. Winding is flipped under a mirroring transform, so that fronts stay fronts.
+/// Triangles without area and vertices without a triangle are left out, normals made or repaired; events of
+/// the scene count each. An instance that has no triangle left is not added. `make_tangents`: from uv0 where
+/// the mesh has none. Throws Error(bad_input) for an index out of range or a position that is not finite,
+/// naming `what` and the vertex.
+void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const std::string& node,
+                  std::uint32_t material, bool make_tangents, const std::string& what);
+
+/// Gives every triangle vertices of its own.
+void unshare_vertices(MeshData& mesh);
+
+}  // namespace phos

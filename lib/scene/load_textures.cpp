@@ -1,0 +1,162 @@
+#include "scene/load_textures.h"
+
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace phos {
+namespace {
+
+/// A side longer than this, or more pixels (1 GiB of texels), is a damaged header or a mistake.
+constexpr std::int64_t kMaxSide = 1 << 15, kMaxPixels = 1 << 26;
+
+struct Size {
+  std::int64_t width = 0, height = 0;
+};
+
+std::int64_t big_endian(const unsigned char* p, int n) {
+  std::int64_t v = 0;
+  for (int i = 0; i < n; ++i) v = v << 8 | p[i];
+  return v;
+}
+
+std::int64_t little_endian(const unsigned char* p, int n) {
+  std::int64_t v = 0;
+  for (int i = n - 1; i >= 0; --i) v = v << 8 | p[i];
+  return v;
+}
+
+Size jpeg_size(const unsigned char* p, std::size_t n) {
+  std::size_t at = 2;
+  while (at + 9 < n) {
+    if (p[at] != 0xff) return {};
+    const unsigned char marker = p[at + 1];
+    if (marker == 0xff) {
+      ++at;
+      continue;
+    }
+    const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (frame) return {big_endian(p + at + 7, 2), big_endian(p + at + 5, 2)};
+    at += 2 + static_cast<std::size_t>(big_endian(p + at + 2, 2));
+  }
+  return {};
+}
+
+/// Size by the header alone, before a decoder allocates for it; zero for unknown formats.
+Size header_size(const std::string& bytes) {
+  const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
+  const std::size_t n = bytes.size();
+  if (n >= 24 && std::memcmp(p, "\x89PNG\r\n\x1a\n", 8) == 0)
+    return {big_endian(p + 16, 4), big_endian(p + 20, 4)};
+  if (n >= 4 && p[0] == 0xff && p[1] == 0xd8) return jpeg_size(p, n);
+  if (n >= 26 && p[0] == 'B' && p[1] == 'M') {
+    return {little_endian(p + 18, 4), std::abs(static_cast<std::int32_t>(little_endian(p + 22, 4)))};
+  }
+  const bool targa =
+      n >= 18 && p[1] <= 1 && (p[2] == 1 || p[2] == 2 || p[2] == 3 || (p[2] >= 9 && p[2] <= 11));
+  if (targa) return {little_endian(p + 12, 2), little_endian(p + 14, 2)};
+  return {};
+}
+
+/// IEC 61966-2-1.
+float srgb_to_linear(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+/// Value of each code of a channel.
+std::vector<float> code_values(std::size_t codes, bool srgb) {
+  std::vector<float> values(codes);
+  for (std::size_t i = 0; i < codes; ++i) {
+    const float v = static_cast<float>(i) / static_cast<float>(codes - 1);
+    values[i] = srgb ? srgb_to_linear(v) : v;
+  }
+  return values;
+}
+
+template <class Code>
+void fill_texels(const std::vector<unsigned char>& bytes, bool srgb, std::vector<Vec4>& texels) {
+  const std::vector<float> colour = code_values(std::size_t{1} << 8 * sizeof(Code), srgb);
+  const std::vector<float> linear = code_values(std::size_t{1} << 8 * sizeof(Code), false);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    std::array<Code, 4> c;
+    std::memcpy(c.data(), bytes.data() + i * sizeof c, sizeof c);
+    texels[i] = {colour[c[0]], colour[c[1]], colour[c[2]], linear[c[3]]};
+  }
+}
+
+/// Empty if it worked; else why not.
+std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) {
+  const Size size = header_size(bytes);
+  if (size.width <= 0 || size.height <= 0) return "is neither PNG, JPEG, BMP nor TGA";
+  if (size.width > kMaxSide || size.height > kMaxSide || size.width * size.height > kMaxPixels) {
+    return text("has ", size.width, " x ", size.height, " pixels, which is too large");
+  }
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return "is larger than 2 GiB";
+  tinygltf::Image image;
+  std::string error, warning;
+  const bool read = tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0,
+                                            reinterpret_cast<const unsigned char*>(bytes.data()),
+                                            static_cast<int>(bytes.size()), nullptr);
+  if (!read || image.width <= 0 || image.height <= 0 || image.component != 4) return "cannot be decoded";
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::size_t code = image.bits == 16 ? 2 : 1;
+  if (image.image.size() < pixels * 4 * code) return "cannot be decoded";
+  texture.width = image.width;
+  texture.height = image.height;
+  texture.texels.resize(pixels);
+  if (code == 2) {
+    fill_texels<std::uint16_t>(image.image, srgb, texture.texels);
+  } else {
+    fill_texels<std::uint8_t>(image.image, srgb, texture.texels);
+  }
+  return "";
+}
+
+void remap(TextureUse& use, const std::vector<std::int32_t>& place) {
+  if (use.used()) use.texture = place[static_cast<std::size_t>(use.texture)];
+}
+
+}  // namespace
+
+std::int32_t TexturePool::add(const std::string& key, const std::string& name, std::string bytes,
+                              const std::string& missing, const Sampling& sampling, bool srgb) {
+  const std::string full = key + (srgb ? " srgb" : " linear");
+  if (const auto it = known_.find(full); it != known_.end()) return it->second;
+  const auto index = static_cast<std::int32_t>(requests_.size());
+  requests_.push_back({name, std::move(bytes), missing, sampling, srgb});
+  known_.emplace(full, index);
+  return index;
+}
+
+void TexturePool::decode(Scene& scene) {
+  std::vector<Texture> decoded(requests_.size());
+  std::vector<std::string> problem(requests_.size());
+  parallel_for(requests_.size(), 1, [&](std::size_t i) {
+    const Request& request = requests_[i];
+    Texture& texture = decoded[i];
+    texture.name = request.name;
+    texture.wrap_u = request.sampling.wrap_u;
+    texture.wrap_v = request.sampling.wrap_v;
+    texture.nearest = request.sampling.nearest;
+    problem[i] =
+        request.missing.empty() ? decode_image(request.bytes, request.srgb, texture) : request.missing;
+  });
+  std::vector<std::int32_t> place(requests_.size(), -1);
+  for (std::size_t i = 0; i < requests_.size(); ++i) {
+    if (problem[i].empty()) {
+      place[i] = static_cast<std::int32_t>(scene.texture.size());
+      scene.texture.push_back(std::move(decoded[i]));
+    } else {
+      scene.warnings.push_back(kTextureNotFound + requests_[i].name + " " + problem[i] +
+                               "; the factor of the material is used");
+    }
+  }
+  for (Material& m : scene.material) {
+    for (TextureUse* use : {&m.base_colour, &m.metallic_roughness, &m.normal, &m.emissive})
+      remap(*use, place);
+  }
+}
+
+}  // namespace phos

@@ -1,0 +1,282 @@
+#include "scene/obj_load.h"
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "core/error.h"
+#include "file/atomic_file.h"
+#include "scene/gltf_uri.h"
+#include "scene/load_mesh.h"
+#include "scene/load_textures.h"
+#include "scene/obj_lights.h"
+
+namespace phos {
+namespace {
+
+std::string one_line(std::string s) {
+  while (!s.empty() && (s.back() == '\n' || s.back() == ' ')) s.pop_back();
+  std::replace(s.begin(), s.end(), '\n', ' ');
+  return s;
+}
+
+/// Names may hold backslashes from other systems.
+std::string texture_path(const std::string& obj_path, std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return beside(obj_path, name);
+}
+
+/// Text of a file, nothing if it cannot be read.
+std::optional<std::string> read_if_there(const std::string& path) {
+  try {
+    return read_text(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// Hands tinyobjloader the text of each mtllib, from beside the .obj only.
+class MtlReader : public tinyobj::MaterialReader {
+ public:
+  explicit MtlReader(std::string obj_path) : obj_path_(std::move(obj_path)) {}
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* map, std::string* warning, std::string* error) override {
+    const std::optional<std::string> bytes = read_if_there(beside(obj_path_, name));
+    if (!bytes) {
+      missing.push_back(name);
+      return false;
+    }
+    std::istringstream stream(*bytes);
+    tinyobj::LoadMtl(map, materials, &stream, warning, error);
+    return true;
+  }
+  std::vector<std::string> missing;
+
+ private:
+  std::string obj_path_;
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(Scene& scene) : scene_(scene) {}
+
+  void read(std::string_view bytes) {
+    MtlReader mtl(scene_.path);
+    std::istringstream stream{std::string(bytes)};
+    std::string warning, error;
+    const bool read =
+        tinyobj::LoadObj(&attrib_, &shapes_, &materials_, &warning, &error, &stream, &mtl, true, false);
+    if (!read || attrib_.vertices.empty()) {
+      const std::string why = one_line(error);
+      throw Error(ExitCode::bad_input, scene_.path,
+                  why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
+    }
+    for (const std::string& name : mtl.missing) scene_.warnings.push_back("material file not found: " + name);
+    TexturePool textures;
+    for (const tinyobj::material_t& m : materials_) add_material(m, textures);
+    textures.decode(scene_);
+    for (std::size_t i = 0; i < shapes_.size(); ++i) add_shape(shapes_[i], i);
+    if (skipped_)
+      scene_.warnings.push_back(text(skipped_, " lines and points are left out: they have no surface"));
+  }
+
+ private:
+  static Rgb colour(const tinyobj::real_t c[3]) {
+    const auto clean = [](tinyobj::real_t v) {
+      return std::isfinite(v) && v > 0 ? static_cast<float>(v) : 0.0f;
+    };
+    return {clean(c[0]), clean(c[1]), clean(c[2])};
+  }
+
+  TextureUse texture(const std::string& name, TexturePool& textures, const tinyobj::texture_option_t& option,
+                     bool srgb) {
+    TextureUse use;
+    if (name.empty()) return use;
+    const std::optional<std::string> bytes = read_if_there(texture_path(scene_.path, name));
+    TexturePool::Sampling sampling;
+    if (option.clamp) sampling.wrap_u = sampling.wrap_v = Texture::Wrap::clamp;
+    use.texture = textures.add(text(name, option.clamp ? " clamp" : ""), name, bytes.value_or(""),
+                               bytes ? "" : "cannot be read beside the scene", sampling, srgb);
+    return use;
+  }
+
+  /// Kd, Ks and Ns as a normalised Phong where the illumination model has highlights (2 and above), else
+  /// Lambert. Ke is the luminance in cd/m2.
+  void add_material(const tinyobj::material_t& from, TexturePool& textures) {
+    Material m;
+    m.name = from.name;
+    const auto warn = [&](const std::string& what) {
+      scene_.warnings.push_back("material \"" + m.name + "\": " + what);
+    };
+    m.kd = colour(from.diffuse);
+    m.emission = colour(from.emission);
+    const Rgb ks = colour(from.specular);
+    const bool shiny = max_component(ks) > 0 && from.shininess > 0 && from.illum >= 2;
+    if (shiny) {
+      m.model = Model::phong;
+      m.ks = ks;
+      m.exponent = std::isfinite(from.shininess) ? static_cast<float>(from.shininess) : 1.0f;
+      if (max_component(m.kd + m.ks) > 1.0001f)
+        warn("Kd + Ks is above 1: it reflects more light than it gets");
+    }
+    if (from.dissolve < 1) warn("d and Tr are ignored: it is opaque");
+    if (from.illum >= 4 && from.illum <= 9 && from.illum != 8)
+      warn(text("illum ", from.illum, " is read as reflection only"));
+    m.base_colour = texture(from.diffuse_texname, textures, from.diffuse_texopt, true);
+    // A map stands in for a Kd that exporters leave black.
+    if (m.base_colour.used() && max_component(m.kd) == 0) m.kd = Rgb(1);
+    if (m.emits()) m.emissive = texture(from.emissive_texname, textures, from.emissive_texopt, true);
+    m.normal = texture(from.normal_texname, textures, from.normal_texopt, false);
+    scene_.material.push_back(m);
+  }
+
+  std::uint32_t material_of(int index) {
+    if (index >= 0 && static_cast<std::size_t>(index) < materials_.size())
+      return static_cast<std::uint32_t>(index);
+    if (!default_material_) {
+      default_material_ = static_cast<std::uint32_t>(scene_.material.size());
+      Material m;
+      m.name = "default";
+      m.kd = Rgb(0.5f);
+      scene_.material.push_back(m);
+      scene_.warnings.push_back("some faces have no material: they are read as grey Lambert, kd 0.5");
+    }
+    return *default_material_;
+  }
+
+  /// One instance per material of a shape; vertices joined where position, normal and texture coordinates
+  /// agree.
+  void add_shape(const tinyobj::shape_t& shape, std::size_t index) {
+    skipped_ += shape.lines.num_line_vertices.size() + shape.points.indices.size();
+    std::map<int, std::vector<std::size_t>> faces;
+    const std::size_t n = shape.mesh.indices.size() / 3;
+    for (std::size_t f = 0; f < n; ++f) {
+      faces[f < shape.mesh.material_ids.size() ? shape.mesh.material_ids[f] : -1].push_back(f);
+    }
+    const std::string name = shape.name.empty() ? text("shape ", index) : shape.name;
+    for (const auto& [material, list] : faces) {
+      const std::uint32_t m = material_of(material);
+      add_instance(scene_, mesh_of(shape, list, name), glm::dmat4(1), name, m,
+                   scene_.material[m].normal.used(), "group \"" + name + "\"");
+    }
+  }
+
+  MeshData mesh_of(const tinyobj::shape_t& shape, const std::vector<std::size_t>& faces,
+                   const std::string& name) {
+    MeshData mesh;
+    std::map<std::array<int, 3>, std::uint32_t> known;
+    bool has_normals = false, has_uv = false;
+    for (const std::size_t f : faces) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        has_normals |= shape.mesh.indices[3 * f + k].normal_index >= 0;
+        has_uv |= shape.mesh.indices[3 * f + k].texcoord_index >= 0;
+      }
+    }
+    for (const std::size_t f : faces) {
+      Triangle t{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const tinyobj::index_t& i = shape.mesh.indices[3 * f + k];
+        const auto [it, fresh] = known.try_emplace({i.vertex_index, i.normal_index, i.texcoord_index},
+                                                   static_cast<std::uint32_t>(mesh.position.size()));
+        if (fresh) add_vertex(mesh, i, has_normals, has_uv, name);
+        t.v[k] = it->second;
+      }
+      mesh.triangle.push_back(t);
+    }
+    return mesh;
+  }
+
+  void add_vertex(MeshData& mesh, const tinyobj::index_t& i, bool has_normals, bool has_uv,
+                  const std::string& name) {
+    const auto in = [&](int index, std::size_t floats, std::size_t width, const char* what) {
+      if (index < 0 || static_cast<std::size_t>(index) >= floats / width) {
+        throw Error(ExitCode::bad_input, scene_.path,
+                    text("group \"", name, "\": ", what, " index ", index + 1, " is out of range; there are ",
+                         floats / width));
+      }
+      return width * static_cast<std::size_t>(index);
+    };
+    const std::size_t p = in(i.vertex_index, attrib_.vertices.size(), 3, "vertex");
+    const auto at = [](const std::vector<tinyobj::real_t>& v, std::size_t k) {
+      return static_cast<float>(v[k]);
+    };
+    mesh.position.emplace_back(at(attrib_.vertices, p), at(attrib_.vertices, p + 1),
+                               at(attrib_.vertices, p + 2));
+    if (has_normals) {
+      Vec3 normal(0);  // made from the faces later
+      if (i.normal_index >= 0) {
+        const std::size_t k = in(i.normal_index, attrib_.normals.size(), 3, "normal");
+        normal = {at(attrib_.normals, k), at(attrib_.normals, k + 1), at(attrib_.normals, k + 2)};
+      }
+      mesh.normal.push_back(normal);
+    }
+    if (has_uv) {
+      Vec2 uv(0);
+      if (i.texcoord_index >= 0) {
+        const std::size_t k = in(i.texcoord_index, attrib_.texcoords.size(), 2, "texture");
+        uv = {at(attrib_.texcoords, k), 1 - at(attrib_.texcoords, k + 1)};  // OBJ counts rows from below
+      }
+      mesh.uv0.push_back(uv);
+    }
+    if (!attrib_.colors.empty() && attrib_.colors.size() == attrib_.vertices.size()) {
+      mesh.colour.emplace_back(at(attrib_.colors, p), at(attrib_.colors, p + 1), at(attrib_.colors, p + 2),
+                               1.0f);
+    }
+  }
+
+  Scene& scene_;
+  tinyobj::attrib_t attrib_;
+  std::vector<tinyobj::shape_t> shapes_;
+  std::vector<tinyobj::material_t> materials_;
+  std::optional<std::uint32_t> default_material_;
+  std::uint64_t skipped_ = 0;
+};
+
+/// Words after `keyword` on each line that starts with it; the whole rest of the line first.
+void names_after(const std::string& bytes, const std::string& keyword, std::vector<std::string>& names) {
+  std::istringstream lines(bytes);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != keyword) continue;
+    std::string rest;
+    std::getline(words >> std::ws, rest);
+    while (!rest.empty() && (rest.back() == '\r' || rest.back() == ' ')) rest.pop_back();
+    names.push_back(rest);
+    std::istringstream parts(rest);
+    while (parts >> word) names.push_back(word);
+  }
+}
+
+}  // namespace
+
+Scene load_obj(const std::string& path, std::string_view bytes, const SceneOptions& options) {
+  Scene scene;
+  scene.path = path;
+  if (options.time_s) scene.time_s = *options.time_s;
+  if (options.frame) scene.time_s = *options.frame / scene.frames_per_s;
+  ObjReader(scene).read(bytes);
+  read_obj_lights(path, scene);
+  return scene;
+}
+
+std::vector<std::string> obj_external_files(const std::string& path, std::string_view bytes) {
+  std::vector<std::string> libraries, textures, files;
+  names_after(std::string(bytes), "mtllib", libraries);
+  for (const std::string& name : libraries) {
+    files.push_back(beside(path, name));
+    const std::optional<std::string> mtl = read_if_there(files.back());
+    if (!mtl) continue;
+    for (const char* keyword : {"map_Kd", "map_Ke", "norm"}) names_after(*mtl, keyword, textures);
+  }
+  for (const std::string& name : textures) files.push_back(texture_path(path, name));
+  files.push_back(obj_lights_path(path));
+  return files;
+}
+
+}  // namespace phos
