@@ -9,13 +9,15 @@
 
 namespace phos {
 
-/// Row 0 at the top. One sample per pixel; several are made with other `subpixel` offsets and averaged after shading.
+/// Row 0 at the top. One sample per pixel; several are made with other `subpixel` offsets and averaged after
+/// shading.
 struct GBuffer {
   int width = 0, height = 0;
-  std::vector<Hit> hit;       ///< distance_m = infinity where nothing is visible
-  std::vector<Vec4> position; ///< xyz m, w = 1; all zero where nothing is visible
-  std::vector<Vec4> normal;   ///< xyz = SurfacePoint::smooth_normal on the seen side, w = distance to the camera, m
-  std::vector<Vec4> albedo;   ///< rgb = diffuse reflectance, w = material index
+  std::vector<Hit> hit;        ///< distance_m = infinity where nothing is visible
+  std::vector<Vec4> position;  ///< xyz m, w = 1; all zero where nothing is visible
+  std::vector<Vec4>
+      normal;  ///< xyz = SurfacePoint::smooth_normal on the seen side, w = distance to the camera, m
+  std::vector<Vec4> albedo;  ///< rgb = diffuse reflectance, w = material index
   bool covered(std::size_t i) const { return position[i].w > 0; }
 };
 
@@ -23,6 +25,7 @@ struct GBuffer {
 Ray pixel_ray(const Camera& camera, int width, int height, int x, int y, const Vec2& subpixel);
 
 /// By rays (Embree): the oracle.
-GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height, const Vec2& subpixel);
+GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height,
+                      const Vec2& subpixel);
 
 }  // namespace phos

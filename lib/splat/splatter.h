@@ -16,15 +16,16 @@ struct SplatBuffer {
   std::vector<Vec4> error;  ///< rgb = sum w stderr (lx), w = number of records
 };
 
-/// Every record's weight (record_weight at `accuracy`) and extrapolated irradiance, summed. Tiled, vectorised, same bytes
-/// for any number of threads. The oracle for the OSMesa splatter.
+/// Every record's weight (record_weight at `accuracy`) and extrapolated irradiance, summed. Tiled,
+/// vectorised, same bytes for any number of threads. The oracle for the OSMesa splatter.
 SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                          const Camera& camera);
 
 /// OpenGL 4.5 core through OSMesa (llvmpipe). One context per object, used from the thread that made it.
 class GlRenderer {
  public:
-  /// Throws Error(bad_input) if no context can be had, saying what is missing and that --splat cpu needs none.
+  /// Throws Error(bad_input) if no context can be had, saying what is missing and that --splat cpu needs
+  /// none.
   explicit GlRenderer(const Scene& scene);
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
@@ -35,13 +36,14 @@ class GlRenderer {
   /// Instanced quads bounding each record's sphere of influence, additive RGBA32F blending.
   SplatBuffer splat(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                     const Camera& camera);
-  /// Direct illuminance by shadow maps (preview): per pixel, lx, visibility included. Area lights by `light_samples`
-  /// points each, point lights by six faces.
+  /// Direct illuminance by shadow maps (preview): per pixel, lx, visibility included. Area lights by
+  /// `light_samples` points each, point lights by six faces.
   std::vector<Rgb> direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size);
   const char* description() const;  ///< renderer and version, for --stats
 
  private:
   struct Impl;
+  struct ShadowPass;
   std::unique_ptr<Impl> impl_;
 };
 

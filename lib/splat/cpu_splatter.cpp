@@ -1,0 +1,118 @@
+#include "splat/cpu_splatter.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "splat/splatter.h"
+#include "splat/tiles.h"
+
+namespace phos {
+namespace {
+
+/// Pixels of a tile in a picture: where its row y starts, and how many columns and rows of it there are.
+struct TileWindow {
+  int x0, y0, columns, rows, width;
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x0 + x);
+  }
+};
+
+void load(SplatTile& tile, const GBuffer& g, const TileWindow& window) {
+  tile = {};
+  for (int y = 0; y < window.rows; ++y) {
+    for (int x = 0; x < window.columns; ++x) {
+      const std::size_t i = window.pixel(x, y);
+      const int t = y * kTileSide + x;
+      tile.px[t] = g.position[i].x, tile.py[t] = g.position[i].y, tile.pz[t] = g.position[i].z;
+      if (!g.covered(i)) continue;
+      tile.nx[t] = g.normal[i].x, tile.ny[t] = g.normal[i].y, tile.nz[t] = g.normal[i].z;
+    }
+  }
+}
+
+void store(const SplatTile& tile, SplatBuffer& buffer, const TileWindow& window) {
+  for (int y = 0; y < window.rows; ++y) {
+    for (int x = 0; x < window.columns; ++x) {
+      const std::size_t i = window.pixel(x, y);
+      const int t = y * kTileSide + x;
+      buffer.light[i] = {tile.light[0][t], tile.light[1][t], tile.light[2][t], tile.light[3][t]};
+      buffer.error[i] = {tile.error[0][t], tile.error[1][t], tile.error[2][t], tile.error[3][t]};
+    }
+  }
+}
+
+}  // namespace
+
+PackedRecord pack_record(const IrradianceRecord& r) {
+  PackedRecord p{};
+  // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
+  p.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
+  p.front_limit_m = -kFrontTolerance * r.radius_m;
+  for (int i = 0; i < 3; ++i) {
+    p.position[i] = r.position[i], p.normal[i] = r.normal[i];
+    p.irradiance[i] = r.irradiance[i], p.limit[i] = kGrowthLimit * r.irradiance[i],
+    p.stderr_lx[i] = r.stderr_lx[i];
+    for (int c = 0; c < 3; ++c) {
+      p.rotation[c][i] = r.rotation_gradient[c][i], p.translation[c][i] = r.translation_gradient[c][i];
+    }
+  }
+  return p;
+}
+
+SplatKernel* best_splat_kernel() {
+#ifdef PHOS_SPLAT_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
+    return splat_tile_avx2;
+  }
+#endif
+  return splat_tile_plain;
+}
+
+SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
+                         const Camera& camera) {
+  PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
+  const std::size_t pixels = gbuffer.position.size();
+  SplatBuffer buffer{std::vector<Vec4>(pixels, Vec4(0)), std::vector<Vec4>(pixels, Vec4(0))};
+  if (pixels == 0 || records.empty()) return buffer;
+
+  const auto a = static_cast<float>(accuracy);
+  const TileGrid grid(gbuffer, kTileSide);
+  const std::vector<PixelRect> bounds =
+      record_bounds(records, accuracy, camera, gbuffer.width, gbuffer.height);
+  std::vector<PackedRecord> packed(records.size());
+  parallel_for(records.size(), 1024, [&](std::size_t i) {
+    if (drawable(records[i])) packed[i] = pack_record(records[i]);
+  });
+
+  SplatKernel* const kernel = best_splat_kernel();
+  // One row of tiles at a time. Each tile adds its records in their order, whoever draws it.
+  parallel_for(static_cast<std::size_t>(grid.rows()), 1, [&](std::size_t tile_row) {
+    const int row = static_cast<int>(tile_row), y0 = row * kTileSide;
+    std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(grid.columns()));
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      const PixelRect& rect = bounds[i];
+      if (rect.empty() || rect.y1 <= y0 || rect.y0 >= y0 + kTileSide) continue;
+      for (int column = rect.x0 / kTileSide; column * kTileSide < rect.x1; ++column) {
+        if (grid.touches(records[i], a, column, row)) {
+          lists[static_cast<std::size_t>(column)].push_back(static_cast<std::uint32_t>(i));
+        }
+      }
+    }
+    SplatTile tile;
+    for (int column = 0; column < grid.columns(); ++column) {
+      const std::vector<std::uint32_t>& list = lists[static_cast<std::size_t>(column)];
+      if (list.empty()) continue;
+      const int x0 = column * kTileSide;
+      const TileWindow window{x0, y0, std::min(kTileSide, gbuffer.width - x0),
+                              std::min(kTileSide, gbuffer.height - y0), gbuffer.width};
+      load(tile, gbuffer, window);
+      kernel(tile, packed.data(), list.data(), list.size(), 1 / a, kLeastWeight);
+      store(tile, buffer, window);
+    }
+  });
+  return buffer;
+}
+
+}  // namespace phos

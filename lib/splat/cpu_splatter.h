@@ -1,0 +1,42 @@
+// The inner loop of the CPU splatter: plain arrays only, because it is compiled twice (for x86-64-v3, and for
+// any machine) and shares no inline function with the rest. Both give the same bits: no contraction, no
+// reassociation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace phos {
+
+struct IrradianceRecord;
+
+inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
+
+/// Positions and normals of a tile's pixels, and the sums of SplatBuffer, side by side. Pixels in which
+/// nothing is visible have a zero normal.
+struct alignas(64) SplatTile {
+  float px[kTilePixels], py[kTilePixels], pz[kTilePixels];
+  float nx[kTilePixels], ny[kTilePixels], nz[kTilePixels];
+  float light[4][kTilePixels], error[4][kTilePixels];
+};
+
+/// An IrradianceRecord as the loop wants it. front_limit_m = -tolerance * radius.
+struct PackedRecord {
+  float position[3], inverse_radius, normal[3], front_limit_m;
+  float irradiance[3], limit[3], stderr_lx[3];
+  float rotation[3][3], translation[3][3];
+};
+PackedRecord pack_record(const IrradianceRecord& record);
+
+using SplatKernel = void(SplatTile& tile, const PackedRecord* records, const std::uint32_t* list,
+                         std::size_t count, float inverse_accuracy, float least_weight);
+
+/// Adds the listed records in order to a tile.
+SplatKernel splat_tile_plain;
+#ifdef PHOS_SPLAT_AVX2
+SplatKernel splat_tile_avx2;
+#endif
+/// The fastest one that this machine can run.
+SplatKernel* best_splat_kernel();
+
+}  // namespace phos

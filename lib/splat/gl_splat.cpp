@@ -1,0 +1,146 @@
+// Splatting by OpenGL: each record is an instanced rectangle, or a few that cover the tiles where it can
+// weigh something, added to the picture by 32-bit float blending.
+#include <algorithm>
+#include <cstddef>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "splat/cpu_splatter.h"
+#include "splat/gl_renderer.h"
+#include "splat/shaders.h"
+#include "splat/tiles.h"
+
+namespace phos {
+namespace {
+
+constexpr int kSplatTile = 32;
+constexpr std::size_t kBatch = 1 << 15;  // instances per draw: bounds the memory
+
+struct SplatInstance {
+  float rect[4];
+  PackedRecord record;
+};
+
+struct Attribute {
+  GLuint location;
+  GLint size;
+  std::size_t offset;
+};
+constexpr std::size_t kRecord = offsetof(SplatInstance, record);
+constexpr Attribute kAttributes[] = {
+    {0, 4, offsetof(SplatInstance, rect)},
+    {1, 4, kRecord + offsetof(PackedRecord, position)},
+    {2, 4, kRecord + offsetof(PackedRecord, normal)},
+    {3, 3, kRecord + offsetof(PackedRecord, irradiance)},
+    {4, 3, kRecord + offsetof(PackedRecord, stderr_lx)},
+    {5, 3, kRecord + offsetof(PackedRecord, rotation)},
+    {6, 3, kRecord + offsetof(PackedRecord, rotation) + 12},
+    {7, 3, kRecord + offsetof(PackedRecord, rotation) + 24},
+    {8, 3, kRecord + offsetof(PackedRecord, translation)},
+    {9, 3, kRecord + offsetof(PackedRecord, translation) + 12},
+    {10, 3, kRecord + offsetof(PackedRecord, translation) + 24},
+};
+
+/// Cuts a record's rectangle down to the tiles that it touches: runs along each row of tiles, joined with the
+/// row above where they are alike. The rectangles, in pixels, do not overlap.
+void cut(const TileGrid& grid, const IrradianceRecord& record, float accuracy, const PixelRect& bounds,
+         std::vector<PixelRect>& rects) {
+  rects.clear();
+  const int size = grid.tile_size(), end_column = (bounds.x1 + size - 1) / size;
+  const auto add = [&](const PixelRect& rect) {
+    for (PixelRect& upper : rects) {
+      if (upper.y1 != rect.y0 || upper.x0 != rect.x0 || upper.x1 != rect.x1) continue;
+      upper.y1 = rect.y1;
+      return;
+    }
+    rects.push_back(rect);
+  };
+  for (int row = bounds.y0 / size; row * size < bounds.y1; ++row) {
+    int start = -1;
+    for (int column = bounds.x0 / size; column <= end_column; ++column) {
+      const bool in = column < end_column && grid.touches(record, accuracy, column, row);
+      if (in && start < 0) start = column;
+      if (in || start < 0) continue;
+      add({std::max(start * size, bounds.x0), std::max(row * size, bounds.y0),
+           std::min(column * size, bounds.x1), std::min((row + 1) * size, bounds.y1)});
+      start = -1;
+    }
+  }
+}
+
+/// Rectangle in the coordinates of OpenGL's viewport.
+void set_rect(SplatInstance& instance, const PixelRect& rect, int width, int height) {
+  const float x = 2.f / static_cast<float>(width), y = 2.f / static_cast<float>(height);
+  instance.rect[0] = static_cast<float>(rect.x0) * x - 1,
+  instance.rect[1] = static_cast<float>(rect.y0) * y - 1;
+  instance.rect[2] = static_cast<float>(rect.x1) * x - 1,
+  instance.rect[3] = static_cast<float>(rect.y1) * y - 1;
+}
+
+}  // namespace
+
+void GlRenderer::Impl::prepare_splat() {
+  if (splat_program) return;
+  const Gl& gl = context.gl();
+  splat_program = GlProgram(gl, "splat", shaders::splat_vertex, shaders::splat_fragment);
+  splat_instances = make_buffer(gl);
+  splat_array = make_vertex_array(gl);
+  const GLuint array = splat_array.id();
+  gl.VertexArrayVertexBuffer(array, 0, splat_instances.id(), 0, sizeof(SplatInstance));
+  gl.VertexArrayBindingDivisor(array, 0, 1);
+  for (const Attribute& attribute : kAttributes) {
+    gl.EnableVertexArrayAttrib(array, attribute.location);
+    gl.VertexArrayAttribFormat(array, attribute.location, attribute.size, GL_FLOAT, GL_FALSE,
+                               static_cast<GLuint>(attribute.offset));
+    gl.VertexArrayAttribBinding(array, attribute.location, 0);
+  }
+}
+
+SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double accuracy,
+                              const GBuffer& gbuffer, const Camera& camera) {
+  PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
+  const std::size_t pixels = gbuffer.position.size();
+  SplatBuffer buffer{std::vector<Vec4>(pixels, Vec4(0)), std::vector<Vec4>(pixels, Vec4(0))};
+  if (pixels == 0 || records.empty()) return buffer;
+
+  impl_->context.make_current();
+  impl_->prepare_splat();
+  const Gl& gl = impl_->context.gl();
+  const GlPictureTarget& target = impl_->picture_target(gbuffer);
+  const auto a = static_cast<float>(accuracy);
+  impl_->splat_program.set("rule", Vec4(1 / a, kLeastWeight, kGrowthLimit, 0));
+  impl_->splat_program.use();
+  impl_->bind_for_sum(target);
+  gl.BindVertexArray(impl_->splat_array.id());
+
+  std::vector<SplatInstance> batch;
+  const auto draw = [&] {
+    gl.NamedBufferData(impl_->splat_instances.id(),
+                       static_cast<GLsizeiptr>(batch.size() * sizeof(SplatInstance)), batch.data(),
+                       GL_STREAM_DRAW);
+    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.size()));
+    batch.clear();
+  };
+  const TileGrid grid(gbuffer, kSplatTile);
+  const std::vector<PixelRect> bounds =
+      record_bounds(records, accuracy, camera, gbuffer.width, gbuffer.height);
+  std::vector<PixelRect> rects;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (bounds[i].empty()) continue;
+    cut(grid, records[i], a, bounds[i], rects);
+    if (rects.empty()) continue;
+    const PackedRecord packed = pack_record(records[i]);
+    for (const PixelRect& rect : rects) {
+      set_rect(batch.emplace_back(), rect, gbuffer.width, gbuffer.height);
+      batch.back().record = packed;
+    }
+    if (batch.size() >= kBatch) draw(), throw_if_interrupted();
+  }
+  if (!batch.empty()) draw();
+  impl_->read(target.light, buffer.light);
+  impl_->read(target.error, buffer.error);
+  impl_->context.check("splatting");
+  return buffer;
+}
+
+}  // namespace phos

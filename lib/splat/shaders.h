@@ -1,0 +1,21 @@
+// GLSL 4.50 of the splatter. Pixels are counted from the top: the projection turns the picture over.
+#pragma once
+
+namespace phos::shaders {
+
+/// Triangles of the scene, seen through `view`. Reversed depth: 1 at the nearest, towards 0 far away.
+extern const char* const scene_vertex;
+/// Writes the triangle's number.
+extern const char* const scene_fragment;
+/// The same, without the holes of materials that are not opaque.
+extern const char* const masked_fragment;
+/// One rectangle per instance, each with a record.
+extern const char* const splat_vertex;
+/// Weight and extrapolated irradiance of a record at a pixel.
+extern const char* const splat_fragment;
+/// One triangle over the whole picture.
+extern const char* const picture_vertex;
+/// Illuminance of each pixel by one sample of a light, where its shadow map lets it through.
+extern const char* const shadow_fragment;
+
+}  // namespace phos::shaders
