@@ -69,6 +69,8 @@ class Tool {
   /// What tells this output from others of the same command, though it is no parameter ("shard 1/4"): the key
   /// becomes "key:variant". Call before up_to_date() and provenance().
   void set_variant(const std::string& variant) { variant_ = variant; }
+  /// For a tool that makes what another tool makes (merged shards are the file of the whole run): the key of that output.
+  void set_key(const std::string& key) { asked_key_ = key; }
 
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
   Provenance provenance(const std::string& kind, const std::string& scene_hash,
