@@ -58,20 +58,43 @@ std::string number(double v) {
 
 struct LegendText {
   std::string title, unit;
+  std::vector<std::string> figures;  ///< lines below the palette
 };
+
+/// "mean 17.2" and the extremes of the finite values, which the palette may not reach.
+std::vector<std::string> figures_of(std::span<const float> values) {
+  double sum = 0, lo = kInfinity, hi = -kInfinity;
+  std::size_t n = 0, bad = 0;
+  for (const float v : values) {
+    if (!std::isfinite(v)) {
+      ++bad;
+      continue;
+    }
+    sum += v, lo = std::min(lo, double{v}), hi = std::max(hi, double{v});
+    ++n;
+  }
+  std::vector<std::string> lines;
+  if (n > 0)
+    lines = {"max " + number(hi), "mean " + number(sum / static_cast<double>(n)), "min " + number(lo)};
+  if (bad > 0) lines.push_back(text("not finite ", bad));
+  return lines;
+}
 
 /// Copies `picture` on a larger one with a legend beside it. `colour` gives the palette at a position 0 .. 1.
 Picture with_legend(const Picture& picture, const FalseColourRange& range, const LegendText& words,
                     const std::function<Colour8(double)>& colour) {
   const int dot = 1 + std::max(picture.height, 60) / 350;
   const int line = text_height(dot), gap = 4 * dot;
-  const int height = std::max(picture.height, 16 * line);
-  const int top = 2 * gap + 2 * line + 2 * gap, bottom = height - 2 * gap - line / 2;
+  const int footer = static_cast<int>(words.figures.size()) * (line + gap);
+  const int height = std::max(picture.height, 16 * line + footer);
+  const int top = 2 * line + 5 * gap, bottom = height - footer - 3 * gap;
   const int bar_width = 12 * dot, bar_height = bottom - top;
   const std::string unit = text_for_picture(words.unit == "1" ? "" : words.unit);
   std::vector<std::pair<double, std::string>> marks;
-  int widest = std::max(text_width(words.title, dot), text_width(unit, dot)) - bar_width - 2 * gap;
-  for (const double v : scale_marks(range, std::clamp(bar_height / (4 * line), 2, 12))) {
+  int widest = std::max(text_width(words.title, dot), text_width(unit, dot));
+  for (const std::string& s : words.figures) widest = std::max(widest, text_width(s, dot));
+  widest -= bar_width + 2 * gap;
+  for (const double v : scale_marks(range, std::clamp(bar_height / (2 * line), 2, 14))) {
     marks.emplace_back(v, number(v));
     widest = std::max(widest, text_width(marks.back().second, dot));
   }
@@ -90,6 +113,9 @@ Picture with_legend(const Picture& picture, const FalseColourRange& range, const
     fill(out, left + bar_width, y - dot / 2, gap, dot, kInk);
     draw_text(out, left + bar_width + 2 * gap, y - line / 2, dot, label, kInk);
   }
+  for (std::size_t i = 0; i < words.figures.size(); ++i)
+    draw_text(out, left, height - gap - footer + static_cast<int>(i) * (line + gap), dot, words.figures[i],
+              kFaint);
   return out;
 }
 
@@ -188,7 +214,7 @@ FalseColourRange false_colour_range(std::span<const float> values, Scale scale, 
   for (const float v : values)
     if (std::isfinite(v) && (v > 0 || scale == Scale::linear)) usable.push_back(v);
   FalseColourRange range{scale, 0, 1};
-  const double high = percentile(usable, 0.995), low = percentile(usable, 0.01);
+  const double high = percentile(usable, 0.98), low = percentile(usable, 0.01);
   range.hi = hi ? *hi : high > 0 ? round_up_125(high) : lo && *lo > 0 ? 10 * *lo : 1.0;
   if (lo)
     range.lo = *lo;
@@ -230,7 +256,8 @@ std::vector<double> scale_marks(const FalseColourRange& range, int wanted) {
 Picture false_colour(std::span<const float> values, int width, int height, const FalseColourRange& range,
                      Palette palette, const std::string& title, const std::string& unit) {
   const auto colour = [palette](double t) { return palette_colour(palette, t); };
-  return with_legend(coloured(values, width, height, range, colour), range, {title, unit}, colour);
+  return with_legend(coloured(values, width, height, range, colour), range, {title, unit, figures_of(values)},
+                     colour);
 }
 
 Picture difference_picture(std::span<const float> values, int width, int height, double range,
@@ -245,7 +272,8 @@ Picture difference_picture(std::span<const float> values, int width, int height,
   }
   const FalseColourRange scale{Scale::linear, -range, range};
   const auto colour = [](double t) { return difference_colour(2 * t - 1); };
-  return with_legend(coloured(values, width, height, scale, colour), scale, {title, unit}, colour);
+  return with_legend(coloured(values, width, height, scale, colour), scale, {title, unit, figures_of(values)},
+                     colour);
 }
 
 }  // namespace phos

@@ -35,14 +35,15 @@ struct FalseColourRange {
   double lo = 0, hi = 1;
 };
 
-/// Fills in what is not given. hi is the 99.5th percentile of the finite values, rounded up to a round
+/// Fills in what is not given. hi is the 98th percentile of the finite values, rounded up to a round
 /// number; lo is 0 on a linear scale, and on a logarithmic one the first percentile of positive values,
 /// rounded down, at most 10,000 times below hi. Throws Error(usage) if lo >= hi, or if a logarithmic scale
 /// does not start above 0.
 FalseColourRange false_colour_range(std::span<const float> values, Scale scale, std::optional<double> lo,
                                     std::optional<double> hi);
 
-/// The picture, with a legend at its right: title, unit, palette, and round numbers beside their colours.
+/// The picture, with a legend at its right: title, unit, palette, and round numbers beside their colours;
+/// below it mean and extremes, as the brightest pixels may lie beyond the palette.
 Picture false_colour(std::span<const float> values, int width, int height, const FalseColourRange& range,
                      Palette palette, const std::string& title, const std::string& unit);
 

@@ -69,7 +69,7 @@ double ssim(const Plane& a, const Plane& b, std::span<const char> counts, int wi
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!counts[i]) continue;
     const double x = ma[i], y = mb[i];
-    const double vx = std::max(0.0, aa[i] - x * x), vy = std::max(0.0, bb[i] - y * y), cov = ab[i] - x * y;
+    const double vx = aa[i] - x * x, vy = bb[i] - y * y, cov = ab[i] - x * y;
     sum += (2 * x * y + c1) * (2 * cov + c2) / ((x * x + y * y + c1) * (vx + vy + c2));
     ++n;
   }

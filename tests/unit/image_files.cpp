@@ -71,10 +71,10 @@ TEST(Hdr, RoundTripWithinOneStep) {
     EXPECT_EQ(back.attributes, image.attributes);
     const std::vector<Rgb> a = image.rgb(""), b = back.rgb("");
     for (std::size_t i = 0; i < a.size(); ++i) {
-      // Half a step of 1/128 of the largest; up to 3 % where a pure Rec.709 colour lies outside Radiance's
+      // Half a step of 1/128 of the largest; up to 5 % where a pure Rec.709 colour lies outside Radiance's
       // primaries.
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(a[i][c], b[i][c], 0.03f * max_component(a[i])) << width << " " << i;
+        EXPECT_NEAR(a[i][c], b[i][c], 0.05f * max_component(a[i])) << width << " " << i;
     }
   }
 }

@@ -1,0 +1,114 @@
+// phos-picture from a shell.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "image/image.h"
+#include "support/run.h"
+
+namespace phos {
+namespace {
+
+using test::run_tool;
+
+class PictureTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = test::scratch("picture");
+    Image image(64, 48);
+    std::vector<Rgb> ramp(image.pixels());
+    for (std::size_t i = 0; i < ramp.size(); ++i)
+      ramp[i] = Rgb(1, 2, 3) * std::exp2(static_cast<float>(i % 64) / 6);
+    image.set_rgb("", ramp);
+    for (float& v : image.channel("illuminance.Y")) v = 300;
+    for (const char* c : {"normal.X", "normal.Y"}) image.channel(c);
+    for (float& v : image.channel("normal.Z")) v = 1;
+    image.attributes["VIEW"] = "-vtv";
+    write_exr(path("in.exr"), image);
+    image.channel("R")[5] = NAN;
+    write_exr(path("nan.exr"), image);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string folder_;
+};
+
+TEST_F(PictureTool, ToneMappedPng) {
+  for (const char* op : {"reinhard", "filmic", "linear"}) {
+    const auto run = run_tool({"picture", path("in.exr"), "-o", path("out.png"), "--operator", op});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    const Picture p = read_png(path("out.png"));
+    EXPECT_EQ(p.width, 64);
+    EXPECT_EQ(p.height, 48);
+    EXPECT_LT(p.rgb[1], p.rgb[3 * 40 + 1]);
+  }
+}
+
+TEST_F(PictureTool, SameBytesOnAnyNumberOfThreads) {
+  run_tool({"picture", path("in.exr"), "-o", path("1.png"), "--threads", "1"});
+  run_tool({"picture", path("in.exr"), "-o", path("4.png"), "--threads", "4"});
+  EXPECT_FALSE(test::slurp(path("1.png")).empty());
+  EXPECT_EQ(test::slurp(path("1.png")), test::slurp(path("4.png")));
+}
+
+TEST_F(PictureTool, FalseColourOfEveryScale) {
+  for (const std::vector<std::string>& extra :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--scale", "linear"},
+                                             {"--scale", "log", "--min", "1", "--max", "1000"},
+                                             {"--palette", "turbo"},
+                                             {"--layer", "illuminance"}}) {
+    std::vector<std::string> words{"picture", path("in.exr"), "-o", path("fc.png"), "--false-colour"};
+    words.insert(words.end(), extra.begin(), extra.end());
+    const auto run = run_tool(words);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_GT(read_png(path("fc.png")).width, 64);
+  }
+}
+
+TEST_F(PictureTool, NormalsAsColours) {
+  EXPECT_EQ(run_tool({"picture", path("in.exr"), "-o", path("n.png"), "--layer", "normal"}).code, 0);
+  const Picture p = read_png(path("n.png"));
+  EXPECT_EQ(p.rgb[2], 255);
+  EXPECT_EQ(p.rgb[0], p.rgb[1]);
+}
+
+TEST_F(PictureTool, NonFinitePixelsAreMagentaAndReported) {
+  const auto run = run_tool({"picture", path("nan.exr"), "-o", path("out.png")});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.err.find("1 of 3072 pixels are not finite"), std::string::npos) << run.err;
+  const Picture p = read_png(path("out.png"));
+  EXPECT_EQ(p.rgb[15], 255);
+  EXPECT_EQ(p.rgb[16], 0);
+  EXPECT_EQ(p.rgb[17], 255);
+}
+
+TEST_F(PictureTool, RadianceOutput) {
+  EXPECT_EQ(run_tool({"picture", path("in.exr"), "-o", path("out.hdr")}).code, 0);
+  const Image back = read_image(path("out.hdr"));
+  EXPECT_EQ(back.attributes.at("VIEW"), "-vtv");
+  EXPECT_NEAR(luminance(back.rgb("")[0]), luminance(Rgb(1, 2, 3)), 0.02);
+}
+
+TEST_F(PictureTool, Errors) {
+  const auto expect = [&](int code, std::vector<std::string> words) {
+    const auto run = run_tool(words);
+    EXPECT_EQ(run.code, code) << run.err;
+    EXPECT_TRUE(test::is_one_line(run.err)) << run.err;
+  };
+  test::spill(path("old.png"), "what was there before");
+  expect(3, {"picture", path("missing.exr"), "-o", path("old.png")});
+  expect(3, {"picture", path("in.exr"), "-o", path("old.png"), "--layer", "glossy"});
+  expect(3, {"picture", path("in.exr"), "-o", path("old.png"), "--layer", "normal", "--false-colour"});
+  expect(2, {"picture", path("in.exr"), "-o", path("old.png"), "--false-colour", "--min", "5", "--max", "2"});
+  EXPECT_EQ(test::slurp(path("old.png")), "what was there before");
+  expect(2, {"picture", path("in.exr"), "-o", path("out.jpg")});
+  expect(2, {"picture", path("in.exr"), "-o", path("out.hdr"), "--false-colour"});
+  expect(3, {"picture", path("in.exr"), "-o", path("no/out.png")});
+  expect(2, {"picture", path("in.exr")});
+}
+
+}  // namespace
+}  // namespace phos
