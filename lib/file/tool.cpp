@@ -102,6 +102,8 @@ void Tool::begin() {
   set_threads(static_cast<int>(threads_));
   install_interrupt_handler();
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  if (wants_output_ == Output::required && output_.empty())
+    throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
   if (!stats_path_.empty()) require_writable(stats_path_);
   if (!output_.empty() && !why_) require_writable(output_);
 }
