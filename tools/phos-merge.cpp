@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
   tool.options().example("phos-merge a.photons b.photons -o room.photons",
                          "joins the files of --shard 1/2 and 2/2");
   return tool.run(argc, argv, [&] {
+    tool.set_key(key_of_merged(shards));
+    if (tool.up_to_date()) return;
     MergedShards merged = read_shards(shards);
     tool.say(
         text(shards.size(), " shards: ", merged.totals.paths, " paths, ", merged.totals.stored, " photons"));

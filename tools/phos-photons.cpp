@@ -1,6 +1,5 @@
 // Traces photons from the lights of a scene and writes the map of where they land.
 #include <cmath>
-#include <filesystem>
 #include <optional>
 
 #include "file/tool.h"
@@ -13,19 +12,6 @@ namespace {
 
 using namespace phos;
 
-// Shards of one run share their key (merged, they are the whole), so --reuse must also look at which part a
-// file holds.
-bool holds_part(const std::string& path, const std::string& shard) {
-  if (!std::filesystem::is_regular_file(path)) return true;  // nothing there: up_to_date() says so
-  try {
-    const Container file = Container::open(path, "photons");
-    const Json* held = file.provenance().extra.find("shard");
-    return (held && held->is_string() ? held->as_string() : "") == shard;
-  } catch (const Error&) {
-    return true;  // up_to_date() says what is wrong with it
-  }
-}
-
 double percent(double part, double whole) { return whole > 0 ? std::round(1000 * part / whole) / 10 : 0; }
 
 void report(Tool& tool, const PhotonTotals& totals) {
@@ -37,8 +23,8 @@ void report(Tool& tool, const PhotonTotals& totals) {
                 " lm emitted, ", percent(escaped, emitted), " % of it left the scene"));
   if (totals.stored == 0)
     tool.warn(totals.paths == 0
-                  ? "warning: no paths were emitted (--photons 0): the map is empty"
-                  : "warning: every photon left the scene: the map is empty; do the lights face surfaces?");
+                  ? "no paths were emitted (--photons 0): the map is empty"
+                  : "every photon left the scene: the map is empty; do the lights face surfaces?");
   tool.stat("paths", totals.paths);
   tool.stat("stored", totals.stored);
 }
@@ -72,7 +58,8 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     path_range(options.shard, options.paths);  // a wrong --shard is said before the work
     tool.add_input("scene", scene_files(scene_path));
-    if (holds_part(tool.output(), options.shard) && tool.up_to_date()) return;
+    if (!options.shard.empty()) tool.set_variant("shard " + options.shard);
+    if (tool.up_to_date()) return;
 
     std::optional<Scene> scene;
     std::optional<RayScene> rays;

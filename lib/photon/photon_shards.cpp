@@ -43,6 +43,9 @@ Shard open_shard(const std::string& path) {
   return s;
 }
 
+// A shard's key is that of the whole with ":shard i/n" behind it.
+std::string key_of_whole(const Provenance& p) { return p.key.substr(0, p.key.find(':')); }
+
 void require_same_run(const Shard& a, const Shard& b) {
   const Provenance &p = a.file.provenance(), &q = b.file.provenance();
   const auto refuse = [&](const std::string& what) {
@@ -53,7 +56,8 @@ void require_same_run(const Shard& a, const Shard& b) {
   if (p.tool != q.tool) refuse(text("made by ", q.tool, ", not ", p.tool));
   if (p.scene_hash != q.scene_hash) refuse("another scene");
   if (p.command != q.command) refuse(text("\"", q.command, "\", not \"", p.command, "\""));
-  if (p.key != q.key || p.inputs != q.inputs || !(p.history == q.history)) refuse("other inputs");
+  if (key_of_whole(p) != key_of_whole(q) || p.inputs != q.inputs || !(p.history == q.history))
+    refuse("other inputs");
   if (a.count != b.count) refuse(text("shard ", b.name, ", not one of ", a.count));
   if (a.totals.emitted != b.totals.emitted || a.totals.flux_exponent != b.totals.flux_exponent)
     refuse("other totals");
@@ -94,6 +98,17 @@ void require_each_once(const std::vector<Shard>& shards) {
         text("the shards hold ", path, " of ", shards.front().totals.emitted, " paths; make them again"));
 }
 
+std::vector<Shard> open_shards(const std::vector<std::string>& paths) {
+  PHOS_CHECK(!paths.empty(), "no shards");
+  std::vector<Shard> shards;
+  for (const std::string& path : paths) shards.push_back(open_shard(path));
+  for (const Shard& s : shards) require_same_run(shards.front(), s);
+  std::stable_sort(shards.begin(), shards.end(),
+                   [](const Shard& a, const Shard& b) { return a.index < b.index; });
+  require_each_once(shards);
+  return shards;
+}
+
 template <class T>
 void add(std::vector<T>& to, std::span<const T> from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -113,17 +128,15 @@ void write_shard(const std::string& path, const Photons& photons, const PhotonTo
   writer.write(path, provenance);
 }
 
-MergedShards read_shards(const std::vector<std::string>& paths) {
-  PHOS_CHECK(!paths.empty(), "no shards");
-  std::vector<Shard> shards;
-  for (const std::string& path : paths) shards.push_back(open_shard(path));
-  for (const Shard& s : shards) require_same_run(shards.front(), s);
-  std::stable_sort(shards.begin(), shards.end(),
-                   [](const Shard& a, const Shard& b) { return a.index < b.index; });
-  require_each_once(shards);
+std::string key_of_merged(const std::vector<std::string>& paths) {
+  return key_of_whole(open_shards(paths).front().file.provenance());
+}
 
+MergedShards read_shards(const std::vector<std::string>& paths) {
+  const std::vector<Shard> shards = open_shards(paths);
   MergedShards merged;
   merged.provenance = shards.front().file.provenance();
+  merged.provenance.key = key_of_whole(merged.provenance);
   merged.provenance.extra = Json();
   merged.provenance.counters = Counters();
   merged.totals.emitted = shards.front().totals.emitted;
