@@ -74,14 +74,16 @@ void Bsdf::resolve_rough(Lobe lobe, float alpha_x, float alpha_y) {
 }
 
 void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection) {
-  if (!(max_component(base) > 0)) return;
-  coated_ = true;
   const float transmitted = 1 - ggx_mean_albedo(coat_alpha_, f0, f90);
+  if (!(max_component(base) > 0) || !(transmitted > 0)) return;
+  coated_ = true;
   // k_interreflection is 1/eta^2 of the coat, or 0 for a base whose colour already is what leaves the coat.
-  Rgb k(transmitted > 0 ? 1 / transmitted : 0.f);
+  // Of the light below the coat, transmitted / eta^2 leaves it (the same reciprocity that makes the outside
+  // reflect 1 - transmitted).
+  Rgb k(1 / transmitted);
   if (k_interreflection > 0) {
-    const float internal = std::max(0.f, 1 - transmitted * k_interreflection);
-    k = Rgb(k_interreflection) / (Rgb(1) - internal * glm::min(base, Rgb(1)));
+    const Rgb kd = glm::min(base, Rgb(1));
+    k = Rgb(k_interreflection) / ((Rgb(1) - kd) + kd * (transmitted * k_interreflection));
   }
   base_ = k * base;
   diffuse_ = base_ * (transmitted * transmitted);

@@ -58,7 +58,7 @@ float fresnel_dielectric(float cos_i, float eta, float& cos_t) {
 
 namespace {
 
-/// A and B of ggx_albedo over cos(theta) and the square root of alpha.
+/// A and B of ggx_albedo over the square roots of cos(theta) and of alpha.
 struct AlbedoTable {
   static constexpr int kCosines = 32, kAlphas = 17, kSamples = 24;
   struct Entry {
@@ -67,12 +67,18 @@ struct AlbedoTable {
   std::array<std::array<Entry, kCosines>, kAlphas> entry;
   std::array<Entry, kAlphas> mean;
 
+  /// Denser towards grazing, where the albedo bends most.
+  static float cosine(std::size_t i) {
+    const float root = static_cast<float>(i) / (kCosines - 1);
+    return root * root;
+  }
+
   AlbedoTable() {
     for (int j = 0; j < kAlphas; ++j) {
       const float root = static_cast<float>(j) / (kAlphas - 1);
       for (int i = 0; i < kCosines; ++i) {
-        const float cos_theta = std::max(static_cast<float>(i) / (kCosines - 1), 1e-4f);
-        entry[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = integrate(cos_theta, root * root);
+        const auto column = static_cast<std::size_t>(i);
+        entry[static_cast<std::size_t>(j)][column] = integrate(std::max(cosine(column), 1e-4f), root * root);
       }
       mean[static_cast<std::size_t>(j)] = mean_of(entry[static_cast<std::size_t>(j)]);
     }
@@ -102,9 +108,8 @@ struct AlbedoTable {
   /// 2 int E(c) c dc of the piecewise linear E, exactly.
   static Entry mean_of(const std::array<Entry, kCosines>& row) {
     double a = 0, b = 0;
-    constexpr double h = 1.0 / (kCosines - 1);
     for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-      const double c0 = static_cast<double>(i) * h, c1 = c0 + h;
+      const double c0 = static_cast<double>(cosine(i)), c1 = static_cast<double>(cosine(i + 1)), h = c1 - c0;
       const double w0 = h * (2 * c0 + c1) / 6, w1 = h * (c0 + 2 * c1) / 6;
       a += 2 * (w0 * static_cast<double>(row[i].a) + w1 * static_cast<double>(row[i + 1].a));
       b += 2 * (w0 * static_cast<double>(row[i].b) + w1 * static_cast<double>(row[i + 1].b));
@@ -123,10 +128,19 @@ struct Cell {
   float fraction;
 };
 
-Cell cell(float t, int n) {
-  const float x = std::clamp(t, 0.f, 1.f) * static_cast<float>(n - 1);
-  const int i = std::min(static_cast<int>(x), n - 2);
+Cell alpha_cell(float alpha) {
+  const float x = std::sqrt(std::clamp(alpha, 0.f, 1.f)) * (AlbedoTable::kAlphas - 1);
+  const int i = std::min(static_cast<int>(x), AlbedoTable::kAlphas - 2);
   return {static_cast<std::size_t>(i), x - static_cast<float>(i)};
+}
+
+Cell cosine_cell(float cos_theta) {
+  const float c = std::clamp(cos_theta, 0.f, 1.f);
+  const int row =
+      std::min(static_cast<int>(std::sqrt(c) * (AlbedoTable::kCosines - 1)), AlbedoTable::kCosines - 2);
+  const auto i = static_cast<std::size_t>(row);
+  const float c0 = AlbedoTable::cosine(i), c1 = AlbedoTable::cosine(i + 1);
+  return {i, (c - c0) / (c1 - c0)};
 }
 
 AlbedoTable::Entry mix(const AlbedoTable::Entry& p, const AlbedoTable::Entry& q, float t) {
@@ -137,7 +151,7 @@ AlbedoTable::Entry mix(const AlbedoTable::Entry& p, const AlbedoTable::Entry& q,
 
 float ggx_albedo(float cos_theta, float alpha, float f0, float f90) {
   const AlbedoTable& table = albedo_table();
-  const Cell c = cell(cos_theta, AlbedoTable::kCosines), r = cell(std::sqrt(alpha), AlbedoTable::kAlphas);
+  const Cell c = cosine_cell(cos_theta), r = alpha_cell(alpha);
   const auto at = [&](std::size_t row) {
     return mix(table.entry[row][c.index], table.entry[row][c.index + 1], c.fraction);
   };
@@ -147,7 +161,7 @@ float ggx_albedo(float cos_theta, float alpha, float f0, float f90) {
 
 float ggx_mean_albedo(float alpha, float f0, float f90) {
   const AlbedoTable& table = albedo_table();
-  const Cell r = cell(std::sqrt(alpha), AlbedoTable::kAlphas);
+  const Cell r = alpha_cell(alpha);
   const AlbedoTable::Entry e = mix(table.mean[r.index], table.mean[r.index + 1], r.fraction);
   return f0 * e.a + f90 * e.b;
 }
