@@ -169,9 +169,14 @@ class ObjReader {
   MeshData mesh_of(const tinyobj::shape_t& shape, const std::vector<std::size_t>& faces,
                    const std::string& name) {
     MeshData mesh;
-    std::map<std::array<int, 3>, std::uint32_t> known;
-    bool has_normals = false, has_uv = false;
+    std::map<std::array<int, 4>, std::uint32_t> known;
+    bool has_normals = false, has_uv = false, smooth = false;
+    const auto group = [&](std::size_t f) {
+      const auto& groups = shape.mesh.smoothing_group_ids;
+      return f < groups.size() ? groups[f] : 0u;
+    };
     for (const std::size_t f : faces) {
+      smooth |= group(f) != 0;
       for (std::size_t k = 0; k < 3; ++k) {
         has_normals |= shape.mesh.indices[3 * f + k].normal_index >= 0;
         has_uv |= shape.mesh.indices[3 * f + k].texcoord_index >= 0;
@@ -181,9 +186,14 @@ class ObjReader {
       Triangle t{};
       for (std::size_t k = 0; k < 3; ++k) {
         const tinyobj::index_t& i = shape.mesh.indices[3 * f + k];
-        const auto [it, fresh] = known.try_emplace({i.vertex_index, i.normal_index, i.texcoord_index},
-                                                   static_cast<std::uint32_t>(mesh.position.size()));
-        if (fresh) add_vertex(mesh, i, has_normals, has_uv, name);
+        // Faces of a smoothing group share normals; a face of none keeps its own.
+        const unsigned shared_by = has_normals || !smooth ? 0
+                                   : group(f)             ? 2 * group(f)
+                                                          : 2 * static_cast<unsigned>(f) + 1;
+        const auto [it, fresh] =
+            known.try_emplace({i.vertex_index, i.normal_index, i.texcoord_index, static_cast<int>(shared_by)},
+                              static_cast<std::uint32_t>(mesh.position.size()));
+        if (fresh) add_vertex(mesh, i, has_normals || smooth, has_uv, name);
         t.v[k] = it->second;
       }
       mesh.triangle.push_back(t);

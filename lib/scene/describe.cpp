@@ -1,0 +1,287 @@
+#include "scene/describe.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+/// A dielectric's own highlight (4 %) counts as gloss below this roughness; above it, it is as good as
+/// diffuse.
+constexpr float kDullRoughness = 0.9f;
+/// Sharper lobes than these are cheaper traced than kept as records of hemispherical harmonics.
+constexpr float kSharpExponent = 100, kSharpAlpha = 0.15f;
+
+double mean_luminance(const Scene& scene, const TextureUse& use) {
+  if (!use.used()) return 1;
+  const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
+  double sum = 0;
+  for (const Vec4& t : texture.texels) sum += luminance(Rgb(t));
+  return texture.texels.empty() ? 1 : sum / static_cast<double>(texture.texels.size());
+}
+
+void classify(MaterialSummary& s, double texture) {
+  const Material& m = *s.material;
+  const double kd = luminance(m.kd) * texture, ks = luminance(m.ks);
+  switch (m.model) {
+    case Model::metallic_roughness:
+      s.reflectance = kd;
+      s.diffuse = kd > 0 && m.metallic < 1;
+      s.specular = m.roughness == 0;
+      s.glossy = !s.specular && (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
+      break;
+    case Model::lambert:
+      s.reflectance = kd;
+      s.diffuse = kd > 0;
+      break;
+    case Model::phong:
+    case Model::ward:
+      s.reflectance = kd + ks;
+      s.diffuse = kd > 0;
+      s.glossy = ks > 0;
+      break;
+    case Model::plastic:
+      s.reflectance = kd;
+      s.diffuse = kd > 0;
+      s.specular = m.alpha_x == 0;
+      s.glossy = !s.specular;
+      break;
+    case Model::conductor:
+      s.reflectance = ks;
+      s.specular = m.alpha_x == 0 && m.alpha_y == 0;
+      s.glossy = !s.specular;
+      break;
+    case Model::mirror:
+      s.reflectance = ks;
+      s.specular = ks > 0;
+      break;
+    case Model::dielectric:
+    case Model::thin_dielectric:
+      s.specular = true;
+      break;
+  }
+}
+
+bool is_sharp(const Material& m) {
+  if (m.model == Model::phong) return m.exponent > kSharpExponent;
+  return std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
+}
+
+std::string names_of(const std::vector<const Material*>& materials) {
+  constexpr std::size_t kShown = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kShown, materials.size()); ++i)
+    out += (i ? ", " : "") + materials[i]->name;
+  if (materials.size() > kShown) out += text(" and ", materials.size() - kShown, " more");
+  return out;
+}
+
+Json numbers(const Vec3& v) { return Json::Array{v.x, v.y, v.z}; }
+
+const char* kind_name(Light::Kind kind) {
+  constexpr const char* kNames[] = {"area", "point", "spot", "directional"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Json describe_light(const Scene& scene, const Light& light) {
+  Json j;
+  j["name"] = light.name;
+  j["kind"] = kind_name(light.kind);
+  j["lumens"] = luminance(light.flux_lm);
+  j["flux_lm"] = numbers(light.flux_lm);
+  if (light.kind == Light::Kind::area) {
+    const Instance& instance = scene.instance[light.instance];
+    j["area_m2"] = light.area_m2;
+    j["triangles"] = instance.triangle_count;
+    j["two_sided"] = scene.material[instance.material].double_sided;
+    j["luminance_cd_m2"] = numbers(scene.material[instance.material].emission);
+    return j;
+  }
+  j[light.kind == Light::Kind::directional ? "illuminance_lx" : "intensity_cd"] = numbers(light.intensity);
+  if (light.kind != Light::Kind::directional) j["position_m"] = numbers(light.position);
+  if (light.kind != Light::Kind::point) j["direction"] = numbers(light.direction);
+  if (light.kind == Light::Kind::spot) {
+    j["inner_deg"] = glm::degrees(std::acos(light.cos_inner));
+    j["outer_deg"] = glm::degrees(std::acos(light.cos_outer));
+  }
+  return j;
+}
+
+Json describe_material(const MaterialSummary& s) {
+  const Material& m = *s.material;
+  Json j;
+  j["name"] = m.name;
+  j["model"] = model_name(m.model);
+  j["triangles"] = s.triangles;
+  j["area_m2"] = s.area_m2;
+  j["reflectance"] = s.reflectance;
+  j["kd"] = numbers(m.kd);
+  if (max_component(m.ks) > 0) j["ks"] = numbers(m.ks);
+  if (m.model == Model::phong) j["exponent"] = m.exponent;
+  if (s.glossy && m.model != Model::phong) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
+  if (m.emits()) j["luminance_cd_m2"] = numbers(m.emission);
+  Json textures = Json::Array{};
+  const std::array<std::pair<const char*, const TextureUse*>, 4> uses = {
+      {{"base colour", &m.base_colour},
+       {"metallic-roughness", &m.metallic_roughness},
+       {"normal", &m.normal},
+       {"emissive", &m.emissive}}};
+  for (const auto& [name, use] : uses) {
+    if (use->used()) textures.push_back(name);
+  }
+  j["textures"] = textures;
+  return j;
+}
+
+Json describe_camera(const Camera& camera) {
+  Json j;
+  j["name"] = camera.name;
+  j["kind"] = camera.perspective ? "perspective" : "orthographic";
+  j["eye_m"] = numbers(Vec3(camera.to_world[3]));
+  j["direction"] = numbers(-Vec3(camera.to_world[2]));
+  if (camera.perspective) j["yfov_deg"] = glm::degrees(camera.yfov_rad);
+  if (!camera.perspective) j["ymag_m"] = camera.ymag_m;
+  j["aspect"] = camera.aspect;
+  return j;
+}
+
+Json describe_animation(const Animation& animation) {
+  Json j;
+  j["name"] = animation.name;
+  j["start_s"] = animation.start_s;
+  j["end_s"] = animation.end_s;
+  Json targets = Json::Array{};
+  for (const std::string& t : animation.targets) targets.push_back(t);
+  j["targets"] = targets;
+  return j;
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
+std::uint64_t scene_bytes(const Scene& s) {
+  std::uint64_t n = bytes_of(s.position) + bytes_of(s.normal) + bytes_of(s.uv0) + bytes_of(s.uv1) +
+                    bytes_of(s.tangent) + bytes_of(s.colour) + bytes_of(s.triangle) +
+                    bytes_of(s.triangle_instance);
+  for (const Texture& t : s.texture) n += bytes_of(t.texels);
+  return n;
+}
+
+}  // namespace
+
+const char* model_name(Model model) {
+  constexpr const char* kNames[] = {"metallic-roughness", "lambert",    "phong",          "ward",  "plastic",
+                                    "conductor",          "dielectric", "thindielectric", "mirror"};
+  return kNames[static_cast<int>(model)];
+}
+
+std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
+  std::vector<MaterialSummary> out(scene.material.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].material = &scene.material[i];
+    classify(out[i], mean_luminance(scene, scene.material[i].base_colour));
+  }
+  for (const Instance& instance : scene.instance) {
+    MaterialSummary& s = out[instance.material];
+    s.triangles += instance.triangle_count;
+    for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
+      s.area_m2 += area_m2(scene, instance.first_triangle + t);
+  }
+  return out;
+}
+
+std::vector<Requirement> scene_requirements(const Scene& scene) {
+  std::vector<const Material*> diffuse, smooth_gloss, sharp_gloss, specular;
+  for (const MaterialSummary& s : summarize_materials(scene)) {
+    if (s.triangles == 0) continue;
+    if (s.diffuse) diffuse.push_back(s.material);
+    if (s.glossy) (is_sharp(*s.material) ? sharp_gloss : smooth_gloss).push_back(s.material);
+    if (s.specular) specular.push_back(s.material);
+  }
+  std::vector<Requirement> out;
+  const bool lit = !scene.light.empty();
+  const bool scatters = !diffuse.empty() || !smooth_gloss.empty() || !sharp_gloss.empty();
+  if (lit && scatters) {
+    out.push_back({"direct light", text(scene.light.size(), " lights")});
+    out.push_back({"global photons", "light is reflected between surfaces that are not mirrors"});
+  }
+  if (lit && scatters && !specular.empty()) {
+    out.push_back({"caustic photons", "light can reach other surfaces by way of " + names_of(specular)});
+  }
+  if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
+  if (lit && !smooth_gloss.empty())
+    out.push_back({"radiance records", "glossy, broad lobes: " + names_of(smooth_gloss)});
+  if (lit && !sharp_gloss.empty())
+    out.push_back({"traced gloss", "glossy, narrow lobes: " + names_of(sharp_gloss)});
+  if (!specular.empty())
+    out.push_back({"specular tracing", "mirrors or smooth glass: " + names_of(specular)});
+  if (!scene.animation.empty()) {
+    out.push_back({"temporal data", text(scene.animation.size(), " animations, ", scene.frames, " frames")});
+  }
+  return out;
+}
+
+Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
+  Json j;
+  j["path"] = scene.path;
+  j["hash"] = scene.hash;
+  j["triangles"] = scene.triangle.size();
+  j["vertices"] = scene.position.size();
+  j["instances"] = scene.instance.size();
+  j["memory_bytes"] = scene_bytes(scene);
+  j["bounds_m"] = Json::Array{numbers(scene.bounds.lo), numbers(scene.bounds.hi)};
+  j["diagonal_m"] = scene.bounds.diagonal_m();
+  double area = 0, lumens = 0;
+  Json materials = Json::Array{}, lights = Json::Array{}, cameras = Json::Array{}, textures = Json::Array{};
+  for (const MaterialSummary& s : summarize_materials(scene)) {
+    area += s.area_m2;
+    materials.push_back(describe_material(s));
+  }
+  for (const Light& light : scene.light) {
+    lumens += luminance(light.flux_lm);
+    lights.push_back(describe_light(scene, light));
+  }
+  for (const Camera& camera : scene.camera) cameras.push_back(describe_camera(camera));
+  for (const Texture& t : scene.texture) {
+    Json texture;
+    texture["name"] = t.name;
+    texture["size"] = Json::Array{t.width, t.height};
+    textures.push_back(texture);
+  }
+  j["surface_m2"] = area;
+  j["materials"] = materials;
+  j["textures"] = textures;
+  j["lights"] = lights;
+  j["total_lumens"] = lumens;
+  j["cameras"] = cameras;
+  Json animations = Json::Array{}, requirements = Json::Array{}, lint = Json::Array{};
+  for (const Animation& a : scene.animation) animations.push_back(describe_animation(a));
+  j["animations"] = animations;
+  j["time_s"] = scene.time_s;
+  j["frames"] = scene.frames;
+  j["frames_per_s"] = scene.frames_per_s;
+  for (const Requirement& r : scene_requirements(scene)) {
+    Json item;
+    item["what"] = r.what;
+    item["why"] = r.why;
+    requirements.push_back(item);
+  }
+  for (const Finding& f : findings) {
+    Json item;
+    item["level"] = level_name(f.level);
+    item["code"] = f.code;
+    item["message"] = f.message;
+    item["mend"] = f.mend;
+    lint.push_back(item);
+  }
+  j["requires"] = requirements;
+  j["lint"] = lint;
+  return j;
+}
+
+}  // namespace phos

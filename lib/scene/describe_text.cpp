@@ -1,0 +1,116 @@
+#include <cstdio>
+
+#include "core/error.h"
+#include "scene/describe.h"
+
+namespace phos {
+namespace {
+
+/// Four significant digits: for people.
+std::string figure(const Json& v) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", v.is_number() ? v.as_number() : 0.0);
+  return buffer;
+}
+
+std::string triple(const Json& v) {
+  std::string out;
+  for (const Json& item : v.as_array()) {
+    if (!out.empty()) out += ' ';
+    out += figure(item);
+  }
+  return out;
+}
+
+std::string padded(std::string s, std::size_t width) {
+  // Counts characters, not bytes, so that names in other scripts line up too.
+  std::size_t n = 0;
+  for (const char c : s) n += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  if (n < width) s.append(width - n, ' ');
+  return s;
+}
+
+const Json& at(const Json& json, const char* key) {
+  static const Json kNull;
+  const Json* v = json.find(key);
+  return v ? *v : kNull;
+}
+
+std::string light_line(const Json& l) {
+  std::string line = text("  ", padded(at(l, "name").as_string(), 24), " ",
+                          padded(at(l, "kind").as_string(), 12), figure(at(l, "lumens")), " lm");
+  if (const Json* area = l.find("area_m2")) {
+    line += text(", ", figure(*area), " m2, ", triple(at(l, "luminance_cd_m2")), " cd/m2");
+    if (at(l, "two_sided").as_bool()) line += ", both sides";
+  }
+  if (const Json* cd = l.find("intensity_cd")) line += text(", ", triple(*cd), " cd");
+  if (const Json* lx = l.find("illuminance_lx")) line += text(", ", triple(*lx), " lx");
+  line += '\n';
+  return line;
+}
+
+std::string material_line(const Json& m) {
+  std::string line =
+      text("  ", padded(at(m, "name").as_string(), 24), " ", padded(at(m, "model").as_string(), 18),
+           "reflects ", figure(at(m, "reflectance")), ", ", figure(at(m, "area_m2")), " m2, ",
+           at(m, "triangles").as_integer(), " triangles");
+  for (const Json& t : at(m, "textures").as_array()) line += text(", ", t.as_string(), " texture");
+  line += '\n';
+  return line;
+}
+
+std::string camera_line(const Json& c) {
+  std::string line = text("  ", padded(at(c, "name").as_string(), 24), " ",
+                          padded(at(c, "kind").as_string(), 12), " eye ", triple(at(c, "eye_m")));
+  if (const Json* yfov = c.find("yfov_deg")) line += text(", ", figure(*yfov), " deg high");
+  line += text(", aspect ", figure(at(c, "aspect")), "\n");
+  return line;
+}
+
+std::string animation_line(const Json& a) {
+  return text("  ", padded(at(a, "name").as_string(), 24), " ", figure(at(a, "start_s")), " to ",
+              figure(at(a, "end_s")), " s, ", at(a, "targets").as_array().size(), " targets\n");
+}
+
+std::string requirement_line(const Json& r) {
+  return text("  ", padded(at(r, "what").as_string(), 24), " ", at(r, "why").as_string(), "\n");
+}
+
+std::string finding_line(const Json& f) {
+  return text("  ", at(f, "level").as_string(), " [", at(f, "code").as_string(), "] ",
+              at(f, "message").as_string(), "\n      ", at(f, "mend").as_string(), "\n");
+}
+
+template <class Line>
+std::string list(const Json& json, const char* key, const std::string& title, const Line& line) {
+  const Json::Array& items = at(json, key).as_array();
+  std::string out = text("\n", title, " (", items.size(), ")\n");
+  for (const Json& item : items) out += line(item);
+  return out;
+}
+
+}  // namespace
+
+std::string describe_text(const Json& d) {
+  const Json::Array& bounds = at(d, "bounds_m").as_array();
+  std::string out = text(at(d, "path").as_string(), "\n  ", at(d, "triangles").as_integer(), " triangles, ",
+                         at(d, "vertices").as_integer(), " vertices, ", at(d, "instances").as_integer(),
+                         " instances, ", figure(at(d, "memory_bytes").as_number() / 1048576.0), " MiB\n");
+  out += text("  from ", triple(bounds[0]), " to ", triple(bounds[1]), " m, ", figure(at(d, "diagonal_m")),
+              " m across, ", figure(at(d, "surface_m2")), " m2 of surface\n");
+  out += text("  hash ", at(d, "hash").as_string(), "\n");
+  out += list(d, "lights", text("Lights, ", figure(at(d, "total_lumens")), " lm together"), light_line);
+  out += list(d, "materials", "Materials", material_line);
+  out += list(d, "cameras", "Cameras", camera_line);
+  if (!at(d, "animations").as_array().empty()) {
+    out += list(d, "animations",
+                text("Animations, ", at(d, "frames").as_integer(), " frames at ",
+                     figure(at(d, "frames_per_s")), " per second"),
+                animation_line);
+  }
+  out += list(d, "requires", "Requires", requirement_line);
+  out += list(d, "lint", "Findings", finding_line);
+  return out;
+}
+
+}  // namespace phos

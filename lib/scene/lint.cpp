@@ -1,0 +1,235 @@
+#include "scene/lint.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/error.h"
+#include "scene/describe.h"
+#include "scene/load_textures.h"
+
+namespace phos {
+namespace {
+
+constexpr double kLargestDiagonal_m = 300, kSmallestDiagonal_m = 0.01;
+constexpr double kDarkest_lx = 1, kBrightest_lx = 200000;
+constexpr double kHighReflectance = 0.95, kBackwardShare = 0.01;
+
+class Linter {
+ public:
+  explicit Linter(const Scene& scene) : scene_(scene) {}
+
+  std::vector<Finding> run() {
+    check_size();
+    check_light();
+    check_lamps();
+    check_materials();
+    check_geometry();
+    check_warnings();
+    check_names();
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.level > b.level; });
+    return std::move(findings_);
+  }
+
+ private:
+  using Level = Finding::Level;
+  void add(Level level, const char* code, const std::string& message, const std::string& mend) {
+    findings_.push_back({level, code, message, mend});
+  }
+
+  void check_size() {
+    const double d = scene_.bounds.diagonal_m();
+    if (d > kLargestDiagonal_m) {
+      add(Level::warning, "too-large", text("the scene is ", shortest(static_cast<float>(d)), " m across"),
+          "glTF counts in metres: if this is in millimetres or centimetres, scale it by 0.001 or 0.01");
+    }
+    if (d < kSmallestDiagonal_m) {
+      add(Level::warning, "too-small", text("the scene is ", shortest(static_cast<float>(d)), " m across"),
+          "glTF counts in metres: if this is in kilometres, or was scaled down twice, scale it by 1000");
+    }
+  }
+
+  void check_light() {
+    if (scene_.light.empty()) {
+      add(Level::error, "no-light", "the scene has no light",
+          "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
+          "KHR_lights_punctual light");
+      return;
+    }
+    double lumens = 0, area = 0;
+    for (const Light& light : scene_.light) lumens += luminance(light.flux_lm);
+    for (std::uint32_t t = 0; t < scene_.triangle.size(); ++t) area += area_m2(scene_, t);
+    const double mean_lx = lumens / area;
+    const std::string figure =
+        text("all lights together give ", shortest(static_cast<float>(lumens)), " lm, ",
+             shortest(static_cast<float>(mean_lx)), " lx if spread over every surface");
+    if (mean_lx < kDarkest_lx) {
+      add(Level::warning, "watts", figure + ": far too dark for a lit room",
+          "if the values are in W or W/(m2 sr), multiply them by 179 lm/W; glTF counts in cd, lx and cd/m2");
+    }
+    if (mean_lx > kBrightest_lx) {
+      add(Level::warning, "too-bright", figure + ": brighter than noon",
+          "glTF counts in cd, lx and cd/m2; lamps given in millicandela, or emission scaled for display, are "
+          "too bright");
+    }
+  }
+
+  void check_lamps() {
+    for (const Light& light : scene_.light) {
+      if (light.kind == Light::Kind::area) check_lamp(light);
+    }
+  }
+
+  /// Edges by the places of their ends: a closed surface has each one once in each direction.
+  void check_lamp(const Light& light) {
+    using Place = std::array<float, 3>;
+    const auto place = [&](std::uint32_t v) {
+      const Vec3 p = scene_.position[v] + 0.0f;
+      return Place{p.x, p.y, p.z};
+    };
+    const Instance& instance = scene_.instance[light.instance];
+    std::map<std::pair<Place, Place>, std::pair<int, int>> edges;
+    double volume = 0;
+    const DVec3 origin = scene_.position[scene_.triangle[instance.first_triangle].v[0]];
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t) {
+      const Triangle& tri = scene_.triangle[t];
+      DVec3 p[3];
+      for (int k = 0; k < 3; ++k) {
+        p[k] = DVec3(scene_.position[tri.v[k]]) - origin;
+        const Place a = place(tri.v[k]), b = place(tri.v[(k + 1) % 3]);
+        auto& [forth, back] = edges[std::minmax(a, b)];
+        ++(a < b ? forth : back);
+      }
+      volume += glm::dot(p[0], glm::cross(p[1], p[2]));
+    }
+    bool closed = true, manifold = true;
+    for (const auto& [edge, uses] : edges) {
+      closed &= uses.first == 1 && uses.second == 1;
+      manifold &= uses.first <= 1 && uses.second <= 1;
+    }
+    const std::string name = "light \"" + light.name + "\"";
+    const bool two_sided = scene_.material[instance.material].double_sided;
+    if (!manifold) {
+      add(Level::warning, "light-not-manifold",
+          name + " has edges with more than two triangles, or triangles turned against each other",
+          "make its surface consistent, or part of it shines inwards");
+    } else if (closed && volume < 0 && !two_sided) {
+      add(Level::error, "light-inside-out",
+          name + " is a closed surface whose fronts face inwards: no light leaves it",
+          "flip its faces; light leaves the counter-clockwise side");
+    } else if (!closed && !two_sided && faces_nothing(instance)) {
+      add(Level::warning, "light-faces-away", name + " shines away from everything in the scene",
+          "flip its faces; light leaves the counter-clockwise side");
+    }
+  }
+
+  /// Is no vertex of the scene in front of any triangle of the lamp?
+  bool faces_nothing(const Instance& lamp) const {
+    const double slack = 1e-6 * scene_.bounds.diagonal_m();
+    const std::uint32_t step = std::max(1u, lamp.triangle_count / 16);  // a few planes tell
+    for (std::uint32_t t = 0; t < lamp.triangle_count; t += step) {
+      const Vec3 n = geometric_normal(scene_, lamp.first_triangle + t);
+      const Vec3 p = scene_.position[scene_.triangle[lamp.first_triangle + t].v[0]];
+      const bool seen = std::any_of(scene_.position.begin(), scene_.position.end(),
+                                    [&](const Vec3& q) { return glm::dot(n, q - p) > slack; });
+      if (seen) return false;
+    }
+    return true;
+  }
+
+  void check_materials() {
+    for (const MaterialSummary& m : summarize_materials(scene_)) {
+      if (m.triangles == 0) continue;
+      const std::string name = "material \"" + m.material->name + "\"";
+      const std::string figure =
+          text(name, " reflects ", shortest(static_cast<float>(m.reflectance)), " of the light");
+      if (m.reflectance > 1.0001) {
+        add(Level::warning, "reflectance-above-one", figure + ", more than it gets",
+            "lower kd or ks until kd + ks is at most 1");
+      } else if (m.reflectance > kHighReflectance && m.diffuse) {
+        add(Level::info, "reflectance-high", figure + "; white paint reflects 0.8",
+            "lower it unless it is meant");
+      }
+    }
+  }
+
+  void check_geometry() {
+    const auto event = [&](const char* name, const char* code, const char* what, const char* mend) {
+      const auto it = scene_.events.find(name);
+      if (it != scene_.events.end()) add(Level::warning, code, text(it->second, " ", what), mend);
+    };
+    event("triangles given flat normals", "normals-missing", "triangles have no normals and are shaded flat",
+          "export normals if the surface is meant to be smooth");
+    event("normals repaired", "normals-bad",
+          "normals were zero or not finite, and were made from their triangles", "export the normals again");
+    event("degenerate triangles dropped", "degenerate", "triangles have no area and were left out",
+          "remove them in the modeller (merge by distance)");
+    event("vertex attributes not finite, set to zero", "attributes-bad",
+          "texture coordinates or colours are not finite", "export them again");
+    std::uint64_t backward = 0;
+    for (std::uint32_t t = 0; t < scene_.triangle.size(); ++t) {
+      Vec3 sum(0);
+      for (const std::uint32_t v : scene_.triangle[t].v) sum += scene_.normal[v];
+      backward += glm::dot(sum, geometric_normal(scene_, t)) < 0;
+    }
+    const double share = static_cast<double>(backward) / static_cast<double>(scene_.triangle.size());
+    if (share > kBackwardShare) {
+      add(Level::warning, "normals-backwards",
+          text(backward, " triangles (", shortest(static_cast<float>(std::round(1000 * share) / 10)),
+               " %) have normals that point to their back"),
+          "make winding and normals agree (recalculate normals)");
+    }
+  }
+
+  void check_warnings() {
+    for (const std::string& warning : scene_.warnings) {
+      if (warning.find(": kd + ks is above 1") != std::string::npos)
+        continue;  // reflectance-above-one says it
+      if (warning.rfind(kTextureNotFound, 0) == 0) {
+        add(Level::warning, "texture-not-found", warning,
+            "put the image beside the scene, or pack it into a .glb");
+      } else if (warning.find("is ignored") != std::string::npos && warning.rfind("light ", 0) == 0) {
+        add(Level::warning, "light-ignored", warning, "give it an area and an intensity, or remove it");
+      } else {
+        add(Level::info, "loader", warning, "change it in the modeller if it matters");
+      }
+    }
+  }
+
+  void check_names() {
+    if (scene_.camera.empty()) {
+      add(Level::warning, "no-camera", "the scene has no camera",
+          "add one in the modeller; pictures need it");
+    }
+    std::map<std::string, int> cameras, materials;
+    for (const Camera& c : scene_.camera) ++cameras[c.name];
+    for (const Material& m : scene_.material) ++materials[m.name];
+    for (const auto& [name, n] : cameras) {
+      if (n > 1)
+        add(Level::warning, "camera-name-twice", text(n, " cameras are called \"", name, "\""),
+            "rename them: --camera finds only the first");
+    }
+    for (const auto& [name, n] : materials) {
+      if (n > 1)
+        add(Level::info, "material-name-twice", text(n, " materials are called \"", name, "\""),
+            "rename them");
+    }
+  }
+
+  const Scene& scene_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+const char* level_name(Finding::Level level) {
+  constexpr const char* kNames[] = {"info", "warning", "error"};
+  return kNames[static_cast<int>(level)];
+}
+
+std::vector<Finding> lint_scene(const Scene& scene) { return Linter(scene).run(); }
+
+}  // namespace phos

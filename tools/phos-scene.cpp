@@ -1,0 +1,40 @@
+#include <cstdio>
+
+#include "file/tool.h"
+#include "scene/describe.h"
+#include "scene/lint.h"
+#include "scene/load.h"
+
+using namespace phos;
+
+int main(int argc, char** argv) {
+  Tool tool(
+      "phos-scene", "checks a scene and says what computing its light requires",
+      "Reads a glTF 2.0 or OBJ scene and prints its triangles, bounds, materials, lights with their lumens, "
+      "cameras "
+      "and animations; what its light requires, each with a reason; and findings: mistakes in units, missing "
+      "normals, degenerate triangles, lamps that shine the wrong way, textures that are not there.",
+      1, Tool::Output::none);
+  std::string path;
+  SceneOptions scene_options;
+  bool json = false, strict = false;
+  tool.options().input("SCENE", path, "glTF (.glb, .gltf) or OBJ scene");
+  declare_options(tool.options(), scene_options);
+  tool.options().section("Report");
+  tool.options().flag("json", json, "print one JSON object instead of text", Recorded::no);
+  tool.options().flag("strict", strict, "end with code 1 if a finding is an error", Recorded::no);
+  tool.options().example("phos-scene room.glb", "what is in it, and what is wrong with it");
+  tool.options().example("phos-scene room.glb --json --strict > room.json", "for a script");
+  return tool.run(argc, argv, [&] {
+    const Scene scene = load_scene(path, scene_options);
+    const std::vector<Finding> findings = lint_scene(scene);
+    const Json description = describe_scene(scene, findings);
+    const std::string out = json ? description.dump(2) + "\n" : describe_text(description);
+    if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
+      throw Error(ExitCode::bad_input, "stdout", "cannot be written; is the disk full?");
+    }
+    for (const Finding& f : findings) {
+      if (strict && f.level == Finding::Level::error) tool.set_exit(ExitCode::check_failed);
+    }
+  });
+}
