@@ -225,7 +225,7 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
     for (const std::string& s : value) items.push_back(s);
     return items;
   };
-  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)->delimiter(',')->expected(1)->take_all();
+  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)->delimiter(',')->expected(1)->take_all()->allow_extra_args(false);
 }
 
 void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {

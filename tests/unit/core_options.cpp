@@ -61,6 +61,14 @@ TEST(Options, ReadsEveryKind) {
   EXPECT_TRUE(e.options.given("number"));
 }
 
+TEST(Options, AListTakesOneWordEachTime) {
+  Everything e;
+  ASSERT_TRUE(e.parse({"--items", "a,b", "in.glb", "--items", "c", "second.glb"}));
+  EXPECT_EQ(e.items, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(e.input, "in.glb");
+  EXPECT_EQ(e.more, (std::vector<std::string>{"second.glb"}));
+}
+
 TEST(Options, RecordsWhatChangesTheResultAndNoPaths) {
   Everything e;
   ASSERT_TRUE(e.parse({"in.glb", "-o", "out", "--number", "3"}));
