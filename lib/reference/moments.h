@@ -1,0 +1,30 @@
+// Mean and standard error of independent samples.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace phos {
+
+/// Sums in double of float samples: the squares are exact, and cancellation stays below the error that is
+/// asked about.
+class Moments {
+ public:
+  void add(double x) { ++count_, sum_ += x, squares_ += x * x; }
+  void merge(const Moments& other) { count_ += other.count_, sum_ += other.sum_, squares_ += other.squares_; }
+  std::uint64_t count() const { return count_; }
+  double mean() const { return count_ == 0 ? 0 : sum_ / static_cast<double>(count_); }
+  /// Standard deviation of mean(); 0 for fewer than two samples.
+  double standard_error() const {
+    if (count_ < 2) return 0;
+    const auto n = static_cast<double>(count_);
+    return std::sqrt(std::max(0.0, (squares_ / n - mean() * mean()) / (n - 1)));
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  double sum_ = 0, squares_ = 0;
+};
+
+}  // namespace phos

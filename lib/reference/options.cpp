@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include "core/error.h"
+#include "reference/render.h"
+
+namespace phos {
+
+void declare_options(Options& options, ReferenceOptions& r) {
+  options.section("Picture");
+  options.text("camera", r.camera, "NAME", "camera of the scene; the first one if not given");
+  options.integer("width", r.width, "PIXELS", "width; 0: from the height and the camera's aspect",
+                  {0, 65536});
+  options.integer("height", r.height, "PIXELS", "height; 0: from the width; both 0: 512 on the longer side",
+                  {0, 65536});
+  options.flag("illuminance", r.illuminance, "also the layer illuminance.Y, lx, by one more path a sample");
+  options.section("Light");
+  options.integer("samples", r.samples, "N", "paths a pixel (or a point); the most, if --error is given",
+                  {1, 4294967295.0});
+  options.number("error", r.error, "FRACTION",
+                 "stop once the RMS standard error of the pixels' scattered light is this part of its mean "
+                 "(0.01: 1 %); with --points, once each point's standard error is this part of its value",
+                 kPositive);
+  options.integer("bounces", r.path.bounces, "N",
+                  "scatterings between light and eye, the visible surface's (or the sensor's) included: 0 "
+                  "emission only, 1 "
+                  "direct light, 2 one indirect bounce; -1: all",
+                  {-1, 65000});
+  options.flag("black-emitters", r.path.black_emitters,
+               "surfaces that emit reflect nothing, as in some other renderers");
+}
+
+void resolve_size(ReferenceOptions& r, const Camera& camera) {
+  constexpr double kMostPixels = 268435456;  // 2^28
+  const double aspect =
+      camera.aspect > 0 && std::isfinite(camera.aspect) ? static_cast<double>(camera.aspect) : 1;
+  const auto rounded = [](double pixels) {
+    return static_cast<std::int64_t>(std::fmin(std::fmax(std::round(pixels), 1), 1e9));
+  };
+  if (r.width == 0 && r.height == 0) (aspect >= 1 ? r.width : r.height) = 512;
+  if (r.width == 0) r.width = rounded(static_cast<double>(r.height) * aspect);
+  if (r.height == 0) r.height = rounded(static_cast<double>(r.width) / aspect);
+  if (static_cast<double>(r.width) * static_cast<double>(r.height) > kMostPixels)
+    throw Error(ExitCode::usage, "--width",
+                text(r.width, " x ", r.height, " pixels are too many; at most 2^28"));
+}
+
+}  // namespace phos

@@ -1,0 +1,181 @@
+#include "reference/path_tracer.h"
+
+#include <algorithm>
+
+#include "core/sampling.h"
+#include "scene/bsdf.h"
+
+namespace phos {
+
+namespace {
+
+// The first scattering decides most of a picture's noise: there, up to so many lights are sampled one by one.
+constexpr std::size_t kEveryLightUpTo = 8;
+// One-light choice: no light falls below this part of an equal share, so that a lamp close by is not starved.
+constexpr double kMinimumShare = 0.1;
+// Russian roulette from this scattering on. Survival stays below 1, so that paths end where nothing absorbs.
+constexpr std::int64_t kRouletteFrom = 2;
+constexpr float kMostSurvival = 0.999f;
+constexpr std::int64_t kMostBounces =
+    65535;  // of RandomStream; reached with probability kMostSurvival^65535 at most
+
+/// Power heuristic with exponent 2 (Veach 1997, eq. 9.13), from the ratio so that squares do not overflow.
+float power_weight(float own, float other) {
+  const float ratio = other / own;
+  return 1 / (1 + ratio * ratio);
+}
+
+bool positive(const Rgb& c) { return max_component(c) > 0; }
+
+}  // namespace
+
+/// A path on its way: the next ray, and what the light found along it is worth.
+struct PathTracer::Walk {
+  Ray ray;
+  Rgb throughput{1};
+  float density = 0;         // of the ray's direction, per sr; 0: camera ray or specular, which next-event
+                             // estimation cannot make
+  bool every_light = false;  // how next-event estimation chose where the ray started
+  bool mirrored = false;     // the visible surface is a mirror or glass
+  std::int64_t scatterings = 0;
+};
+
+PathTracer::PathTracer(const RayScene& rays, const Luminaires& luminaires, const PathOptions& options)
+    : rays_(&rays), luminaires_(&luminaires), options_(options) {
+  double sum = 0;
+  for (const double share :
+       luminaires.size() > 0 ? luminaires.power_shares(kMinimumShare) : std::vector<double>{}) {
+    share_.push_back(static_cast<float>(share));
+    cdf_.push_back(sum += share);
+  }
+}
+
+bool PathTracer::sample_every_light(std::int64_t scatterings) const {
+  return luminaires_->size() == 1 || (scatterings == 0 && luminaires_->size() <= kEveryLightUpTo);
+}
+
+bool PathTracer::lit_by(const SurfacePoint& point, const Illumination& light) const {
+  if (std::isfinite(light.distance_m)) return rays_->visible(point, light.position, light.error_m);
+  return !rays_->occluded({point.leave(light.direction), light.direction, 0, kInfinity});
+}
+
+/// Next-event estimation: light straight from the lights, scattered at `point`. scatter(direction, density)
+/// returns f cos and sets the density, per sr, with which the path's own sampling would choose that
+/// direction.
+template <class Scatter>
+Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scatter& scatter,
+                         RandomStream& random) const {
+  Rgb sum(0);
+  const auto add = [&](std::size_t i, float probability) {
+    Illumination light;
+    const float u_triangle = random.uniform();
+    if (!luminaires_->illuminate(i, point.position, u_triangle, random.uniform2(), light)) return;
+    float scatter_density = 0;
+    const Rgb f_cos = scatter(light.direction, scatter_density);
+    if (!positive(f_cos) || !lit_by(point, light)) return;
+    const float density = light.density * probability;
+    if (light.density > 0)
+      sum += f_cos * light.value * (power_weight(density, scatter_density) / density);
+    else
+      sum += f_cos * light.value / probability;
+  };
+  if (every_light) {
+    for (std::size_t i = 0; i < share_.size(); ++i) add(i, 1);
+  } else if (!share_.empty()) {
+    const double u = random.uniform() * cdf_.back();
+    const auto i = static_cast<std::size_t>(std::upper_bound(cdf_.begin(), cdf_.end() - 1, u) - cdf_.begin());
+    if (share_[i] > 0) add(i, share_[i]);
+  }
+  return sum;
+}
+
+/// Luminance that `point` sends back along the walk's ray, weighted against next-event estimation where the
+/// ray began.
+Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
+  const Rgb luminance = emitted_luminance(rays_->scene(), point);
+  if (!positive(luminance) || walk.density <= 0) return luminance;
+  const std::int32_t light = luminaires_->light_of(point.triangle);
+  if (light < 0) return luminance;
+  const auto i = static_cast<std::size_t>(light);
+  const float cos_light = std::fabs(glm::dot(walk.ray.direction, point.geometric_normal));
+  const float chosen = walk.every_light ? 1 : share_[i];
+  const float density = chosen * luminaires_->density(i, point.triangle, point.distance_m, cos_light);
+  return luminance * power_weight(walk.density, density);
+}
+
+/// Adds the light scattered at `point` once, and turns the walk into its next ray. False: the path ends.
+bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const {
+  const Bsdf bsdf(rays_->scene(), point);
+  const Vec3 wo = -walk.ray.direction;
+  random.start_bounce(static_cast<std::uint32_t>(walk.scatterings));
+  walk.every_light = sample_every_light(walk.scatterings);
+  if (bsdf.has_diffuse() || bsdf.has_gloss()) {
+    const auto scatter = [&](const Vec3& wi, float& density) {
+      const Rgb f = bsdf.evaluate(wo, wi);
+      if (positive(f)) density = bsdf.density(wo, wi);
+      return f * std::fabs(glm::dot(point.normal, wi));
+    };
+    const Rgb light = walk.throughput * light_at(point, walk.every_light, scatter, random);
+    (walk.mirrored ? sum.specular : walk.scatterings == 0 ? sum.direct : sum.indirect) += light;
+  }
+  BsdfSample next;
+  const float u_lobe = random.uniform();
+  if (!bsdf.sample(wo, u_lobe, random.uniform2(), next)) return false;
+  if (next.specular && walk.scatterings == 0) walk.mirrored = true;
+  walk.throughput *= next.weight;
+  walk.density = next.specular ? 0 : next.density;
+  walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
+  ++walk.scatterings;
+  if (walk.scatterings >= kRouletteFrom) {
+    const float survival = std::min(kMostSurvival, max_component(walk.throughput));
+    if (!(random.uniform() < survival)) return false;
+    walk.throughput /= survival;
+  }
+  return positive(walk.throughput) && walk.scatterings < kMostBounces;
+}
+
+void PathTracer::follow(Walk walk, PathSample& sum, RandomStream& random) const {
+  SurfacePoint point;
+  while (trace(*rays_, walk.ray, point)) {
+    const Rgb emitted = walk.throughput * emission_at(point, walk);
+    (walk.mirrored           ? sum.specular
+     : walk.scatterings == 0 ? sum.emission
+     : walk.scatterings == 1 ? sum.direct
+                             : sum.indirect) += emitted;
+    if (options_.bounces >= 0 && walk.scatterings >= options_.bounces) return;
+    if (options_.black_emitters && rays_->scene().material[point.material].emits()) return;
+    if (!scatter(point, walk, sum, random)) return;
+  }
+}
+
+PathSample PathTracer::luminance(const Ray& ray, RandomStream& random) const {
+  PathSample sum;
+  Walk walk;
+  walk.ray = ray;
+  follow(walk, sum, random);
+  return sum;
+}
+
+Rgb PathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) const {
+  if (options_.bounces == 0) return Rgb(0);
+  random.start_bounce(0);
+  Walk walk;
+  walk.every_light = sample_every_light(0);
+  const auto cosine = [&](const Vec3& wi, float& density) {
+    const float cos_theta = std::fmax(0.f, glm::dot(sensor.geometric_normal, wi));
+    density = cos_theta / kPi;
+    return Rgb(cos_theta);
+  };
+  Rgb lux = light_at(sensor, walk.every_light, cosine, random);
+  const Vec3 local = sample_cosine_hemisphere(random.uniform2());
+  if (local.z <= 0) return lux;
+  const Vec3 direction = make_frame(sensor.geometric_normal).to_world(local);
+  walk.ray = {sensor.leave(direction), direction, 0, kInfinity};
+  walk.density = local.z / kPi;
+  walk.scatterings = 1;
+  PathSample sum;
+  follow(walk, sum, random);
+  return lux + kPi * sum.total();  // cos / density = pi
+}
+
+}  // namespace phos

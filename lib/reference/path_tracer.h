@@ -1,0 +1,64 @@
+// Light along one path, backwards from the eye or a sensor: unbiased, of any length.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "core/vector.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+struct PathOptions {
+  /// Scatterings between a light and the eye, the one at the visible surface (or sensor) included: 0 =
+  /// emission only, 1 = direct light, 2 = one indirect bounce; negative = all of them (paths end by Russian
+  /// roulette alone).
+  std::int64_t bounces = -1;
+  /// Surfaces that emit reflect nothing (a convention of some other renderers).
+  bool black_emitters = false;
+};
+
+/// One sample of the luminance along a camera ray, cd/m2, by the way it came. The parts do not overlap.
+struct PathSample {
+  Rgb emission{0};  ///< of the visible surface itself
+  Rgb direct{0};    ///< from a light, scattered once, at the visible surface
+  Rgb indirect{0};  ///< scattered twice or more, first at a visible surface that is no mirror and no glass
+  Rgb specular{0};  ///< all light seen in a mirror or through glass
+  Rgb total() const { return emission + direct + indirect + specular; }
+};
+
+/// Path tracing with next-event estimation and multiple importance sampling (power heuristic) after Veach
+/// 1997, chapters 9 and 10, and Russian roulette by throughput. Const and usable from any thread; holds
+/// references.
+class PathTracer {
+ public:
+  PathTracer(const RayScene& rays, const Luminaires& luminaires, const PathOptions& options = {});
+
+  /// Luminance arriving along a ray, cd/m2. Draws from `random`, bounce by bounce.
+  PathSample luminance(const Ray& ray, RandomStream& random) const;
+
+  /// Irradiance on the side of sensor.geometric_normal, lx (the normal and error_m alone are used, no
+  /// material).
+  Rgb irradiance(const SurfacePoint& sensor, RandomStream& random) const;
+
+ private:
+  struct Walk;
+  template <class Scatter>
+  Rgb light_at(const SurfacePoint& point, bool every_light, const Scatter& scatter,
+               RandomStream& random) const;
+  bool lit_by(const SurfacePoint& point, const Illumination& light) const;
+  Rgb emission_at(const SurfacePoint& point, const Walk& walk) const;
+  bool scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const;
+  void follow(Walk walk, PathSample& sum, RandomStream& random) const;
+  bool sample_every_light(std::int64_t scatterings) const;
+
+  const RayScene* rays_;
+  const Luminaires* luminaires_;
+  PathOptions options_;
+  std::vector<float> share_;  // of the one-light choice
+  std::vector<double> cdf_;
+};
+
+}  // namespace phos

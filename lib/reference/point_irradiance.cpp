@@ -1,0 +1,170 @@
+#include "reference/point_irradiance.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/json.h"
+#include "core/parallel.h"
+#include "reference/moments.h"
+
+namespace phos {
+
+namespace {
+
+constexpr std::size_t kChunk = 256;
+constexpr std::int64_t kFirstPass = 256;
+
+struct Partial {
+  Moments red, green, blue, luminous;
+  std::uint64_t rejected = 0;
+};
+
+/// Bound on the distance between a point given in floats and the surface it is meant to be on: a few dozen
+/// units in the last place of the largest coordinate there is.
+float rounding_error_m(const Scene& scene, const Vec3& p) {
+  float size = max_component(glm::abs(p));
+  if (!scene.bounds.empty())
+    size =
+        std::max({size, max_component(glm::abs(scene.bounds.lo)), max_component(glm::abs(scene.bounds.hi))});
+  return 32 * std::numeric_limits<float>::epsilon() * size;
+}
+
+Partial sample_range(const PathTracer& tracer, const SurfacePoint& sensor, const PointOptions& options,
+                     std::uint64_t begin, std::uint64_t end) {
+  Partial part;
+  for (std::uint64_t s = begin; s < end; ++s) {
+    RandomStream random(options.seed, Stage::reference, (options.item << 32) | s);
+    const Rgb lux = tracer.irradiance(sensor, random);
+    if (!is_finite(lux)) {
+      ++part.rejected;
+      continue;
+    }
+    part.red.add(lux.x), part.green.add(lux.y), part.blue.add(lux.z), part.luminous.add(luminance(lux));
+  }
+  return part;
+}
+
+}  // namespace
+
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, const PointOptions& options) {
+  const PathTracer tracer(rays, luminaires, options.path);
+  SurfacePoint sensor;
+  sensor.position = p;
+  sensor.geometric_normal = sensor.smooth_normal = sensor.normal = n;
+  sensor.error_m = rounding_error_m(rays.scene(), p);
+  const auto join = [](Partial& sum, const Partial& part) {
+    sum.red.merge(part.red), sum.green.merge(part.green), sum.blue.merge(part.blue);
+    sum.luminous.merge(part.luminous);
+    sum.rejected += part.rejected;
+  };
+  Partial sum;
+  std::int64_t done = 0;
+  while (done < options.samples) {
+    std::int64_t next = options.samples;
+    if (options.relative_error) next = std::min(next, std::max(kFirstPass, 2 * done));
+    const auto start = static_cast<std::uint64_t>(done);
+    sum = parallel_reduce(
+        static_cast<std::size_t>(next - done), kChunk, std::move(sum),
+        [&](std::size_t begin, std::size_t end) {
+          return sample_range(tracer, sensor, options, start + begin, start + end);
+        },
+        join);
+    done = next;
+    if (options.relative_error &&
+        sum.luminous.standard_error() <= *options.relative_error * sum.luminous.mean())
+      break;
+  }
+  PointIrradiance result;
+  result.irradiance_lx = {sum.red.mean(), sum.green.mean(), sum.blue.mean()};
+  result.stderr_lx = {sum.red.standard_error(), sum.green.standard_error(), sum.blue.standard_error()};
+  result.illuminance_lx = sum.luminous.mean();
+  result.illuminance_stderr_lx = sum.luminous.standard_error();
+  result.samples = static_cast<std::uint64_t>(done);
+  result.rejected = sum.rejected;
+  return result;
+}
+
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, std::int64_t samples, std::int64_t bounces,
+                                    std::uint64_t seed) {
+  PointOptions options;
+  options.samples = samples;
+  options.seed = seed;
+  options.path.bounces = bounces;
+  return estimate_irradiance(rays, luminaires, p, n, options);
+}
+
+namespace {
+
+/// Up to six numbers, comma- or space-separated. Returns how many were read.
+int read_numbers(const std::string& line, float numbers[6]) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  int count = 0;
+  while (count < 6) {
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
+    const auto [rest, error] = std::from_chars(at, end, numbers[count]);
+    if (error != std::errc{} || !std::isfinite(numbers[count])) return count;
+    ++count;
+    at = rest;
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
+    if (at < end && (*at == ',' || *at == ';')) ++at;
+  }
+  return count;
+}
+
+}  // namespace
+
+std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where) {
+  std::vector<SensorPoint> points;
+  std::istringstream lines(csv);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    float v[6];
+    const int count = read_numbers(line, v);
+    if (count == 0 && points.empty() && line.find('x') != std::string::npos) continue;  // heading
+    const std::string place = text(where, ":", number);
+    if (count < 6)
+      throw Error(ExitCode::bad_input, place,
+                  text("needs six numbers x,y,z,nx,ny,nz; the ", count + 1, ". is missing or no number"));
+    const SensorPoint point{{v[0], v[1], v[2]}, normalized_or_zero({v[3], v[4], v[5]})};
+    if (point.normal == Vec3(0))
+      throw Error(ExitCode::bad_input, place, "the normal is zero; give the direction that the sensor faces");
+    points.push_back(point);
+  }
+  if (points.empty())
+    throw Error(ExitCode::bad_input, where, "holds no points; give lines of x,y,z,nx,ny,nz");
+  return points;
+}
+
+std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light) {
+  PHOS_CHECK(points.size() == light.size(), points.size(), " points, ", light.size(), " values");
+  std::string out = "x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx\n";
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 &p = points[i].position, &n = points[i].normal, &lux = light[i].irradiance_lx;
+    const float columns[] = {p.x,
+                             p.y,
+                             p.z,
+                             n.x,
+                             n.y,
+                             n.z,
+                             static_cast<float>(light[i].illuminance_lx),
+                             static_cast<float>(light[i].illuminance_stderr_lx),
+                             lux.x,
+                             lux.y,
+                             lux.z};
+    for (const float& value : columns) {
+      if (&value != columns) out.push_back(',');
+      out.append(shortest(value));
+    }
+    out.push_back('\n');
+  }
+  return out;
+}
+
+}  // namespace phos

@@ -1,0 +1,56 @@
+// Irradiance at points, by path tracing, with its standard error.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/counters.h"
+#include "reference/path_tracer.h"
+
+namespace phos {
+
+struct PointIrradiance {
+  Rgb irradiance_lx{0};
+  Rgb stderr_lx{0};           ///< of the mean, per channel; 0 for fewer than two samples
+  double illuminance_lx = 0;  ///< luminance of irradiance_lx
+  double illuminance_stderr_lx = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t rejected = 0;  ///< samples that were not finite, left out
+};
+
+struct PointOptions {
+  std::int64_t samples = 4096;           ///< paths, at most
+  std::optional<double> relative_error;  ///< stop once stderr / value of the illuminance is at most this
+  std::uint64_t seed = 0;
+  std::uint64_t item = 0;  ///< tells apart the random numbers of several points (below 2^31)
+  PathOptions path;
+};
+
+/// Irradiance on the side of the unit normal `n` at `p`. A point on a surface is lifted off it by the
+/// rounding error of positions in this scene, so that its own surface does not shade it. Same bytes for any
+/// number of threads.
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, const PointOptions& options);
+
+/// The same with all but the essentials at their defaults; bounces as in PathOptions (1 = direct light only).
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, std::int64_t samples, std::int64_t bounces = -1,
+                                    std::uint64_t seed = 0);
+
+/// A sensor: where it is, and which way it faces (unit).
+struct SensorPoint {
+  Vec3 position{0}, normal{0, 1, 0};
+};
+
+/// Reads `x,y,z,nx,ny,nz` lines (a first line of words is a heading; empty lines and lines from '#' are
+/// skipped; further columns are ignored). Normals are made unit. Throws Error(bad_input) with the line at
+/// fault.
+std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where);
+
+/// `x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx` and a line per point, shortest round-trip
+/// numbers.
+std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light);
+
+}  // namespace phos

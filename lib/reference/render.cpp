@@ -1,0 +1,230 @@
+#include "reference/render.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "reference/moments.h"
+#include "scene/bsdf.h"
+
+namespace phos {
+
+namespace {
+
+constexpr std::int64_t kFirstPass = 16;
+constexpr std::size_t kSamplesPerChunk = 4096;
+// Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
+constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
+
+struct Channels {
+  std::array<double, 3> sum{}, squares{};
+  void add(const Rgb& c) {
+    for (int k = 0; k < 3; ++k) {
+      const double v = c[k];
+      sum[static_cast<std::size_t>(k)] += v, squares[static_cast<std::size_t>(k)] += v * v;
+    }
+  }
+};
+
+/// What a pixel's samples add up to.
+struct Pixel {
+  std::uint32_t count = 0;
+  Channels total, indirect;
+  DVec3 emission{0}, direct{0}, specular{0};
+  Moments scattered, illuminance;
+};
+
+class Renderer {
+ public:
+  Renderer(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
+           const ReferenceOptions& options)
+      : rays_(rays),
+        tracer_(rays, luminaires, options.path),
+        camera_(camera),
+        options_(options),
+        pixels_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)) {}
+
+  void pass(std::int64_t begin, std::int64_t end);
+  double error() const;
+  std::uint64_t rejected() const { return rejected_; }
+  Image image() const;
+
+ private:
+  Ray ray(std::size_t pixel, const Vec2& subpixel) const;
+  std::uint64_t sample(std::size_t pixel, std::int64_t s);
+  bool sample_illuminance(const Ray& ray, std::uint64_t item, float& lux) const;
+  void add_light(Image& image) const;
+  void add_surfaces(Image& image) const;
+
+  const RayScene& rays_;
+  PathTracer tracer_;
+  const Camera& camera_;
+  const ReferenceOptions& options_;
+  std::vector<Pixel> pixels_;
+  std::uint64_t rejected_ = 0;
+};
+
+Ray Renderer::ray(std::size_t pixel, const Vec2& subpixel) const {
+  const auto width = static_cast<std::size_t>(options_.width);
+  const Vec2 size(static_cast<float>(options_.width), static_cast<float>(options_.height));
+  const Vec2 corner(static_cast<float>(pixel % width), static_cast<float>(pixel / width));
+  const Camera::Ray ray = camera_.ray((corner + subpixel) / size, size.x / size.y);
+  return {ray.origin, ray.direction, 0, kInfinity};
+}
+
+/// Illuminance of the surface that a camera ray sees, on the side seen; 0 where there is none.
+bool Renderer::sample_illuminance(const Ray& ray, std::uint64_t item, float& lux) const {
+  SurfacePoint point;
+  lux = 0;
+  if (!trace(rays_, ray, point)) return true;
+  RandomStream random(options_.seed, Stage::reference, item | kIlluminanceItem);
+  lux = luminance(tracer_.irradiance(point, random));
+  return std::isfinite(lux);
+}
+
+/// Returns how many samples were not finite (0 or 1).
+std::uint64_t Renderer::sample(std::size_t pixel, std::int64_t s) {
+  const std::uint64_t item = (static_cast<std::uint64_t>(pixel) << 32) | static_cast<std::uint64_t>(s);
+  RandomStream random(options_.seed, Stage::reference, item);
+  random.start_bounce(0xffff);  // the lens comes before bounce 0, which the path starts itself
+  const Vec2 stratum(static_cast<float>(s & 1), static_cast<float>((s >> 1) & 1));
+  const Ray eye = ray(pixel, 0.5f * (stratum + random.uniform2()));
+  const PathSample light = tracer_.luminance(eye, random);
+  const Rgb total = light.total();
+  float lux = 0;
+  if (!is_finite(total) || (options_.illuminance && !sample_illuminance(eye, item, lux))) return 1;
+  Pixel& sum = pixels_[pixel];
+  ++sum.count;
+  sum.total.add(total);
+  sum.indirect.add(light.indirect);
+  sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct),
+      sum.specular += DVec3(light.specular);
+  sum.scattered.add(luminance(total - light.emission));
+  if (options_.illuminance) sum.illuminance.add(lux);
+  return 0;
+}
+
+void Renderer::pass(std::int64_t begin, std::int64_t end) {
+  const auto samples = static_cast<std::size_t>(end - begin);
+  const std::size_t chunk = std::max<std::size_t>(1, kSamplesPerChunk / samples);
+  Progress progress("reference", pixels_.size() * samples, "samples");
+  rejected_ = parallel_reduce(
+      pixels_.size(), chunk, rejected_,
+      [&](std::size_t first, std::size_t last) {
+        std::uint64_t rejected = 0;
+        for (std::size_t pixel = first; pixel < last; ++pixel)
+          for (std::int64_t s = begin; s < end; ++s) rejected += sample(pixel, s);
+        progress.advance((last - first) * samples);
+        return rejected;
+      },
+      [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
+}
+
+double Renderer::error() const {
+  double squares = 0, mean = 0;
+  for (const Pixel& p : pixels_) {
+    squares += p.scattered.standard_error() * p.scattered.standard_error();
+    mean += p.scattered.mean();
+  }
+  const auto n = static_cast<double>(pixels_.size());
+  return mean > 0 ? std::sqrt(squares / n) / (mean / n) : 0;
+}
+
+Rgb mean(const std::array<double, 3>& sum, double n) { return {sum[0] / n, sum[1] / n, sum[2] / n}; }
+
+Rgb standard_error(const Channels& c, double n) {
+  Rgb error(0);
+  if (n < 2) return error;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double m = c.sum[k] / n;
+    error[static_cast<int>(k)] =
+        static_cast<float>(std::sqrt(std::max(0.0, (c.squares[k] / n - m * m) / (n - 1))));
+  }
+  return error;
+}
+
+void Renderer::add_light(Image& image) const {
+  const auto set = [&](const std::string& layer, const auto& value) {
+    std::vector<Rgb> values(pixels_.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = value(pixels_[i], std::max(1.0, static_cast<double>(pixels_[i].count)));
+    image.set_rgb(layer, values);
+  };
+  set("", [](const Pixel& p, double n) { return mean(p.total.sum, n); });
+  set("emission", [](const Pixel& p, double n) { return Rgb(p.emission / n); });
+  set("direct", [](const Pixel& p, double n) { return Rgb(p.direct / n); });
+  set("indirect", [](const Pixel& p, double n) { return mean(p.indirect.sum, n); });
+  set("stderr", [](const Pixel& p, double n) { return standard_error(p.total, n); });
+  set("indirect_stderr", [](const Pixel& p, double n) { return standard_error(p.indirect, n); });
+  if (std::any_of(pixels_.begin(), pixels_.end(), [](const Pixel& p) { return p.specular != DVec3(0); }))
+    set("specular", [](const Pixel& p, double n) { return Rgb(p.specular / n); });
+  if (!options_.illuminance) return;
+  const std::span<float> lux = image.channel("illuminance.Y");
+  const std::span<float> error = image.channel("illuminance_stderr.Y");
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    lux[i] = static_cast<float>(pixels_[i].illuminance.mean());
+    error[i] = static_cast<float>(pixels_[i].illuminance.standard_error());
+  }
+}
+
+/// What the ray through the centre of each pixel finds.
+void Renderer::add_surfaces(Image& image) const {
+  std::vector<Rgb> albedo(pixels_.size());
+  std::array<std::span<float>, 3> normal, position;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string axis(1, "XYZ"[k]);
+    normal[k] = image.channel("normal." + axis), position[k] = image.channel("position." + axis);
+  }
+  const std::span<float> z = image.channel("Z");
+  parallel_for(pixels_.size(), 1024, [&](std::size_t i) {
+    SurfacePoint point;
+    if (!trace(rays_, ray(i, {0.5f, 0.5f}), point)) return;
+    albedo[i] = Bsdf(rays_.scene(), point).diffuse_reflectance();
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal[k][i] = point.smooth_normal[static_cast<int>(k)];
+      position[k][i] = point.position[static_cast<int>(k)];
+    }
+    z[i] = point.distance_m;
+  });
+  image.set_rgb("albedo", albedo);
+}
+
+Image Renderer::image() const {
+  Image image(static_cast<int>(options_.width), static_cast<int>(options_.height));
+  add_light(image);
+  add_surfaces(image);
+  return image;
+}
+
+}  // namespace
+
+ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
+                                  const ReferenceOptions& options) {
+  Renderer renderer(rays, luminaires, camera, options);
+  ReferencePicture result;
+  while (result.samples < options.samples) {
+    std::int64_t next = options.samples;
+    if (options.error && result.samples == 0) next = std::min(next, kFirstPass);
+    if (options.error && result.samples > 0) {
+      // The error falls with the root of the number; a little beyond, and no more than fourfold on a noisy
+      // estimate.
+      const double ratio = result.error / std::max(*options.error, 1e-9);
+      const double wanted = static_cast<double>(result.samples) * std::clamp(1.02 * ratio * ratio, 1.1, 4.0);
+      next = std::min(next, 4 * ((static_cast<std::int64_t>(wanted) + 3) / 4));
+    }
+    renderer.pass(result.samples, next);
+    result.samples = next;
+    result.error = renderer.error();
+    if (options.error && result.error <= *options.error) break;
+  }
+  result.image = renderer.image();
+  const std::uint64_t rejected = renderer.rejected();
+  if (rejected > 0) result.counters.count("non-finite sample", rejected);
+  const auto trials = result.image.pixels() * static_cast<std::uint64_t>(result.samples);
+  result.counters.require_at_most("non-finite sample", 1e-6, trials,
+                                  "look for extreme values in materials and lights with phos-scene");
+  return result;
+}
+
+}  // namespace phos

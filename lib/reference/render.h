@@ -1,0 +1,54 @@
+// A picture by path tracing, with the standard error of every pixel.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/counters.h"
+#include "core/options.h"
+#include "image/image.h"
+#include "reference/path_tracer.h"
+#include "scene/rays.h"
+#include "scene/scene.h"
+
+namespace phos {
+
+struct ReferenceOptions {
+  std::string camera;  ///< "" = the scene's first
+  std::int64_t width = 0,
+               height = 0;    ///< 0 = from the other and the camera's aspect (both 0: 512 on the longer side)
+  std::int64_t samples = 64;  ///< a pixel (or a point); at most, where `error` is given
+  std::optional<double> error;  ///< stop once ReferencePicture::error is at most this
+  bool illuminance = false;     ///< also the illuminance.Y layer (one more path a sample)
+  std::uint64_t seed = 0;
+  PathOptions path;
+};
+
+/// The options of the command line, but the seed.
+void declare_options(Options& options, ReferenceOptions& reference);
+/// Fills width and height in. Throws Error(usage) for a picture of more than 2^28 pixels.
+void resolve_size(ReferenceOptions& reference, const Camera& camera);
+
+struct ReferencePicture {
+  /// R G B; emission, direct, indirect (as in PathSample; specular where there is any); stderr and
+  /// indirect_stderr: standard error per channel; illuminance.Y and illuminance_stderr.Y, lx, of the visible
+  /// surface, where asked for; and through the centre of each pixel albedo (diffuse reflectance), normal,
+  /// position (m) and Z (distance to the eye, m; 0 where nothing is seen).
+  Image image;
+  std::int64_t samples = 0;  ///< a pixel, taken
+  /// RMS over pixels of the standard error of the luminance, over the mean luminance: the relative RMSE that
+  /// the picture has against its converged self. Of scattered light: emission is left out of both, as at the
+  /// edges of a lamp nothing but the lamp's outline is sampled. 0 for one sample and for a black picture.
+  /// Samples are stratified in fours over the pixel, so that this errs, where the picture has edges, on the
+  /// high side.
+  double error = 0;
+  Counters counters;  ///< "non-finite sample"
+};
+
+/// Box filter of one pixel; width and height above 0. Same bytes for any number of threads. Throws
+/// Error(numerical) if more than one sample in a million is not finite (such samples are left out).
+ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
+                                  const ReferenceOptions& options);
+
+}  // namespace phos

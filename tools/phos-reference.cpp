@@ -1,0 +1,130 @@
+// phos-reference: scene -> converged OpenEXR picture, or lux at points, by path tracing.
+#include <cstdio>
+
+#include "file/atomic_file.h"
+#include "file/container.h"
+#include "file/tool.h"
+#include "image/image.h"
+#include "reference/point_irradiance.h"
+#include "reference/render.h"
+#include "scene/load.h"
+
+namespace {
+
+using namespace phos;
+
+void write_text(Tool& tool, const std::string& csv) {
+  if (tool.output().empty()) {
+    std::fwrite(csv.data(), 1, csv.size(), stdout);
+    return;
+  }
+  AtomicFile file(tool.output());
+  file.write(csv);
+  file.commit();
+}
+
+void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminaires,
+                    const ReferenceOptions& reference, const std::vector<SensorPoint>& points) {
+  std::vector<PointIrradiance> light;
+  std::uint64_t samples = 0, rejected = 0;
+  Progress progress("reference", points.size(), "points");
+  PointOptions options{reference.samples, reference.error, reference.seed, 0, reference.path};
+  for (const SensorPoint& point : points) {
+    light.push_back(estimate_irradiance(rays, luminaires, point.position, point.normal, options));
+    samples += light.back().samples, rejected += light.back().rejected;
+    ++options.item;
+    progress.advance();
+  }
+  tool.stat("samples", samples);
+  if (rejected > 0) tool.counters().count("non-finite sample", rejected);
+  tool.counters().require_at_most("non-finite sample", 1e-6, samples,
+                                  "look for extreme values in materials and lights with phos-scene");
+  write_text(tool, sensor_csv(points, light));
+}
+
+void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminaires& luminaires,
+            const ReferenceOptions& reference) {
+  ReferencePicture picture = [&] {
+    const auto timer = tool.time("trace");
+    return render_reference(rays, luminaires, find_camera(scene, reference.camera), reference);
+  }();
+  tool.counters().merge(picture.counters);
+  tool.stat("samples", picture.image.pixels() * static_cast<std::uint64_t>(picture.samples));
+  tool.stat("samples a pixel", picture.samples);
+  tool.stat("error", picture.error);
+  for (const auto& [key, value] : to_metadata(tool.provenance("image", scene.hash, scene.parts)))
+    picture.image.attributes["phos." + key] = value;
+  picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
+  picture.image.attributes["phos.error"] = shortest(picture.error);
+  const auto timer = tool.time("write");
+  write_exr(tool.output(), picture.image);
+  tool.say(text(tool.output(), ": ", reference.width, " x ", reference.height, ", ", picture.samples,
+                " samples a pixel, standard error ", shortest(static_cast<float>(100 * picture.error)),
+                " % of the mean luminance (RMS)"));
+  if (reference.error && picture.error > *reference.error)
+    tool.warn(text("--error ", shortest(*reference.error), " was not reached within --samples ",
+                   reference.samples, "; raise --samples"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-reference", "renders a scene by path tracing, to judge other stages by",
+            "Unbiased path tracing with next-event estimation, multiple importance sampling and Russian "
+            "roulette; it "
+            "shares no estimator with the caches. Writes an OpenEXR image with the layers beauty (R G B), "
+            "emission, "
+            "direct, indirect and, where there is any, specular in cd/m2, their standard errors stderr and "
+            "indirect_stderr, albedo, normal, position and Z; or, with --points, a CSV of illuminance (lx) "
+            "with its "
+            "standard error.",
+            1, Tool::Output::optional);
+  Options& options = tool.options();
+  std::string scene_path, points_path;
+  ReferenceOptions reference;
+  SceneOptions scene_options;
+  options.input("SCENE", scene_path, "glTF or OBJ scene");
+  declare_options(options, reference);
+  declare_options(options, scene_options);
+  options.section("Points");
+  options.file(
+      "points", points_path,
+      "measure illuminance at these points instead (CSV x,y,z,nx,ny,nz; the side that the normal faces); the "
+      "result goes to -o or stdout");
+  options.example("phos-reference room.glb --error 0.01 --samples 4096 -o room.exr",
+                  "until the noise is 1 %");
+  options.example("phos-reference room.glb --bounces 1 -o direct.exr", "direct light only");
+  options.example("phos-reference room.glb --points desk.csv --samples 65536",
+                  "lux at sensor points, to stdout");
+
+  return tool.run(argc, argv, [&] {
+    if (points_path.empty() && tool.output().empty())
+      throw Error(ExitCode::usage, "-o", "a picture needs an output file: -o room.exr (or give --points)");
+    tool.add_input("scene", scene_files(scene_path));
+    if (!points_path.empty()) tool.add_input("points", points_path);
+    reference.seed = tool.seed();
+    if (points_path.empty()) {
+      tool.set_key_reader([](const std::string& path) -> std::optional<std::string> {
+        const auto attributes = read_exr_attributes(path);
+        const auto found = attributes.find("phos.key");
+        return found == attributes.end() ? std::nullopt : std::optional(found->second);
+      });
+      if (tool.up_to_date()) return;
+    }
+    const std::vector<SensorPoint> points = points_path.empty()
+                                                ? std::vector<SensorPoint>{}
+                                                : parse_sensor_points(read_text(points_path), points_path);
+    const Scene scene = [&] {
+      const auto timer = tool.time("load scene");
+      return load_scene(scene_path, scene_options);
+    }();
+    if (points_path.empty()) resolve_size(reference, find_camera(scene, reference.camera));
+    if (scene.light.empty()) tool.warn("the scene has no light: everything will be black");
+    const RayScene rays(scene);
+    const Luminaires luminaires(scene);
+    if (points_path.empty())
+      render(tool, scene, rays, luminaires, reference);
+    else
+      measure_points(tool, rays, luminaires, reference, points);
+  });
+}
