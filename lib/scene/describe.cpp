@@ -207,7 +207,7 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
   const bool lit = !scene.light.empty();
   const bool scatters = !diffuse.empty() || !smooth_gloss.empty() || !sharp_gloss.empty();
   if (lit && scatters) {
-    out.push_back({"direct light", text(scene.light.size(), " lights")});
+    out.push_back({"direct light", "lights: " + std::to_string(scene.light.size())});
     out.push_back({"global photons", "light is reflected between surfaces that are not mirrors"});
   }
   if (lit && scatters && !specular.empty()) {
@@ -221,7 +221,7 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
   if (!specular.empty())
     out.push_back({"specular tracing", "mirrors or smooth glass: " + names_of(specular)});
   if (!scene.animation.empty()) {
-    out.push_back({"temporal data", text(scene.animation.size(), " animations, ", scene.frames, " frames")});
+    out.push_back({"temporal data", text("animated over ", scene.frames, " frames")});
   }
   return out;
 }

@@ -51,7 +51,7 @@ std::string light_line(const Json& l) {
 
 std::string material_line(const Json& m) {
   std::string line =
-      text("  ", padded(at(m, "name").as_string(), 24), " ", padded(at(m, "model").as_string(), 18),
+      text("  ", padded(at(m, "name").as_string(), 24), " ", padded(at(m, "model").as_string(), 20),
            "reflects ", figure(at(m, "reflectance")), ", ", figure(at(m, "area_m2")), " m2, ",
            at(m, "triangles").as_integer(), " triangles");
   for (const Json& t : at(m, "textures").as_array()) line += text(", ", t.as_string(), " texture");
@@ -69,7 +69,7 @@ std::string camera_line(const Json& c) {
 
 std::string animation_line(const Json& a) {
   return text("  ", padded(at(a, "name").as_string(), 24), " ", figure(at(a, "start_s")), " to ",
-              figure(at(a, "end_s")), " s, ", at(a, "targets").as_array().size(), " targets\n");
+              figure(at(a, "end_s")), " s, ", at(a, "targets").as_array().size(), " moving values\n");
 }
 
 std::string requirement_line(const Json& r) {
