@@ -2,7 +2,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -91,14 +93,19 @@ struct RayScene::Impl {
 };
 
 void RayScene::Impl::make_device(const std::string& isa) {
-  const std::string config = isa.empty() ? "" : "isa=" + isa;
-  device = rtcNewDevice(config.empty() ? nullptr : config.c_str());
+  // Embree takes no notice of a name it does not know.
+  const char* const known[] = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
+  if (std::find(std::begin(known), std::end(known), isa) == std::end(known)) {
+    throw Error(ExitCode::usage, "isa",
+                text("unknown instruction set \"", isa, "\"; use sse2, sse4.2, avx, avx2 or avx512"));
+  }
+  const std::string config = "isa=" + isa;
+  device = rtcNewDevice(isa.empty() ? nullptr : config.c_str());
   if (device) return;
-  const RTCError code = rtcGetDeviceError(nullptr);
   throw Error(
       ExitCode::usage, isa.empty() ? "" : "isa",
       text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"", " (error ",
-           static_cast<int>(code), "); use sse2, sse4.2, avx, avx2 or avx512, as this machine has them"));
+           static_cast<int>(rtcGetDeviceError(nullptr)), "); use one that this machine has, such as sse2"));
 }
 
 void RayScene::Impl::make_planes() {
