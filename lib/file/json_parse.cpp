@@ -110,6 +110,9 @@ std::string one_line(std::string s) {
 }  // namespace
 
 Json parse_json(std::string_view s, const std::string& where) {
+  // The parser takes a zero byte for the end and would ignore what follows.
+  if (const std::size_t zero = s.find('\0'); zero != std::string_view::npos)
+    throw Error(ExitCode::bad_input, where, text("malformed JSON at byte ", zero + 1, ": a zero byte"));
   Builder builder;
   if (!nlohmann::json::sax_parse(s.begin(), s.end(), &builder))
     throw Error(ExitCode::bad_input, where, "malformed JSON " + one_line(builder.error));

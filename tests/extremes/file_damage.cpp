@@ -128,7 +128,7 @@ TEST(Damage, RandomDamageNeverGivesAnotherValue) {
           damaged.insert(at, damaged.substr(random.bits() % damaged.size(), length));
           break;
       }
-      if (damaged.empty()) damaged = "x";
+      if (damaged.empty()) damaged.push_back(0);
     }
     file.set(damaged);
     EXPECT_NE(try_reading(file.path(), expected), Outcome::wrong) << "trial " << trial;
@@ -142,7 +142,7 @@ TEST(Damage, GarbageIsRefused) {
     std::string garbage;
     const std::size_t n = random.bits() % 512;
     for (std::size_t i = 0; i < n; ++i) garbage += static_cast<char>(random.bits());
-    file.set(trial % 2 == 0 ? garbage : container_bytes("{" + garbage));
+    file.set(trial % 2 == 0 ? garbage : container_bytes(text("{", garbage)));
     EXPECT_EQ(try_reading(file.path(), ""), Outcome::refused) << "trial " << trial;
   }
 }

@@ -55,6 +55,8 @@ TEST(ParseJson, MalformedTextNamesTheByte) {
     EXPECT_NE(message(s), "") << s;
 }
 
+TEST(ParseJson, AZeroByteIsNotTheEnd) { EXPECT_NE(message(std::string("1\0 2", 4)), ""); }
+
 TEST(ParseJson, DepthIsLimited) {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_EQ(message(nested(256)), "");
