@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "scene/load_mesh.h"
 
 namespace phos {
 namespace {
@@ -114,9 +115,7 @@ void repair_normals(Scene& scene) {
     }
     if (sum.empty()) {
       sum.resize(scene.position.size(), DVec3(0));
-      for (std::uint32_t t = 0; t < scene.triangle.size(); ++t) {
-        for (const std::uint32_t v : scene.triangle[t].v) sum[v] += cross_of(scene, t);
-      }
+      for (const Triangle& t : scene.triangle) add_corner_normals(scene.position, t, sum);
     }
     const double length = glm::length(sum[i]);
     n = length > 0 ? Vec3(sum[i] / length) : Vec3(0, 0, 1);

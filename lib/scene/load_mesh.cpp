@@ -101,7 +101,8 @@ void drop_unused_vertices(MeshData& mesh) {
   }
 }
 
-/// A normal that is zero or not finite becomes the area-weighted mean of the triangles about its vertex.
+/// A normal that is zero or not finite becomes the mean of the triangles about its vertex, weighted by their
+/// angles there, so that it does not depend on how polygons were cut.
 std::uint64_t repair_normals(MeshData& mesh) {
   std::vector<DVec3> sum;
   std::uint64_t repaired = 0;
@@ -110,7 +111,7 @@ std::uint64_t repair_normals(MeshData& mesh) {
     if (sum.empty()) {
       sum.resize(mesh.position.size(), DVec3(0));
       for (const Triangle& t : mesh.triangle) {
-        for (const std::uint32_t v : t.v) sum[v] += cross_of(mesh, t);
+        add_corner_normals(mesh.position, t, sum);
       }
     }
     const double length = glm::length(sum[i]);
@@ -194,6 +195,17 @@ void clear_where_not_finite(std::vector<T>& values, std::uint64_t& events) {
 }
 
 }  // namespace
+
+void add_corner_normals(const std::vector<Vec3>& position, const Triangle& t, std::vector<DVec3>& sum) {
+  const DVec3 p[3] = {position[t.v[0]], position[t.v[1]], position[t.v[2]]};
+  const DVec3 c = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const double length = glm::length(c);
+  if (!(length > 0)) return;
+  for (int k = 0; k < 3; ++k) {
+    const DVec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
+    sum[t.v[k]] += std::atan2(length, glm::dot(a, b)) / length * c;
+  }
+}
 
 void unshare_vertices(MeshData& mesh) {
   std::vector<std::uint32_t> index;

@@ -25,6 +25,9 @@ struct MeshData {
 void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const std::string& node,
                   std::uint32_t material, bool make_tangents, const std::string& what);
 
+/// Adds the unit normal of a triangle, times its angle at each corner, to the sums of its vertices.
+void add_corner_normals(const std::vector<Vec3>& position, const Triangle& t, std::vector<DVec3>& sum);
+
 /// Gives every triangle vertices of its own.
 void unshare_vertices(MeshData& mesh);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -40,6 +41,34 @@ std::optional<std::string> read_if_there(const std::string& path) {
   }
 }
 
+/// tinyobjloader reads a number it cannot parse, "nan" among them, as 0; such a vertex must not pass for a
+/// good one.
+void check_vertices(const std::string& path, std::string_view bytes) {
+  constexpr std::string_view kBlank = " \t\r";
+  for (std::size_t line = 1; !bytes.empty(); ++line) {
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    std::string_view rest = bytes.substr(0, end);
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    const auto next_word = [&] {
+      rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
+      const std::string_view word = rest.substr(0, rest.find_first_of(kBlank));
+      rest.remove_prefix(word.size());
+      return word;
+    };
+    if (next_word() != "v") continue;
+    for (int k = 0; k < 3; ++k) {
+      std::string_view word = next_word();
+      if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+      double value = 0;
+      const auto [stop, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+      const bool whole = stop == word.data() + word.size();
+      if (problem == std::errc() && whole && std::isfinite(static_cast<float>(value))) continue;
+      throw Error(ExitCode::bad_input, path,
+                  text("line ", line, ": a vertex needs three finite numbers; mend it in the modeller"));
+    }
+  }
+}
+
 /// Hands tinyobjloader the text of each mtllib, from beside the .obj only.
 class MtlReader : public tinyobj::MaterialReader {
  public:
@@ -66,6 +95,7 @@ class ObjReader {
   explicit ObjReader(Scene& scene) : scene_(scene) {}
 
   void read(std::string_view bytes) {
+    check_vertices(scene_.path, bytes);
     MtlReader mtl(scene_.path);
     std::istringstream stream{std::string(bytes)};
     std::string warning, error;
