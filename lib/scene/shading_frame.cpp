@@ -52,8 +52,11 @@ Vec3 smooth_normal_of(const Scene& scene, const SurfacePoint& point, const float
   // open.
   constexpr float kLeastCosine = 0.05f;
   if (scene.normal.empty()) return point.geometric_normal;
-  Vec3 n = normalized_or_zero(blend(scene.normal, scene.triangle[point.triangle], weight));
-  if (n == Vec3(0)) return point.geometric_normal;
+  // Vertex normals are unit, so the plain norm is safe; opposite ones may cancel.
+  Vec3 n = blend(scene.normal, scene.triangle[point.triangle], weight);
+  const float length2 = glm::dot(n, n);
+  if (!(length2 > 0)) return point.geometric_normal;
+  n *= 1 / std::sqrt(length2);
   if (!point.front) n = -n;
   // Normals that point well into the other side belong to a mesh of inverted winding; a little, to a coarse
   // crease.
@@ -120,8 +123,11 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
   if (point.normal != point.geometric_normal) {
     point.normal = bent_towards(point.normal, towards_eye, std::fmin(kLeastCosine, grazing));
   }
-  const Vec3 t(tangent);
-  point.tangent = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
+  point.tangent = Vec3(0);
+  if (reads.tangent) {
+    const Vec3 t(tangent);
+    point.tangent = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
+  }
   if (point.tangent == Vec3(0)) point.tangent = make_frame(point.normal).x;
 }
 
