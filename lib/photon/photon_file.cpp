@@ -160,14 +160,8 @@ Json bounds_to_json(std::span<const Vec3> position) {
   return j;
 }
 
-void append(Photons& to, Photons&& from) {
-  const auto join = [](auto& a, auto& b) {
-    if (a.empty() && a.capacity() == 0)
-      a = std::move(b);
-    else
-      a.insert(a.end(), b.begin(), b.end());
-    b = {};
-  };
+void append(Photons& to, const Photons& from) {
+  const auto join = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
   join(to.position, from.position), join(to.flux, from.flux), join(to.direction, from.direction);
   join(to.normal, from.normal), join(to.source_normal, from.source_normal), join(to.distance, from.distance);
   join(to.path, from.path), join(to.bounce, from.bounce);

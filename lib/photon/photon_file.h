@@ -31,8 +31,8 @@ void add_totals(PhotonTotals& totals, const PhotonTotals& other);
 /// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
 Json bounds_to_json(std::span<const Vec3> position);
 
-/// Moves the rows of `from` to the end of `to` and frees `from`.
-void append(Photons& to, Photons&& from);
+/// Adds the rows of `from` behind those of `to`.
+void append(Photons& to, const Photons& from);
 
 /// Every shard of one run, each once, in any order.
 struct MergedShards {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
+#include <span>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -17,9 +18,13 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kPathChunk = 1024;
-// Chunks of a wave wait in memory for each other before they are joined in order.
-constexpr std::uint64_t kPathWave = 256 * kPathChunk;
+// Chunks of a wave wait in memory for each other before they are joined in order: the first few tell how many
+// photons a path gives, the later ones are as many as give this number of rows.
+constexpr std::uint64_t kFirstWave = 16 * kPathChunk, kWaveRows = 1 << 19;
 constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
+
+// Without the not-a-number rules of fmax, which cost a call.
+float largest(const Rgb& c) { return std::max(c.x, std::max(c.y, c.z)); }
 
 /// What one chunk of paths gives.
 struct Part {
@@ -27,6 +32,12 @@ struct Part {
   FluxSum emitted, stored, escaped, absorbed;
   std::uint64_t escaped_paths = 0, non_finite = 0, too_long = 0;
   std::vector<Ray> rays;
+
+  void restart() {
+    emitted = stored = escaped = absorbed = FluxSum();
+    escaped_paths = non_finite = too_long = 0;
+    rays.clear();
+  }
 };
 
 /// A photon in flight.
@@ -76,7 +87,7 @@ class PathTracer {
     }
     part.emitted += units(start.flux_lm);
     Flight flight{start.ray, start.flux_lm, start.source_normal, 0, start.from_infinity, true};
-    while (max_component(flight.flux_lm) > 0 && step(flight, random, part)) {
+    while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
   }
 
@@ -122,7 +133,7 @@ class PathTracer {
       ++part.non_finite;
       return false;
     }
-    const float survival = std::fmin(1.0f, max_component(flux) / max_component(flight.flux_lm));
+    const float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
     if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return false;
     flight.flux_lm = flux / survival;
     flight.ray = Ray{point.leave(sample.direction), sample.direction};
@@ -140,12 +151,7 @@ class PathTracer {
   double units_per_lm_;
 };
 
-void reserve(Photons& p, std::size_t rows) {
-  p.position.reserve(rows), p.flux.reserve(rows), p.direction.reserve(rows), p.normal.reserve(rows);
-  p.distance.reserve(rows), p.source_normal.reserve(rows), p.path.reserve(rows), p.bounce.reserve(rows);
-}
-
-void join(Part& part, Photons& photons, PhotonTotals& totals, Counters& counters, std::vector<Ray>* log) {
+void join(Part& part, PhotonTotals& totals, Counters& counters, std::vector<Ray>* log) {
   totals.stored += part.photons.size();
   totals.emitted_sum += part.emitted, totals.stored_sum += part.stored;
   totals.escaped_sum += part.escaped, totals.absorbed_sum += part.absorbed;
@@ -154,9 +160,52 @@ void join(Part& part, Photons& photons, PhotonTotals& totals, Counters& counters
   };
   count(kEscapedEvent, part.escaped_paths);
   count(kNonFiniteEvent, part.non_finite), count(kTooLongEvent, part.too_long);
-  append(photons, std::move(part.photons));
   if (log) log->insert(log->end(), part.rays.begin(), part.rays.end());
-  part = Part();
+}
+
+/// The same vector of every part behind the end of `all`'s; the parts keep their memory for the next wave.
+template <class T>
+void join_column(std::vector<T> Photons::*column, std::span<Part> parts, Photons& all,
+                 std::size_t expected_rows) {
+  std::vector<T>& joined = all.*column;
+  std::size_t rows = joined.size();
+  for (const Part& part : parts) rows += (part.photons.*column).size();
+  if (rows > joined.capacity()) joined.reserve(std::max(rows, expected_rows));
+  for (Part& part : parts) {
+    std::vector<T>& own = part.photons.*column;
+    joined.insert(joined.end(), own.begin(), own.end());
+    own.clear();
+  }
+}
+
+void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows) {
+  const auto join_number = [&](std::size_t column) {
+    switch (column) {
+      case 0:
+        return join_column(&Photons::position, parts, all, expected_rows);
+      case 1:
+        return join_column(&Photons::flux, parts, all, expected_rows);
+      case 2:
+        return join_column(&Photons::direction, parts, all, expected_rows);
+      case 3:
+        return join_column(&Photons::normal, parts, all, expected_rows);
+      case 4:
+        return join_column(&Photons::source_normal, parts, all, expected_rows);
+      case 5:
+        return join_column(&Photons::distance, parts, all, expected_rows);
+      case 6:
+        return join_column(&Photons::path, parts, all, expected_rows);
+      default:
+        return join_column(&Photons::bounce, parts, all, expected_rows);
+    }
+  };
+  parallel_for(8, 1, join_number);
+}
+
+/// How many rows all paths will give, by those that are done, and a little more.
+std::size_t expected_rows(std::size_t rows, std::uint64_t done, std::uint64_t paths) {
+  return static_cast<std::size_t>(1.01 * static_cast<double>(rows) / static_cast<double>(done) *
+                                  static_cast<double>(paths));
 }
 
 }  // namespace
@@ -173,9 +222,15 @@ void declare_options(Options& options, PhotonOptions& p) {
       "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
       "0 is by power alone, 1 is equal shares",
       {0, 1});
-  options.text("isa", p.isa, "NAME",
-               "instruction set of the ray tracer: sse2 gives the same bytes on every x86 machine; empty is "
-               "the fastest");
+  options.choice<std::string>(
+      "isa", p.isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
   options.text("shard", p.shard, "I/N",
                "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);
 }
@@ -207,24 +262,24 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   totals.flux_exponent = emitter.flux_exponent();
   const PathTracer tracer(rays, emitter, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");
+  std::vector<Part> parts;
+  std::uint64_t wave = kFirstWave;
   for (std::uint64_t done = 0; done < range.count;) {
-    const std::uint64_t wave = std::min(kPathWave, range.count - done), first = range.first + done;
-    std::vector<Part> parts((wave + kPathChunk - 1) / kPathChunk);
+    wave = std::min(wave, range.count - done);
+    const std::uint64_t first = range.first + done;
+    parts.resize(std::max<std::size_t>(parts.size(), (wave + kPathChunk - 1) / kPathChunk));
     parallel_chunks(wave, kPathChunk, [&](std::size_t begin, std::size_t end) {
       Part& part = parts[begin / kPathChunk];
+      part.restart();
       for (std::size_t i = begin; i < end; ++i) tracer.trace_path(first + i, part);
       progress.advance(end - begin);
     });
-    std::size_t rows = photons.size();
-    for (const Part& part : parts) rows += part.photons.size();
     done += wave;
-    if (rows >
-        photons.position.capacity()) {  // what the rest will need, by what there was, and a little more
-      const double expected =
-          static_cast<double>(rows) / static_cast<double>(done) * static_cast<double>(range.count);
-      reserve(photons, std::max(rows, static_cast<std::size_t>(1.01 * expected)));
-    }
-    for (Part& part : parts) join(part, photons, totals, counters, log);
+    const std::span<Part> traced(parts.data(), (wave + kPathChunk - 1) / kPathChunk);
+    for (Part& part : traced) join(part, totals, counters, log);
+    join_photons(traced, photons, expected_rows(totals.stored, done, range.count));
+    const std::uint64_t rows_per_chunk = 1 + totals.stored * kPathChunk / done;
+    wave = kPathChunk * std::clamp<std::uint64_t>(kWaveRows / rows_per_chunk, kFirstWave / kPathChunk, 1024);
   }
   totals.settle();
   return photons;
