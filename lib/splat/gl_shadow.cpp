@@ -78,16 +78,17 @@ void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sampl
   sample.faces.push_back(view);
 }
 
-/// The n-th of a sequence that fills the square evenly (Roberts 2018).
-Vec2 even_point(int n) {
-  const double x = 0.5 + 0.7548776662466927 * n, y = 0.5 + 0.5698402909980532 * n;
-  return Vec2(static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y)));
+/// The k-th of `count` points that fill the cube evenly: steps of 1/count, and of two numbers that multiples
+/// of each other never come near to (golden ratio; Roberts 2018).
+Vec3 even_point(int k, int count) {
+  const double y = 0.5 + 0.6180339887498949 * k, z = 0.5 + 0.7548776662466927 * k;
+  return Vec3((k + 0.5) / count, y - std::floor(y), z - std::floor(z));
 }
 
 ShadowSample area_sample(const Scene& scene, const Luminaires& luminaires, std::size_t light, int k,
                          int count, int map_size) {
-  const float u = (static_cast<float>(k) + 0.5f) / static_cast<float>(count);
-  const EmissionPoint point = luminaires.sample_point(light, u, even_point(k));
+  const Vec3 u = even_point(k, count);
+  const EmissionPoint point = luminaires.sample_point(light, u.z, Vec2(u));
   ShadowSample sample;
   sample.kind = SampleKind::area;
   sample.forward = point.normal;
