@@ -1,6 +1,4 @@
 // Places irradiance records and estimates them from photons.
-#include <fstream>
-
 #include "cache/placement.h"
 #include "file/hash.h"
 #include "file/tool.h"
@@ -10,15 +8,6 @@ using namespace phos;
 
 namespace {
 
-/// A phos file begins with the length of a JSON header: eight bytes, the upper ones zero, then a brace.
-bool is_phos_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  char start[9] = {};
-  in.read(start, sizeof start);
-  return in.gcount() == sizeof start && start[4] == 0 && start[5] == 0 && start[6] == 0 && start[7] == 0 &&
-         start[8] == '{';
-}
-
 struct Inputs {
   std::vector<std::string> paths;
   std::string scene, photons;
@@ -26,7 +15,7 @@ struct Inputs {
   /// Tells scene and photons apart by their contents.
   void sort_out() {
     if (paths.size() != 2) throw Error(ExitCode::usage, "", "give two inputs, a scene and its photons");
-    const bool first = is_phos_file(paths[0]), second = is_phos_file(paths[1]);
+    const bool first = is_container(paths[0]), second = is_container(paths[1]);
     if (first && second)
       throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
     if (!first && !second) {

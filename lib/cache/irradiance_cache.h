@@ -14,14 +14,15 @@ namespace phos {
 
 /// One record. Gradients are absolute (FORMULAS A5), world space: row c is the gradient of channel c.
 struct IrradianceRecord {
-  Vec3 position{0};              ///< m
-  Vec3 normal{0, 0, 1};          ///< unit, on the side it lights
-  Rgb irradiance{0};             ///< lx
-  Rgb stderr_lx{0};              ///< standard error of irradiance
-  float distance_m = 0;          ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
-  float radius_m = 0;            ///< R of the weight; the zone of influence is accuracy * radius
-  Vec3 rotation_gradient[3];     ///< lx per radian: E += dot(cross(n_i, n), g_r)
-  Vec3 translation_gradient[3];  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
+  Vec3 position{0};      ///< m
+  Vec3 normal{0, 0, 1};  ///< unit, on the side it lights
+  Rgb irradiance{0};     ///< lx
+  Rgb stderr_lx{0};      ///< standard error of irradiance
+  float distance_m = 0;  ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
+  float radius_m = 0;    ///< R of the weight; the zone of influence is accuracy * radius
+  Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
+  Vec3 translation_gradient[3]{Vec3(0), Vec3(0),
+                               Vec3(0)};  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
 };
 
 struct IrradianceCache {

@@ -189,7 +189,8 @@ bool RecordMaker::on_surface(const Site& site, const Vec2& offset_m) const {
 /// The zone's estimate; a zone with a caustic in it is made smaller while it has photons to spare (C3).
 ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t seed_row, Scratch& s) const {
   const OnSurface probe = [&](const Vec2& offset) { return on_surface(site, offset); };
-  const DensityOptions density{.probes = static_cast<int>(options_.probes)};
+  const DensityOptions density{.probes = static_cast<int>(options_.probes),
+                               .centre_lit = seed_row != kNoPhoton};
   bool shrunk = false;
   for (;;) {
     limit_slab(site, radius_m);
@@ -214,15 +215,12 @@ ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t se
 
 /// Irradiance moved from the area's centroid to p along the gradient (C3), its error, gradients, and what
 /// they and the edges allow of the radius.
-void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, const Scratch& s,
+void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_radius_m, const Scratch& s,
                        IrradianceRecord& record) const {
   const auto a = static_cast<float>(options_.accuracy);
   if (s.zone.size() == 0 || zone.kind == ZoneKind::dark) {
     // What one photon would have shown: the dark is known no better.
-    const double area = zone.kind == ZoneKind::dark ? std::numbers::pi * static_cast<double>(zone.edge_m) *
-                                                          static_cast<double>(zone.edge_m)
-                                                    : zone.area_m2;
-    record.stderr_lx = one_photon_lm_ / static_cast<float>(std::max(area, 1e-30));
+    record.stderr_lx = one_photon_lm_ / static_cast<float>(zone.area_m2);
     if (zone.kind == ZoneKind::dark) record.radius_m = std::min(record.radius_m, 0.5f * zone.edge_m / a);
     return;
   }
@@ -240,22 +238,26 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, const Scratch
   record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
   record.stderr_lx = Rgb(glm::sqrt(squares / (zone.area_m2 * zone.area_m2) + geometric * geometric));
 
-  const Gradients limit = photon_gradients(s.zone, used, zone.area_m2, site.frame);
+  const Gradients analytic = photon_gradients(s.zone, used, zone.area_m2, site.frame);
   const float brightest = max_component(record.irradiance);
+  float within = record.radius_m;  // KBPv06: where the gradient would change a channel by itself
   for (int c = 0; c < 3; ++c) {
-    const float slope = glm::length(limit.translation[c]);
-    if (record.irradiance[c] > 0.01f * brightest && slope * record.radius_m > record.irradiance[c]) {
-      record.radius_m = record.irradiance[c] / slope;
+    const float slope = glm::length(analytic.translation[c]);
+    if (record.irradiance[c] > 0.01f * brightest && slope * within > record.irradiance[c]) {
+      within = record.irradiance[c] / slope;
     }
   }
+  // Records nearer to each other than half the photons' reach would tell the same photons' tale.
+  record.radius_m = std::max(within, 0.5f * zone_radius_m / a);
+  const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
   if (options_.gradients == GradientMode::none) return;
   const Gradients g = options_.gradients == GradientMode::photon
-                          ? limit
+                          ? analytic
                           : hemisphere_gradients(s.zone, used, zone.area_m2, site.frame,
                                                  static_cast<int>(options_.hemisphere_rings));
   for (int c = 0; c < 3; ++c) {
-    record.rotation_gradient[c] = g.rotation[c], record.translation_gradient[c] = g.translation[c];
+    record.rotation_gradient[c] = g.rotation[c], record.translation_gradient[c] = bounded * g.translation[c];
   }
 }
 
@@ -282,7 +284,7 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
   const ZoneEstimate zone = estimate(site, narrow, seed_row, s);
   if (narrow < wide)
     record.radius_m = std::min(record.radius_m, narrow / static_cast<float>(options_.accuracy));
-  fill(site, zone, s, record);
+  fill(site, zone, narrow, s, record);
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
   for (int c = 0; c < 3; ++c) {

@@ -79,7 +79,7 @@ class RecordMaker {
   void gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& scratch) const;
   bool on_surface(const Site& site, const Vec2& offset_m) const;
   ZoneEstimate estimate(Site& site, float& radius_m, std::uint32_t seed_row, Scratch& scratch) const;
-  void fill(const Site& site, const ZoneEstimate& zone, const Scratch& scratch,
+  void fill(const Site& site, const ZoneEstimate& zone, float zone_radius_m, const Scratch& scratch,
             IrradianceRecord& record) const;
 
   const PhotonMap& photons_;

@@ -9,8 +9,9 @@
 namespace phos {
 namespace {
 
-constexpr double kLeastHull = 1e-9;      // of R^2: below it the hull is degenerate
-constexpr double kLeastCoverage = 0.25;  // of the hull by surface (C2)
+constexpr double kLeastHull = 1e-9;         // of R^2: below it the hull is degenerate
+constexpr double kLeastCoverage = 0.25;     // of the hull by surface (C2)
+constexpr std::size_t kEnoughToTell = 512;  // photons whose largest empty cap is below 2 % of the zone
 constexpr int kSectors = 8;
 constexpr int kCells = 2 * kSectors;  // two rings of equal area
 constexpr double kPiD = std::numbers::pi;
@@ -42,6 +43,17 @@ bool in_doubt(const Cells& counts, std::size_t photons) {
 Vec2 probe_offset(int i, int n, float radius_m) {
   const double r = std::sqrt((i + 0.5) / n), t = i * 2.399963229728653;
   return Vec2(r * std::cos(t), r * std::sin(t)) * radius_m;
+}
+
+/// A few probes, most near the rim, where a border that cuts the zone shows first.
+bool whole(float radius_m, const OnSurface& on_surface) {
+  if (!on_surface) return true;
+  constexpr int kRim = 24, kInner = 8;
+  for (int i = 0; i < kRim + kInner; ++i) {
+    const float r = i < kRim ? 0.93f : 0.5f, t = 2 * kPi * static_cast<float>(i) / (i < kRim ? kRim : kInner);
+    if (!on_surface(radius_m * r * Vec2(std::cos(t), std::sin(t)))) return false;
+  }
+  return true;
 }
 
 struct Edge {
@@ -180,27 +192,38 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
       !few && !e.degenerate && cap_fraction(edge.h) <= std::min(0.5, (std::log(count) + 3) / count);
   const Cells counts = count_cells(offsets_m, radius_m);
 
+  // Enough photons, evenly spread, leave no room for a border that matters; fewer need a look, and more if
+  // that fails.
   Coverage c;
-  if (!lit || in_doubt(counts, m)) {
+  const bool doubt = in_doubt(counts, m);
+  if (lit && (doubt || m < kEnoughToTell)) e.probed = true;
+  if (!lit || (e.probed && !whole(radius_m, on_surface))) {
     c = probe(offsets_m, hull, edge, radius_m, on_surface, options.probes, scratch.covered);
     e.probed = true;
-    e.clustered = !few && !e.degenerate && is_clustered(counts, c.hull_cells);
+  } else {
+    c.hull_cells.fill(1);
   }
-  if (few || e.degenerate || lit) {
-    e.kind = lit ? ZoneKind::full : ZoneKind::few;
+  e.clustered = !few && !e.degenerate && (doubt || !lit) && is_clustered(counts, c.hull_cells);
+
+  const auto over_surface = [&](ZoneKind kind) {
+    e.kind = kind;
     e.area_m2 = disc * c.zone;
     e.area_error = probe_error(c.zone_partial, c.zone, options.probes);
     e.centroid_m = c.zone_centroid;
     add_up(flux_lm, scratch.used, e);
     return e;
-  }
+  };
+  if (few || e.degenerate || lit) return over_surface(lit ? ZoneKind::full : ZoneKind::few);
   const double coverage = c.hull_known ? std::max(c.hull, kLeastCoverage) : 1;
   const double inside = count - static_cast<double>(hull.vertices.size());
   e.area_m2 = hull.area * coverage;
   e.area_error = probe_error(c.hull_partial, c.hull, options.probes);
   if (edge.h < 0 && inside / e.area_m2 * disc * c.strip >= options.dark_photons) {
-    e = ZoneEstimate{
-        .kind = ZoneKind::dark, .edge_m = static_cast<float>(-edge.h) * radius_m, .probed = true};
+    if (options.centre_lit) return over_surface(ZoneKind::few);  // the hull is a part of what is lit
+    e = ZoneEstimate{.kind = ZoneKind::dark,
+                     .area_m2 = disc * c.strip,
+                     .edge_m = static_cast<float>(-edge.h) * radius_m,
+                     .probed = true};
     scratch.used.assign(m, 0);
     return e;
   }

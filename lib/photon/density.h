@@ -27,14 +27,15 @@ struct DensityOptions {
   int probes = 256;  ///< geometry probes where a zone is in doubt
   int few = 16;      ///< below this the hull is not used
   double dark_photons =
-      4.6;  ///< photons missed between hull and centre that make the centre dark (1 % chance)
+      4.6;                  ///< photons missed between hull and centre that make the centre dark (1 % chance)
+  bool centre_lit = false;  ///< a photon landed at the centre itself: it is not dark
 };
 
 struct ZoneEstimate {
   ZoneKind kind = ZoneKind::few;
   Rgb irradiance{0};      ///< lx, mean over the area
   Rgb stderr_lx{0};       ///< from the Poisson photons and the probed area
-  double area_m2 = 0;     ///< what the flux was divided by; 0 only if kind is dark
+  double area_m2 = 0;     ///< what the flux was divided by; dark: the empty surface between centre and hull
   double area_error = 0;  ///< relative standard error of area_m2 from the probes
   Vec2 centroid_m{0};     ///< of that area, from the zone's centre: where `irradiance` holds to first order
   float edge_m = kInfinity;  ///< distance to the nearest edge of the lit region if surface goes on beyond it
