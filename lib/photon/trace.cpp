@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <new>
 #include <span>
 #include <sstream>
 
@@ -277,7 +277,14 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
     done += wave;
     const std::span<Part> traced(parts.data(), (wave + kPathChunk - 1) / kPathChunk);
     for (Part& part : traced) join(part, totals, counters, log);
-    join_photons(traced, photons, expected_rows(totals.stored, done, range.count));
+    const std::size_t expected = expected_rows(totals.stored, done, range.count);
+    try {
+      join_photons(traced, photons, expected);
+    } catch (const std::bad_alloc&) {
+      throw Error(ExitCode::bad_input, "",
+                  text("no memory for the about ", expected, " photons that ", range.count,
+                       " paths will store here; emit fewer (--photons)"));
+    }
     const std::uint64_t rows_per_chunk = 1 + totals.stored * kPathChunk / done;
     wave = kPathChunk * std::clamp<std::uint64_t>(kWaveRows / rows_per_chunk, kFirstWave / kPathChunk, 1024);
   }

@@ -161,6 +161,10 @@ TEST_F(PhotonsCli, InterruptLeavesWhatWasThere) {
   EXPECT_EQ(files, 1u) << "a temporary file was left";
 }
 
+TEST_F(PhotonsCli, TooManyPathsForTheMemoryAreSaidAtOnce) {
+  expect_refused({cornell_, "-o", out_, "--photons", "900000000000"}, 3, "no memory for the about");
+}
+
 TEST_F(PhotonsCli, IsaIsRecorded) {
   ASSERT_EQ(run_tool({"photons", cornell_, "--photons", "100", "--isa", "sse2", "-o", out_}).code, 0);
   const Json* isa = Container::open(out_).provenance().parameters.find("isa");

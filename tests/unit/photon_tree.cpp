@@ -79,7 +79,7 @@ TEST(KdTree, AgreesWithBruteForceAtEveryScale) {
 
 TEST(KdTree, FewPoints) {
   for (const std::size_t n :
-       {std::size_t{1}, std::size_t{2}, std::size_t{15}, std::size_t{16}, std::size_t{17}})
+       {std::size_t{1}, std::size_t{2}, std::size_t{31}, std::size_t{32}, std::size_t{33}})
     expect_all(random_points(n, 1, 2), 1);
 }
 
