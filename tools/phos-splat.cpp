@@ -4,6 +4,7 @@
 
 #include "cache/irradiance_cache.h"
 #include "file/container.h"
+#include "file/layout.h"
 #include "file/tool.h"
 #include "image/image.h"
 #include "scene/load.h"
@@ -71,7 +72,15 @@ int main(int argc, char** argv) {
     tool.add_input("scene", scene_files(scene_path));
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
     render.seed = tool.seed();
-    tool.set_key_reader([](const std::string& path) { return read_attribute(path, "phos.key"); });
+    tool.set_key_reader([](const std::string& path) -> std::optional<std::string> {
+      const auto attributes = read_exr_attributes(path);
+      const auto key = attributes.find("phos.key");
+      return key == attributes.end() ? std::nullopt : std::optional(key->second);
+    });
+    if (options.given("reuse") && !misses_path.empty())
+      throw Error(ExitCode::usage, "--misses",
+                  "a picture that is not made anew has no misses; leave out --reuse");
+    if (tool.up_to_date()) return;
 
     std::vector<Container> files;
     for (const std::string& path : cache_paths) files.push_back(Container::open(path, "irradiance"));
@@ -83,16 +92,17 @@ int main(int argc, char** argv) {
     for (const Container& file : files) {
       if (!allow_mismatch) require_same_scene(file, scene_path, scene.hash, scene.parts);
       const IrradianceCache more = read_irradiance(file);
+      if (!cache.records.empty() && more.quantity != cache.quantity)
+        throw Error(ExitCode::mismatch, file.path(),
+                    text("holds ", more.quantity, " light, ", files.front().path(), " holds ", cache.quantity,
+                         "; make both with the same --paths of phos-irradiance"));
       cache.accuracy = cache.records.empty() ? more.accuracy : std::min(cache.accuracy, more.accuracy);
       cache.quantity = more.quantity;
       cache.records.insert(cache.records.end(), more.records.begin(), more.records.end());
     }
-    if (cache.quantity == "all" && !options.given("direct")) {
-      render.direct = DirectBy::none;
-      tool.say("the cache holds direct light too: --direct none");
-    }
+    if (cache.quantity == "all")
+      tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
     resolve(render, find_camera(scene, render.camera), cache);
-    if (tool.up_to_date()) return;
 
     const RayScene rays = [&] {
       const auto timer = tool.time("build rays");
@@ -102,7 +112,7 @@ int main(int argc, char** argv) {
     report(tool, rendering);
     require_finite(rendering.image);
     if (!misses_path.empty()) write_misses(misses_path, rendering.misses);
-    for (const auto& [key, value] : metadata(tool.provenance("image", scene.hash, scene.parts)))
+    for (const auto& [key, value] : to_metadata(tool.provenance("image", scene.hash, scene.parts)))
       rendering.image.attributes["phos." + key] = value;
     const auto timer = tool.time("write");
     write_exr(tool.output(), rendering.image);

@@ -29,14 +29,14 @@ struct Layers {
         albedo(n),
         normal(n),
         position(n),
-        direct_variance(n),
+        noise(n),
         indirect_error(n),
         illuminance(n),
         weight(n),
         depth(n) {}
   std::vector<Rgb> direct, indirect, glossy, specular, emission, albedo, normal, position;
-  std::vector<Rgb> direct_variance;  ///< of the sum over pixel samples
-  std::vector<Rgb> indirect_error;   ///< summed as if fully correlated between samples (they share records)
+  std::vector<Rgb> noise;           ///< variance of direct light and gloss, summed over pixel samples
+  std::vector<Rgb> indirect_error;  ///< summed as if fully correlated between samples (they share records)
   std::vector<float> illuminance, weight, depth;
 };
 
@@ -79,12 +79,13 @@ struct ChunkResult {
 class SamplePass {
  public:
   SamplePass(const RayScene& rays, const Camera& camera, const Shading& shading, const RenderOptions& options,
-             const GBuffer& gbuffer, const SplatBuffer& splats, const std::vector<Rgb>& shadow_mapped,
-             int sample, Layers& layers)
+             bool cached_direct, const GBuffer& gbuffer, const SplatBuffer& splats,
+             const std::vector<Rgb>& shadow_mapped, int sample, Layers& layers)
       : rays_(rays),
         camera_(camera),
         shading_(shading),
         options_(options),
+        cached_direct_(cached_direct),
         gbuffer_(gbuffer),
         splats_(splats),
         shadow_mapped_(shadow_mapped),
@@ -113,13 +114,7 @@ class SamplePass {
       }
     }
     from_lights(i, point, bsdf, wo, random);
-    if (bsdf.has_gloss()) {
-      Rgb from_lamps;
-      layers_.glossy[i] +=
-          shading_.gloss(point, bsdf, wo, static_cast<int>(options_.gloss_samples),
-                         static_cast<int>(options_.light_samples), 0, random, result.log, from_lamps);
-      if (options_.direct == DirectBy::traced) layers_.direct[i] += from_lamps;
-    }
+    if (bsdf.has_gloss()) from_gloss(i, point, bsdf, wo, random, result.log);
     layers_.specular[i] += shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
     if (sample_ == 0) {
       layers_.normal[i] = point.smooth_normal;
@@ -143,22 +138,36 @@ class SamplePass {
 
   void from_lights(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                    RandomStream& random) const {
-    if (options_.direct == DirectBy::shadow_map) {
+    const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
+    if (options_.direct == DirectBy::shadow_map && diffuse) {
       layers_.direct[i] += shadow_mapped_[i] * bsdf.diffuse_reflectance() / kPi;
       layers_.illuminance[i] += luminance(shadow_mapped_[i]);
-    } else if (options_.direct == DirectBy::traced && (bsdf.has_diffuse() || bsdf.has_gloss())) {
+    } else if (options_.direct == DirectBy::traced && (diffuse || bsdf.has_gloss())) {
       const DirectLight light = shading_.direct(point, bsdf, wo, static_cast<int>(options_.light_samples),
                                                 static_cast<int>(options_.gloss_samples), random);
       layers_.direct[i] += light.radiance;
-      layers_.direct_variance[i] += light.variance;
-      layers_.illuminance[i] += luminance(light.illuminance);
+      layers_.noise[i] += light.variance;
+      if (!cached_direct_) layers_.illuminance[i] += luminance(light.illuminance);
     }
+  }
+
+  void from_gloss(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                  RandomStream& random, ShadingLog& log) const {
+    // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
+    const auto light_samples =
+        options_.direct == DirectBy::traced ? static_cast<int>(options_.light_samples) : 0;
+    const GlossLight light = shading_.gloss(point, bsdf, wo, static_cast<int>(options_.gloss_samples),
+                                            light_samples, 0, random, log);
+    layers_.glossy[i] += light.radiance;
+    layers_.noise[i] += light.variance;
+    if (options_.direct != DirectBy::none) layers_.direct[i] += light.from_lamps;
   }
 
   const RayScene& rays_;
   const Camera& camera_;
   const Shading& shading_;
   const RenderOptions& options_;
+  bool cached_direct_;
   const GBuffer& gbuffer_;
   const SplatBuffer& splats_;
   const std::vector<Rgb>& shadow_mapped_;
@@ -180,8 +189,7 @@ Image make_image(Layers& layers, int width, int height, int samples) {
   for (std::size_t i = 0; i < beauty.size(); ++i) {
     beauty[i] =
         layers.direct[i] + layers.indirect[i] + layers.glossy[i] + layers.specular[i] + layers.emission[i];
-    error[i] =
-        glm::sqrt(layers.direct_variance[i] / (n * n) + layers.indirect_error[i] * layers.indirect_error[i]);
+    error[i] = glm::sqrt(layers.noise[i] / (n * n) + layers.indirect_error[i] * layers.indirect_error[i]);
   }
   image.set_rgb("", beauty);
   image.set_rgb("direct", layers.direct);
@@ -190,7 +198,7 @@ Image make_image(Layers& layers, int width, int height, int samples) {
   image.set_rgb("albedo", layers.albedo);
   image.set_rgb("stderr", error);
   const auto some = [](const std::vector<Rgb>& v) {
-    return std::any_of(v.begin(), v.end(), [](const Rgb& c) { return max_component(c) > 0; });
+    return std::any_of(v.begin(), v.end(), [](const Rgb& c) { return c != Rgb(0); });
   };
   if (some(layers.glossy)) image.set_rgb("glossy", layers.glossy);
   if (some(layers.specular)) image.set_rgb("specular", layers.specular);
@@ -258,10 +266,14 @@ void declare_options(Options& options, RenderOptions& r) {
 }
 
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
-  const double aspect = camera.aspect;
+  const double aspect =
+      camera.aspect > 0 && std::isfinite(camera.aspect) ? static_cast<double>(camera.aspect) : 1;
+  const auto rounded = [](double pixels) {
+    return static_cast<std::int64_t>(std::fmin(std::fmax(std::round(pixels), 1), 1e9));
+  };
   if (r.width == 0 && r.height == 0) (aspect >= 1 ? r.width : r.height) = 1000;
-  if (r.width == 0) r.width = std::max<std::int64_t>(1, std::lround(static_cast<double>(r.height) * aspect));
-  if (r.height == 0) r.height = std::max<std::int64_t>(1, std::lround(static_cast<double>(r.width) / aspect));
+  if (r.width == 0) r.width = rounded(static_cast<double>(r.height) * aspect);
+  if (r.height == 0) r.height = rounded(static_cast<double>(r.width) / aspect);
   if (static_cast<double>(r.width) * static_cast<double>(r.height) > kMaxPixels)
     throw Error(ExitCode::usage, "--width",
                 text(r.width, " x ", r.height, " pixels are too many; at most 2^28"));
@@ -282,6 +294,8 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
   shading_options.light_samples = static_cast<int>(options.light_samples);
   shading_options.gloss_samples = static_cast<int>(options.gloss_samples);
   shading_options.specular_depth = static_cast<int>(options.specular_depth);
+  shading_options.cached_direct = cache.quantity == "all";
+  shading_options.reflect_direct = options.direct != DirectBy::none;
   const Shading shading(rays, lights, records, shading_options);
 
   std::unique_ptr<GlRenderer> gl;
@@ -314,7 +328,8 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
                                              static_cast<int>(options.shadow_map_size));
     }
     const Stopwatch watch(result.seconds, "shading");
-    const SamplePass pass(rays, camera, shading, options, gbuffer, splats, shadow_mapped, s, layers);
+    const SamplePass pass(rays, camera, shading, options, shading_options.cached_direct, gbuffer, splats,
+                          shadow_mapped, s, layers);
     const ChunkResult shaded = parallel_reduce(
         pixels, 1024, ChunkResult{},
         [&](std::size_t begin, std::size_t end) {

@@ -57,7 +57,8 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       if (!visible) continue;
       const Rgb arriving = light.value * cosine / (area ? light.density : 1.f);
       sum.illuminance += arriving / static_cast<float>(n);
-      Rgb f = bsdf.evaluate(wo, light.direction);
+      Rgb f = options_.cached_direct ? bsdf.evaluate_gloss(wo, light.direction)
+                                     : bsdf.evaluate(wo, light.direction);
       if (area && shared_gloss) {
         const Rgb glossy = bsdf.evaluate_gloss(wo, light.direction);
         const float w = light_weight(n, light.density, gloss_rays, bsdf.density_gloss(wo, light.direction));
@@ -75,11 +76,10 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   return sum;
 }
 
-Rgb Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
-                   int light_samples, int depth, RandomStream& random, ShadingLog& log,
-                   Rgb& from_lamps) const {
-  Rgb sum(0);
-  from_lamps = Rgb(0);
+GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
+                          int light_samples, int depth, RandomStream& random, ShadingLog& log) const {
+  GlossLight sum;
+  Rgb square(0);
   const Vec2 shift = random.uniform2();
   for (int s = 0; s < samples; ++s) {
     BsdfSample sample;
@@ -87,20 +87,27 @@ Rgb Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, 
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) continue;
+    Rgb from_lamp(0);
     const Rgb lamp = emitted_luminance(rays_.scene(), hit);
     const std::int32_t light = max_component(lamp) > 0 ? lights_.light_of(hit.triangle) : -1;
     if (light >= 0) {
       const float cos_light = std::fabs(glm::dot(hit.geometric_normal, sample.direction));
       const float density =
           lights_.density(static_cast<std::size_t>(light), hit.triangle, hit.distance_m, cos_light);
-      from_lamps +=
+      from_lamp =
           sample.weight * lamp * (1.f - light_weight(light_samples, density, samples, sample.density));
     }
-    sum += sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
+    const Rgb rest = sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
+    sum.from_lamps += from_lamp;
+    sum.radiance += rest;
+    square += (from_lamp + rest) * (from_lamp + rest);
   }
   const auto count = static_cast<float>(std::max(samples, 1));
-  from_lamps /= count;
-  return sum / count;
+  sum.from_lamps /= count;
+  sum.radiance /= count;
+  const Rgb mean = sum.from_lamps + sum.radiance;
+  if (samples > 1) sum.variance = glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
+  return sum;
 }
 
 Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth,
@@ -111,7 +118,7 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
   Rgb sum(0);
   for (int b = 0; b < branches; ++b) {
     const Rgb carried = throughput * branch[b].weight;
-    if (depth >= options_.specular_depth || max_component(carried) < kLeastThroughput) {
+    if (depth >= options_.specular_depth || max_component(glm::abs(carried)) < kLeastThroughput) {
       log.counters.count("specular paths cut");
       continue;
     }
@@ -136,16 +143,15 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
       log.misses.push_back({point.position, point.smooth_normal});
   }
   const bool glossy = bsdf.has_gloss();
-  if (bsdf.has_diffuse() || glossy)
-    light += direct(point, bsdf, wo, 1, glossy && depth < kGlossDepth ? 1 : 0, random).radiance;
-  if (glossy) {
-    if (depth < kGlossDepth) {
-      Rgb from_lamps;
-      light += gloss(point, bsdf, wo, 1, 1, depth, random, log, from_lamps);
-      light += from_lamps;
-    } else {
-      log.counters.count("glossy paths cut");
-    }
+  const bool send_on = glossy && depth < kGlossDepth;
+  if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
+    light += direct(point, bsdf, wo, 1, send_on ? 1 : 0, random).radiance;
+  if (send_on) {
+    const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, log);
+    light += arriving.radiance;
+    if (options_.reflect_direct) light += arriving.from_lamps;
+  } else if (glossy) {
+    log.counters.count("glossy paths cut");
   }
   return light + specular(point, bsdf, wo, depth, throughput, random, log);
 }

@@ -14,9 +14,11 @@
 namespace phos {
 
 struct ShadingOptions {
-  int light_samples = 16;   ///< shadow rays per area light at the visible surface
-  int gloss_samples = 8;    ///< rays per glossy visible surface
-  int specular_depth = 16;  ///< longest chain of mirrors and glass
+  int light_samples = 16;      ///< shadow rays per area light at the visible surface
+  int gloss_samples = 8;       ///< rays per glossy visible surface
+  int specular_depth = 16;     ///< longest chain of mirrors and glass
+  bool cached_direct = false;  ///< the records hold direct light too: lamps add to glossy lobes alone
+  bool reflect_direct = true;  ///< what gloss and mirrors show is lit by the lamps
 };
 
 /// Direct light at a point.
@@ -24,6 +26,13 @@ struct DirectLight {
   Rgb radiance{0};     ///< cd/m2 towards the viewer
   Rgb variance{0};     ///< of radiance
   Rgb illuminance{0};  ///< lx on the shading normal's side
+};
+
+/// Light through the glossy lobes of a point.
+struct GlossLight {
+  Rgb radiance{0};    ///< cd/m2 towards the viewer, all but from_lamps
+  Rgb from_lamps{0};  ///< cd/m2: lamps that the rays hit, with the weight that direct() leaves them
+  Rgb variance{0};    ///< of the sum of both; 0 if there is one ray only
 };
 
 /// A visible point without a valid record.
@@ -45,15 +54,14 @@ class Shading {
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
-  /// Veach 1997 ch. 9).
+  /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct.
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples, int gloss_rays,
                      RandomStream& random) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
-  /// they land; lamps that they hit count with the weight that direct() leaves them. cd/m2 (`from_lamps`:
-  /// that part).
-  Rgb gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples, int light_samples,
-            int depth, RandomStream& random, ShadingLog& log, Rgb& from_lamps) const;
+  /// they land. `light_samples` is what direct() was called with; 0 if it was not, so that lamps count whole.
+  GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
+                   int light_samples, int depth, RandomStream& random, ShadingLog& log) const;
 
   /// Light through mirrors and smooth glass: every branch, deterministic, to options.specular_depth. cd/m2
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,

@@ -1,0 +1,246 @@
+// Shading of visible points: every way of splitting the light between shadow rays and gloss rays gives the
+// same, mirrors show what stands before them, and caches that hold direct light are not lit twice.
+#include <gtest/gtest.h>
+
+#include "splat/shading.h"
+#include "support/one_material.h"
+#include "support/scenes.h"
+
+namespace phos::test {
+namespace {
+
+constexpr float kLuminance = 50;
+
+/// A black room of 4 m whose walls emit kLuminance, and a sheet of the material in it, facing +y.
+Scene lit_sheet(const Material& material) {
+  Scene scene;
+  begin_instance(scene, "sky", add_lambert(scene, "sky", 0, kLuminance));
+  add_room(scene, Vec3(-2), Vec3(2));
+  scene.material.push_back(material);
+  begin_instance(scene, "sheet", 1);
+  add_quad(scene, {-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0});
+  finalize(scene);
+  return scene;
+}
+
+Vec3 towards(float cosine, float azimuth) {
+  const float sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(azimuth), cosine, sine * std::sin(azimuth)};
+}
+
+SurfacePoint sheet_seen_from(const RayScene& rays, const Vec3& wo) {
+  SurfacePoint point;
+  EXPECT_TRUE(trace(rays, {Vec3(0.01f, 0, 0.02f) + 0.5f * wo, -wo}, point));
+  return point;
+}
+
+/// Integral of f cos over the hemisphere about +y: directions of a low-discrepancy sequence, cosine density.
+Rgb albedo(const Bsdf& bsdf, const Vec3& wo, bool gloss_only) {
+  constexpr int kPoints = 1 << 17;
+  DVec3 sum(0);
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = (i + 0.5) / kPoints, v = std::fmod(i * 0.6180339887498949, 1.0);
+    const Vec3 wi = towards(static_cast<float>(std::sqrt(1 - u)), static_cast<float>(2 * M_PI * v));
+    sum += DVec3(gloss_only ? bsdf.evaluate_gloss(wo, wi) : bsdf.evaluate(wo, wi));
+  }
+  return Rgb(sum * (M_PI / kPoints));
+}
+
+struct Split {
+  int light_samples, gloss_samples;
+};
+
+/// Mean of direct() + gloss(), and its standard error, in units of kLuminance.
+void measure(const Shading& shading, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, Split split,
+             Rgb& mean, Rgb& error) {
+  constexpr int kRepeats = 400;
+  DVec3 sum(0), square(0);
+  ShadingLog log;
+  for (int k = 0; k < kRepeats; ++k) {
+    RandomStream random(7, Stage::test, static_cast<std::uint64_t>(k));
+    Rgb light(0);
+    if (split.light_samples > 0)
+      light += shading.direct(point, bsdf, wo, split.light_samples, split.gloss_samples, random).radiance;
+    const GlossLight gloss =
+        shading.gloss(point, bsdf, wo, split.gloss_samples, split.light_samples, 0, random, log);
+    light += gloss.from_lamps;
+    EXPECT_EQ(gloss.radiance, Rgb(0));  // black walls show nothing but their own light
+    const DVec3 v(light / kLuminance);
+    sum += v, square += v * v;
+  }
+  const DVec3 m = sum / double(kRepeats);
+  mean = Rgb(m);
+  error = Rgb(glm::sqrt(glm::max(square / double(kRepeats) - m * m, DVec3(0)) / double(kRepeats - 1)));
+}
+
+/// In an even surrounding a surface shows L x integral(f cos), however its light is split.
+TEST(Gloss, EverySplitOfTheLightGivesTheAlbedo) {
+  for (const Named& model : models()) {
+    const Scene scene = lit_sheet(model.material);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    const RecordTree no_records(scene.bounds, 0.2);
+    const Shading shading(rays, lights, no_records, {});
+    for (const float cosine : {1.f, 0.6f}) {
+      const Vec3 wo = towards(cosine, 1.1f);
+      const SurfacePoint point = sheet_seen_from(rays, wo);
+      const Bsdf bsdf(scene, point);
+      const Rgb all = albedo(bsdf, wo, false), gloss = albedo(bsdf, wo, true);
+      for (const Split split : {Split{64, 0}, Split{16, 8}, Split{2, 16}, Split{0, 64}}) {
+        Rgb mean, error;
+        measure(shading, point, bsdf, wo, split, mean, error);
+        const Rgb truth = split.light_samples > 0 ? all : gloss;
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(mean[c], truth[c], 5 * error[c] + 0.01f)
+              << model.name << ", cosine " << cosine << ", " << split.light_samples << " + "
+              << split.gloss_samples;
+      }
+    }
+  }
+}
+
+/// Records that hold direct light have lit the Lambert part: direct() and gloss() add the rest.
+TEST(CachedDirect, LeavesTheLambertPartToTheRecords) {
+  for (const Named& model : models()) {
+    const Scene scene = lit_sheet(model.material);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    const RecordTree no_records(scene.bounds, 0.2);
+    ShadingOptions options;
+    options.cached_direct = true;
+    const Shading shading(rays, lights, no_records, options);
+    const Vec3 wo = towards(0.6f, 1.1f);
+    const SurfacePoint point = sheet_seen_from(rays, wo);
+    const Bsdf bsdf(scene, point);
+    const Rgb truth = albedo(bsdf, wo, true);
+    Rgb mean, error;
+    measure(shading, point, bsdf, wo, {16, 8}, mean, error);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], truth[c], 5 * error[c] + 0.01f) << model.name;
+  }
+}
+
+/// A record that lights everything about it alike.
+IrradianceRecord even_record(float irradiance_lx) {
+  IrradianceRecord r;
+  r.position = {0, -1, 0}, r.normal = {0, 1, 0};
+  r.irradiance = Rgb(irradiance_lx);
+  r.distance_m = r.radius_m = 100;
+  for (int c = 0; c < 3; ++c) r.rotation_gradient[c] = r.translation_gradient[c] = Vec3(0);
+  return r;
+}
+
+/// A mirror of reflectance 0.8 facing down at y = 1, a grey floor at y = -1 under a point lamp.
+Scene mirror_over_floor() {
+  Scene scene;
+  begin_instance(scene, "floor", add_lambert(scene, "grey", 0.5f));
+  add_quad(scene, {-3, -1, -3}, {0, 0, 6}, {6, 0, 0});
+  scene.material.push_back(make_material(Model::mirror, Rgb(0), Rgb(0.8f)));
+  begin_instance(scene, "mirror", 1);
+  add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2});
+  add_point_light(scene, {0, 0, 0}, 40);
+  finalize(scene);
+  return scene;
+}
+
+TEST(Mirror, ShowsCacheAndDirectLight) {
+  const Scene scene = mirror_over_floor();
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  RecordTree records(scene.bounds, 0.2);
+  records.insert(even_record(30));
+  const Vec3 wo = glm::normalize(Vec3(0.2f, -1, 0.1f));
+  const Vec3 seen = Vec3(0.2f, 1, 0);
+  SurfacePoint point;
+  ASSERT_TRUE(trace(rays, {seen + 0.1f * wo, -wo}, point));
+  const Bsdf bsdf(scene, point);
+  // The floor point that the mirror shows, 2 m below, and its distance to the lamp 1 m above the floor.
+  const Vec3 down = glm::normalize(Vec3(-0.2f, -1, -0.1f));
+  const Vec3 floor = seen + down * (2 / -down.y);
+  const double direct = point_over_plane_lx(40, 1, std::hypot(double(floor.x), double(floor.z)));
+  const auto show = [&](const ShadingOptions& options, ShadingLog& log) {
+    const Shading shading(rays, lights, records, options);
+    RandomStream random(1, Stage::test, 1);
+    return static_cast<double>(shading.specular(point, bsdf, wo, 0, Rgb(1), random, log).y);
+  };
+  ShadingLog log;
+  EXPECT_NEAR(show({}, log), 0.8 * 0.5 / M_PI * (30 + direct), 1e-3 * (30 + direct));
+  ShadingOptions options;
+  options.cached_direct = true;  // the 30 lx are all there is
+  EXPECT_NEAR(show(options, log), 0.8 * 0.5 / M_PI * 30, 1e-3);
+  options = {};
+  options.reflect_direct = false;
+  EXPECT_NEAR(show(options, log), 0.8 * 0.5 / M_PI * 30, 1e-3);
+  EXPECT_TRUE(log.misses.empty());
+  EXPECT_EQ(log.counters["specular paths cut"], 0u);
+  options = {};
+  options.specular_depth = 0;
+  EXPECT_EQ(show(options, log), 0);
+  EXPECT_EQ(log.counters["specular paths cut"], 1u);
+}
+
+TEST(Mirror, AMissIsLoggedWhereItIsSeen) {
+  const Scene scene = mirror_over_floor();
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const RecordTree no_records(scene.bounds, 0.2);
+  const Shading shading(rays, lights, no_records, {});
+  SurfacePoint point;
+  ASSERT_TRUE(trace(rays, {{0.2f, 0.5f, 0.3f}, {0, 1, 0}}, point));
+  ShadingLog log;
+  RandomStream random(1, Stage::test, 1);
+  shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), random, log);
+  ASSERT_EQ(log.misses.size(), 1u);
+  EXPECT_NEAR(glm::distance(log.misses[0].position, Vec3(0.2f, -1, 0.3f)), 0, 1e-5f);
+  EXPECT_EQ(log.misses[0].normal, Vec3(0, 1, 0));
+}
+
+/// Two mirrors face to face, a lamp shining through neither: n reflections of 0.8 and then the depth ends.
+TEST(Mirror, EndlessReflectionsEndAtTheDepth) {
+  Scene scene;
+  scene.material.push_back(make_material(Model::mirror, Rgb(0), Rgb(0.8f)));
+  begin_instance(scene, "mirrors", 0);
+  add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  add_quad(scene, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2});
+  finalize(scene);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const RecordTree no_records(scene.bounds, 0.2);
+  ShadingOptions options;
+  options.specular_depth = 5;
+  const Shading shading(rays, lights, no_records, options);
+  SurfacePoint point;
+  ASSERT_TRUE(trace(rays, {{0, 0.5f, 0}, {0, 1, 0}}, point));
+  ShadingLog log;
+  RandomStream random(1, Stage::test, 1);
+  EXPECT_EQ(shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), random, log), Rgb(0));
+  EXPECT_EQ(log.counters["specular paths cut"], 1u);
+}
+
+/// A pane of thin glass lets 1 - 2F/(1+F) through and sends the rest back.
+TEST(Glass, APaneSplitsTheLight) {
+  Scene scene;
+  begin_instance(scene, "left", add_lambert(scene, "left", 0, 10));
+  add_quad(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});  // at z = 0, facing +z
+  begin_instance(scene, "right", add_lambert(scene, "right", 0, 1000));
+  add_quad(scene, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0});  // at z = 2, facing -z
+  Material pane = make_material(Model::thin_dielectric, Rgb(0), Rgb(0));
+  pane.ior = 1.5f;
+  scene.material.push_back(pane);
+  begin_instance(scene, "pane", 2);
+  add_quad(scene, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
+  finalize(scene);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const RecordTree no_records(scene.bounds, 0.2);
+  const Shading shading(rays, lights, no_records, {});
+  SurfacePoint point;
+  ASSERT_TRUE(trace(rays, {{0.1f, 0.2f, 0.5f}, {0, 0, 1}}, point));
+  ShadingLog log;
+  RandomStream random(1, Stage::test, 1);
+  const double f = 0.04, back = 2 * f / (1 + f);
+  EXPECT_NEAR(shading.specular(point, Bsdf(scene, point), {0, 0, -1}, 0, Rgb(1), random, log).y,
+              back * 10 + (1 - back) * 1000, 0.01);
+}
+
+}  // namespace
+}  // namespace phos::test
