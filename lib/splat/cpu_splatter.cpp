@@ -54,9 +54,10 @@ PackedRecord pack_record(const IrradianceRecord& r) {
     p.position[i] = r.position[i], p.normal[i] = r.normal[i];
     p.irradiance[i] = r.irradiance[i], p.limit[i] = kGrowthLimit * r.irradiance[i],
     p.stderr_lx[i] = r.stderr_lx[i];
-    for (int c = 0; c < 3; ++c) {
-      p.rotation[c][i] = r.rotation_gradient[c][i], p.translation[c][i] = r.translation_gradient[c][i];
-    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    const Vec3 turn = glm::cross(r.rotation_gradient[c], r.normal);
+    for (int i = 0; i < 3; ++i) p.turn[c][i] = turn[i], p.translation[c][i] = r.translation_gradient[c][i];
   }
   return p;
 }
@@ -74,7 +75,9 @@ SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accur
                          const Camera& camera) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   const std::size_t pixels = gbuffer.position.size();
-  SplatBuffer buffer{std::vector<Vec4>(pixels, Vec4(0)), std::vector<Vec4>(pixels, Vec4(0))};
+  SplatBuffer buffer;
+  // Side by side: most of the time goes into the system's handing out of pages.
+  parallel_for(2, 1, [&](std::size_t i) { (i == 0 ? buffer.light : buffer.error).assign(pixels, Vec4(0)); });
   if (pixels == 0 || records.empty()) return buffer;
 
   const auto a = static_cast<float>(accuracy);

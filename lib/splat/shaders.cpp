@@ -55,9 +55,9 @@ layout(location = 1) in vec4 position;    // and 1 / radius
 layout(location = 2) in vec4 normal;      // and the limit of the in-front test
 layout(location = 3) in vec3 irradiance;
 layout(location = 4) in vec3 error;
-layout(location = 5) in vec3 rotation_r;
-layout(location = 6) in vec3 rotation_g;
-layout(location = 7) in vec3 rotation_b;
+layout(location = 5) in vec3 turn_r;
+layout(location = 6) in vec3 turn_g;
+layout(location = 7) in vec3 turn_b;
 layout(location = 8) in vec3 translation_r;
 layout(location = 9) in vec3 translation_g;
 layout(location = 10) in vec3 translation_b;
@@ -67,7 +67,7 @@ void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
   a = position, b = normal, e = irradiance, s = error;
-  rr = rotation_r, rg = rotation_g, rb = rotation_b;
+  rr = turn_r, rg = turn_g, rb = turn_b;
   tr = translation_r, tg = translation_g, tb = translation_b;
 }
 )";
@@ -89,8 +89,7 @@ void main() {
   float w = 1.0 - eps * rule.x;
   bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w);
   w = valid ? w : 0.0;
-  vec3 turn = cross(b.xyz, n);
-  vec3 value = e + vec3(dot(turn, rr), dot(turn, rg), dot(turn, rb)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
+  vec3 value = e + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
   // Not max and min: what is not a number becomes 0.
   value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
   value = mix(rule.z * e, value, lessThan(value, rule.z * e));
