@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "photon/kd_tree.h"
 #include "photon/photon_file.h"
@@ -102,6 +103,7 @@ void PhotonMap::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>
 const Container* PhotonMap::container() const { return impl_->file ? &*impl_->file : nullptr; }
 
 void PhotonMap::write(const std::string& path, Provenance provenance) const {
+  throw_if_interrupted();  // FLANN builds without looking up
   provenance.kind = "photons";
   provenance.version = 1;
   provenance.extra["totals"] = totals_to_json(totals);
