@@ -162,6 +162,46 @@ TEST(ShadowMaps, AgreeWithTracedShadows) {
   expect_as_traced(block_on_floor(), light, 0.02, 0.01);
 }
 
+TEST(ShadowMaps, AreaLightsCastSoftShadows) {
+  const Scene scene = test::cornell();
+  const Lit lit = light_up(scene, scene.camera[0], 32, 512);
+  const RayScene rays(scene);
+  const Luminaires luminaires(scene);
+  constexpr int kSide = 8;  // traced samples: a jittered grid per pixel
+  double traced_sum = 0, drawn_sum = 0, greatest = 0, off = 0, count = 0;
+  std::vector<double> traced(lit.lx.size(), 0);
+  for (std::size_t i = 0; i < lit.lx.size(); ++i) {
+    if (!lit.g.covered(i) || scene.material_of(lit.g.hit[i].triangle).emits()) continue;
+    const Ray ray = pixel_ray(scene.camera[0], kWidth, kHeight, static_cast<int>(i) % kWidth,
+                              static_cast<int>(i) / kWidth, {0.5f, 0.5f});
+    const SurfacePoint point = rays.surface(ray, lit.g.hit[i]);
+    RandomStream random(1, Stage::test, i);
+    for (std::size_t light = 0; light < luminaires.size(); ++light) {
+      for (int k = 0; k < kSide * kSide; ++k) {
+        const Vec2 cell(static_cast<float>(k % kSide), static_cast<float>(k / kSide));
+        Illumination from;
+        if (!luminaires.illuminate(light, point.position, random.uniform(),
+                                   (cell + random.uniform2()) / float{kSide}, from)) {
+          continue;
+        }
+        const float cosine = glm::dot(from.direction, point.smooth_normal);
+        if (cosine <= 0 || glm::dot(from.direction, point.geometric_normal) <= 0) continue;
+        if (!rays.visible(point, from.position, from.error_m)) continue;
+        traced[i] += double(from.value.y * cosine / from.density) / (kSide * kSide);
+      }
+    }
+    greatest = std::max(greatest, traced[i]);
+    traced_sum += traced[i], drawn_sum += double(lit.lx[i].y), ++count;
+  }
+  for (std::size_t i = 0; i < lit.lx.size(); ++i) {
+    if (!lit.g.covered(i) || scene.material_of(lit.g.hit[i].triangle).emits()) continue;
+    off += std::fabs(double(lit.lx[i].y) - traced[i]) > 0.1 * greatest;
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_NEAR(drawn_sum / traced_sum, 1, 0.03);
+  EXPECT_LT(off / count, 0.03);
+}
+
 TEST(ShadowMaps, NoLightNoIlluminance) {
   Scene scene = block_on_floor();
   finalize(scene);
