@@ -14,6 +14,8 @@ constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
 constexpr float kRounding = 2e-6f;         // of a coordinate: positions are floats that rays have found
 constexpr std::size_t kLeastClustered =
     128;  // photons that a zone must hold to be shrunk to a quarter of its area
+// Points at the very border of a surface often lie outside of the hull: one in a thousand may be called dark.
+constexpr double kDarkPhotons = 6.9;
 constexpr std::size_t kMostNearest = 2048;
 
 const char* const kEventNames[RecordEvents::count_] = {
@@ -148,6 +150,14 @@ void RecordMaker::limit_slab(Site& site, float radius_m) const {
   site.above_m = half_way(site.frame.z), site.below_m = half_way(-site.frame.z);
 }
 
+/// A lookup on a parallel surface not far below must be able to tell that this record lies in front of it
+/// (record_in_front allows 1 % of R): the radius that a surface below leaves.
+float RecordMaker::above_next_surface_m(const Site& site, float radius_m) const {
+  Hit hit;
+  const Ray ray{site.p, -site.frame.z, 4 * site.rounding_m, 0.02f * radius_m};
+  return ray.t_max_m > ray.t_min_m && rays_.intersect(ray, hit) ? 50 * hit.distance_m : radius_m;
+}
+
 /// FORMULAS C5: photons on this surface, from this side.
 void RecordMaker::gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& s) const {
   s.zone.clear();
@@ -190,6 +200,7 @@ bool RecordMaker::on_surface(const Site& site, const Vec2& offset_m) const {
 ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t seed_row, Scratch& s) const {
   const OnSurface probe = [&](const Vec2& offset) { return on_surface(site, offset); };
   const DensityOptions density{.probes = static_cast<int>(options_.probes),
+                               .dark_photons = kDarkPhotons,
                                .centre_lit = seed_row != kNoPhoton};
   bool shrunk = false;
   for (;;) {
@@ -285,6 +296,7 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
   if (narrow < wide)
     record.radius_m = std::min(record.radius_m, narrow / static_cast<float>(options_.accuracy));
   fill(site, zone, narrow, s, record);
+  record.radius_m = std::min(record.radius_m, above_next_surface_m(site, record.radius_m));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
   for (int c = 0; c < 3; ++c) {

@@ -75,6 +75,7 @@ class RecordMaker {
   float ray_distance_m(const Site& site, std::uint64_t item) const;
   float photon_distance_m(Site& site, Scratch& scratch, float limit_m) const;
   float zone_radius_m(const Site& site, const Scratch& scratch, float distance_m) const;
+  float above_next_surface_m(const Site& site, float radius_m) const;
   void limit_slab(Site& site, float radius_m) const;
   void gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& scratch) const;
   bool on_surface(const Site& site, const Vec2& offset_m) const;
