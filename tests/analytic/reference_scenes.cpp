@@ -122,6 +122,24 @@ TEST(ReferenceAnalytic, UniformBoxMean) {
   check_mean(test::uniform_box(0.9f), 30000, 0.02);
 }
 
+/// One lamp of several is chosen at each scattering: the same flux in two or in twelve unequal lamps, the
+/// same mean.
+TEST(ReferenceAnalytic, SeveralLampsInABox) {
+  for (const int lamps : {2, 12}) {
+    AnalyticScene s = test::uniform_box(0.5f, 100);
+    s.scene.light.clear();
+    for (int i = 0; i < lamps; ++i) {
+      const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(lamps);
+      const float share =
+          2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(lamps * lamps);  // adds up to 1
+      test::add_point_light(s.scene, {0.3f + 1.4f * t, 0.4f + 0.2f * t, 0.5f + 0.4f * t},
+                            100 / (4 * kPi) * share);
+    }
+    finalize(s.scene);
+    check_mean(s, 60000, 0.02);
+  }
+}
+
 /// Lux of a scaled scene stay what they were: nothing may depend on the unit of length.
 TEST(ReferenceAnalytic, AnyScale) {
   for (const float factor : {1e-6f, 1e6f}) {
