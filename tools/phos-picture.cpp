@@ -113,6 +113,7 @@ int main_of_tool(int argc, const char* const* argv) {
   Tool tool("phos-picture",
             "makes a picture from an image of light: tone mapped, or false colour with a legend",
             kDescription, 1);
+  tool.output_has_no_key();
   std::string input;
   PictureOptions p;
   tool.options().input("IMAGE", input, "OpenEXR or Radiance .hdr");

@@ -5,6 +5,7 @@
 #include "file/container.h"
 #include "file/tool.h"
 #include "image/image.h"
+#include "image/image_provenance.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
 #include "scene/load.h"
@@ -52,8 +53,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   tool.stat("samples", picture.image.pixels() * static_cast<std::uint64_t>(picture.samples));
   tool.stat("samples a pixel", picture.samples);
   tool.stat("error", picture.error);
-  for (const auto& [key, value] : to_metadata(tool.provenance("image", scene.hash, scene.parts)))
-    picture.image.attributes["phos." + key] = value;
+  set_provenance(picture.image, tool.provenance("image", scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
   picture.image.attributes["phos.error"] = shortest(picture.error);
   const auto timer = tool.time("write");
@@ -104,11 +104,7 @@ int main(int argc, char** argv) {
     if (!points_path.empty()) tool.add_input("points", points_path);
     reference.seed = tool.seed();
     if (points_path.empty()) {
-      tool.set_key_reader([](const std::string& path) -> std::optional<std::string> {
-        const auto attributes = read_exr_attributes(path);
-        const auto found = attributes.find("phos.key");
-        return found == attributes.end() ? std::nullopt : std::optional(found->second);
-      });
+      tool.set_provenance_reader(read_image_provenance);
       if (tool.up_to_date()) return;
     }
     const std::vector<SensorPoint> points = points_path.empty()

@@ -4,9 +4,9 @@
 
 #include "cache/irradiance_cache.h"
 #include "file/container.h"
-#include "file/layout.h"
 #include "file/tool.h"
 #include "image/image.h"
+#include "image/image_provenance.h"
 #include "scene/load.h"
 #include "scene/rays.h"
 #include "splat/render.h"
@@ -15,19 +15,20 @@ namespace {
 
 using namespace phos;
 
-void report(Tool& tool, const Rendering& rendering) {
+void put_stats(Tool& tool, const Rendering& rendering) {
   for (const auto& [part, seconds] : rendering.seconds.as_object()) tool.stat("seconds." + part, seconds);
   tool.stat("renderer", rendering.renderer);
   tool.stat("cache lookups", rendering.looked_up);
   tool.stat("cache misses", rendering.missed);
   tool.counters().merge(rendering.counters);
-  if (rendering.missed > 0)
-    tool.warn(text(
-        shortest(std::ceil(1e4 * static_cast<double>(rendering.missed) /
-                           static_cast<double>(rendering.looked_up)) /
-                 100),
-        " % of the visible points have no record (dark there); write them with --misses, fill them with ",
-        "phos-irradiance --at, or raise --accuracy"));
+}
+
+void warn_of_misses(const Tool& tool, const Rendering& rendering) {
+  if (rendering.missed == 0) return;
+  const double share = static_cast<double>(rendering.missed) / static_cast<double>(rendering.looked_up);
+  tool.warn(text(shortest(std::ceil(1e4 * share) / 100),
+                 " % of the visible points have no record (dark there); write them with --misses, fill them "
+                 "with phos-irradiance --at, or raise --accuracy"));
 }
 
 void require_finite(const Image& image) {
@@ -72,11 +73,7 @@ int main(int argc, char** argv) {
     tool.add_input("scene", scene_files(scene_path));
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
     render.seed = tool.seed();
-    tool.set_key_reader([](const std::string& path) -> std::optional<std::string> {
-      const auto attributes = read_exr_attributes(path);
-      const auto key = attributes.find("phos.key");
-      return key == attributes.end() ? std::nullopt : std::optional(key->second);
-    });
+    tool.set_provenance_reader(read_image_provenance);
     if (options.given("reuse") && !misses_path.empty())
       throw Error(ExitCode::usage, "--misses",
                   "a picture that is not made anew has no misses; leave out --reuse");
@@ -109,13 +106,17 @@ int main(int argc, char** argv) {
       return RayScene(scene, {render.isa});
     }();
     Rendering rendering = render_scene(rays, cache, render);
-    report(tool, rendering);
+    put_stats(tool, rendering);
     require_finite(rendering.image);
-    if (!misses_path.empty()) write_misses(misses_path, rendering.misses);
-    for (const auto& [key, value] : to_metadata(tool.provenance("image", scene.hash, scene.parts)))
-      rendering.image.attributes["phos." + key] = value;
+    set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");
     write_exr(tool.output(), rendering.image);
+    if (misses_path.empty()) {
+      warn_of_misses(tool, rendering);
+    } else {
+      write_misses(misses_path, rendering.misses);
+      tool.say(text(misses_path, ": ", rendering.misses.size(), " points without a record"));
+    }
     tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ", cache.records.size(),
                   " records"));
   });

@@ -90,6 +90,14 @@ void append(std::string& out, const Json& v, int indent, int depth) {
 std::string shortest(double v) { return shortest_number(v); }
 std::string shortest(float v) { return shortest_number(v); }
 
+Json::Json() = default;
+Json::~Json() = default;
+Json::Json(const Json&) = default;
+Json::Json(Json&&) noexcept = default;
+Json& Json::operator=(const Json&) = default;
+Json& Json::operator=(Json&&) noexcept = default;
+bool Json::operator==(const Json& other) const { return value_ == other.value_; }
+
 Json::Json(float v) {
   // Through the float's own shortest text, so that 0.1f prints 0.1 and not 0.10000000149011612.
   double wide = v;

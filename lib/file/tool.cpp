@@ -90,7 +90,7 @@ void Tool::declare_common() {
                                 "progress on standard error", Recorded::no);
   options_.flag("quiet", quiet_, "no messages but warnings and errors", Recorded::no);
   options_.flag("verbose", verbose_, "more messages", Recorded::no);
-  if (wants_output_ == Output::none) return;
+  if (wants_output_ == Output::none || !keyed_) return;
   options_.flag("reuse", reuse_, "do nothing if the output already holds exactly this result", Recorded::no);
   options_.flag("why", why_, "print what differs from the existing output, and do nothing else",
                 Recorded::no);
@@ -171,17 +171,19 @@ std::string Tool::key() const {
   return variant_.empty() ? hex : hex + ':' + variant_;
 }
 
+std::optional<Provenance> Tool::existing_provenance() const {
+  if (is_container(output_)) return Container::open(output_).provenance();
+  if (provenance_reader_ && ::access(output_.c_str(), R_OK) == 0) return provenance_reader_(output_);
+  return std::nullopt;
+}
+
 bool Tool::up_to_date() {
   asked_key_ = key();
   if (output_.empty() || (!reuse_ && !why_)) return false;
   if (why_) return explain();
-  std::optional<std::string> existing;
+  std::string existing;
   try {
-    if (is_container(output_)) {
-      existing = Container::open(output_).provenance().key;
-    } else if (key_reader_ && ::access(output_.c_str(), R_OK) == 0) {
-      existing = key_reader_(output_);
-    }
+    if (const std::optional<Provenance> then = existing_provenance()) existing = then->key;
   } catch (const Error&) {
     return false;  // damaged or of another version: it is made anew
   }
@@ -195,17 +197,13 @@ bool Tool::explain() const {
   try {
     if (::access(output_.c_str(), F_OK) != 0) {
       lines.push_back("not there");
-    } else if (key_reader_ && !is_container(output_)) {
-      const std::optional<std::string> existing = key_reader_(output_);
-      if (!existing) lines.push_back("does not say how it was made");
-      if (existing && *existing != asked_key_)
-        lines.push_back("made with other parameters or from other inputs");
-    } else {
-      const Provenance then = Container::open(output_).provenance();
-      if (then.key != asked_key_) lines = differences(then, provenance(then.kind, "", {}));
-      if (then.key != asked_key_ && lines.empty())
+    } else if (const std::optional<Provenance> then = existing_provenance(); !then) {
+      lines.push_back("does not say how it was made");
+    } else if (then->key != asked_key_) {
+      lines = differences(*then, provenance(then->kind, "", {}));
+      if (lines.empty())
         lines.push_back(
-            text("key: ", then.key, " -> ", asked_key_, " (another shard, or an automatic parameter)"));
+            text("key: ", then->key, " -> ", asked_key_, " (another shard, or an automatic parameter)"));
     }
   } catch (const Error& e) {
     lines.push_back(e.what());

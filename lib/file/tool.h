@@ -61,15 +61,18 @@ class Tool {
   /// work.
   bool up_to_date();
 
-  /// For outputs that are no phos container (an EXR image): reads the key that was stored in `path`, nothing
-  /// if there is none. May throw Error(bad_input), which counts as none.
-  using KeyReader = std::function<std::optional<std::string>(const std::string& path)>;
-  void set_key_reader(KeyReader reader) { key_reader_ = std::move(reader); }
+  /// For outputs that are no phos container (an EXR image): reads how `path` was made, nothing if it does not
+  /// say. May throw Error(bad_input), which counts as nothing.
+  using ProvenanceReader = std::function<std::optional<Provenance>(const std::string& path)>;
+  void set_provenance_reader(ProvenanceReader reader) { provenance_reader_ = std::move(reader); }
+  /// For outputs that cannot say how they were made: no --reuse, no --why. Call before run().
+  void output_has_no_key() { keyed_ = false; }
 
   /// What tells this output from others of the same command, though it is no parameter ("shard 1/4"): the key
   /// becomes "key:variant". Call before up_to_date() and provenance().
   void set_variant(const std::string& variant) { variant_ = variant; }
-  /// For a tool that makes what another tool makes (merged shards are the file of the whole run): the key of that output.
+  /// For a tool that makes what another tool makes (merged shards are the file of the whole run): the key of
+  /// that output.
   void set_key(const std::string& key) { asked_key_ = key; }
 
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
@@ -106,6 +109,7 @@ class Tool {
   void write_stats(double seconds) const;
   std::string key() const;
   bool explain() const;
+  std::optional<Provenance> existing_provenance() const;
   std::string name_;
   Options options_;
   int algorithm_;
@@ -113,7 +117,8 @@ class Tool {
   std::int64_t threads_ = 0, seed_ = 0;
   std::string output_, stats_path_, variant_;
   std::string asked_key_;  ///< the key when up_to_date() was called: before automatic values were filled in
-  KeyReader key_reader_;
+  ProvenanceReader provenance_reader_;
+  bool keyed_ = true;
   bool quiet_ = false, verbose_ = false, reuse_ = false, why_ = false;
   ProgressMode progress_ = ProgressMode::automatic;
   ExitCode exit_ = ExitCode::done;

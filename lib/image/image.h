@@ -52,9 +52,6 @@ std::string channel_name(const std::string& layer, const std::string& component)
 /// files.
 Image read_image(const std::string& path);
 
-/// Text attributes of an OpenEXR file from its header alone (milliseconds). Throws Error(bad_input).
-std::map<std::string, std::string> read_exr_attributes(const std::string& path);
-
 /// 32-bit float, ZIP, whiteLuminance 1, Rec.709 chromaticities; same image gives the same bytes. Atomic.
 void write_exr(const std::string& path, const Image& image);
 /// Radiance RGBE of the beauty, divided by 179 lm/W, in Radiance primaries. Atomic.

@@ -25,7 +25,7 @@ struct Program {
   std::string variant;
   Tool::Output output = Tool::Output::required;
   std::function<void(Tool&)> body;
-  Tool::KeyReader key_reader;
+  Tool::ProvenanceReader provenance_reader;
 
   Result run(std::vector<std::string> words) const {
     Tool tool("phos-test", "tests", "Tests.", algorithm, output);
@@ -33,7 +33,7 @@ struct Program {
     std::vector<std::string> inputs;
     tool.options().number("accuracy", accuracy, "A", "a parameter", kPositive);
     tool.options().inputs("INPUT", inputs, "inputs", false);
-    if (key_reader) tool.set_key_reader(key_reader);
+    if (provenance_reader) tool.set_provenance_reader(provenance_reader);
     words.insert(words.begin(), "phos-test");
     std::vector<const char*> argv;
     for (const std::string& w : words) argv.push_back(w.c_str());
@@ -228,16 +228,20 @@ TEST(Differences, SkipWhatIsFoundWhileWorking) {
                                       "parameter old: 1 -> absent", "input photons: no longer given"}));
 }
 
-TEST(Tool, KeyReaderServesOtherFormats) {
+TEST(Tool, ProvenanceReaderServesOtherFormats) {
   const Folder f("reader");
   Program p;
-  p.body = [](Tool& tool) { test::spill(tool.output(), tool.provenance("image", "", {}).key); };
-  p.key_reader = [](const std::string& path) -> std::optional<std::string> { return test::slurp(path); };
+  Provenance stored;
+  p.body = [&](Tool& tool) {
+    stored = tool.provenance("image", "", {});
+    test::spill(tool.output(), "no container");
+  };
+  p.provenance_reader = [&](const std::string&) -> std::optional<Provenance> { return stored; };
   const std::vector<std::string> command{f.scene(), "-o", f.out(), "--reuse"};
   EXPECT_TRUE(p.run(command).worked);
   EXPECT_FALSE(p.run(command).worked);
   EXPECT_EQ(p.run({f.scene(), "-o", f.out(), "--why"}).out, f.out() + ": nothing differs\n");
-  EXPECT_NE(p.run({f.scene(), "-o", f.out(), "--why", "--seed", "4"}).out.find("other parameters"),
+  EXPECT_NE(p.run({f.scene(), "-o", f.out(), "--why", "--seed", "4"}).out.find("seed: 0 -> 4"),
             std::string::npos);
   EXPECT_TRUE(p.run({f.scene(), "-o", f.out(), "--reuse", "--seed", "4"}).worked);
 }
