@@ -133,7 +133,7 @@ std::string key_of_merged(const std::vector<std::string>& paths) {
 }
 
 MergedShards read_shards(const std::vector<std::string>& paths) {
-  const std::vector<Shard> shards = open_shards(paths);
+  std::vector<Shard> shards = open_shards(paths);
   MergedShards merged;
   merged.provenance = shards.front().file.provenance();
   merged.provenance.key = key_of_whole(merged.provenance);
@@ -146,7 +146,8 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
   Photons& p = merged.photons;
   p.position.reserve(rows), p.flux.reserve(rows), p.direction.reserve(rows), p.normal.reserve(rows);
   p.distance.reserve(rows), p.source_normal.reserve(rows), p.path.reserve(rows), p.bounce.reserve(rows);
-  for (const Shard& s : shards) {
+  for (Shard& open : shards) {
+    const Shard s = std::move(open);  // its mapping goes once it is copied
     s.file.verify();
     const PhotonColumns& c = s.columns;
     add(p.position, c.position), add(p.flux, c.flux), add(p.direction, c.direction), add(p.normal, c.normal);
