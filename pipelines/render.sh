@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Renders one picture, end to end, keeping every intermediate file for reuse:
 #   pipelines/render.sh SCENE FOLDER [--photons N] [--accuracy A] [--width W] [--camera NAME] [--rounds N] [--samples N]
-# Needs the programs on PATH or in build/release/bin. Writes FOLDER/scene.photons, .irradiance, .exr, .png and -lux.png.
+# Needs the programs on PATH, or else in build/release/bin. Writes FOLDER/scene.photons, .irradiance, .exr, .png and -lux.png.
 set -euo pipefail
 
 usage() { sed -n '2,4s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
@@ -25,7 +25,7 @@ done
 [[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$here/../build/release/bin:$PATH
+PATH=$PATH:$here/../build/release/bin
 name=$(basename "${scene%.*}")
 mkdir -p "$folder"
 file=$folder/$name

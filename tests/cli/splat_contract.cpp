@@ -15,10 +15,10 @@ class Splat : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new std::string(scratch("cli-splat"));
     scene_ = new std::string(data("cornell-measured.glb"));
-    const Run photons =
+    const test::Run photons =
         run_tool({"photons", *scene_, "--photons", "20000", "-o", path("a.photons"), "--quiet"});
     ASSERT_EQ(photons.code, 0) << photons.err;
-    const Run records =
+    const test::Run records =
         run_tool({"irradiance", *scene_, path("a.photons"), "-o", path("a.irradiance"), "--quiet"});
     ASSERT_EQ(records.code, 0) << records.err;
   }
@@ -28,14 +28,14 @@ class Splat : public testing::Test {
     delete scene_;
   }
   static std::string path(const std::string& name) { return *folder_ + "/" + name; }
-  static Run splat(std::vector<std::string> more) {
+  static test::Run splat(std::vector<std::string> more) {
     std::vector<std::string> all = {
         "splat",           *scene_, path("a.irradiance"), "--width", "48",      "--height", "48",
         "--pixel-samples", "1",     "--light-samples",    "2",       "--splat", "cpu"};
     all.insert(all.end(), more.begin(), more.end());
     return run_tool(all);
   }
-  static void expect_error(const Run& run, int code, const std::string& says) {
+  static void expect_error(const test::Run& run, int code, const std::string& says) {
     EXPECT_EQ(run.code, code) << run.err;
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
     EXPECT_TRUE(run.out.empty()) << run.out;
@@ -50,12 +50,12 @@ std::string* Splat::scene_ = nullptr;
 
 TEST_F(Splat, HelpVersionManualAndNoArguments) {
   for (const char* option : {"--help", "--version", "--man"}) {
-    const Run run = run_tool({"splat", option});
+    const test::Run run = run_tool({"splat", option});
     EXPECT_EQ(run.code, 0);
     EXPECT_TRUE(run.err.empty());
     EXPECT_NE(run.out.find("phos"), std::string::npos);
   }
-  const Run help = run_tool({"splat", "--help"});
+  const test::Run help = run_tool({"splat", "--help"});
   for (const char* option :
        {"--accuracy", "--camera", "--misses", "--light-samples", "--threads", "--seed", "--output"})
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
@@ -63,7 +63,7 @@ TEST_F(Splat, HelpVersionManualAndNoArguments) {
 }
 
 TEST_F(Splat, MakesEveryLayer) {
-  const Run run = splat({"-o", path("b.exr")});
+  const test::Run run = splat({"-o", path("b.exr")});
   ASSERT_EQ(run.code, 0) << run.err;
   const Image image = read_image(path("b.exr"));
   for (const char* layer : {"", "direct", "indirect", "emission", "stderr", "albedo"})
@@ -84,17 +84,17 @@ TEST_F(Splat, SameBytesOnAnyNumberOfThreads) {
 }
 
 TEST_F(Splat, AnotherCameraNeedsNoNewCache) {
-  const Run run = splat({"--camera", "left-view", "-o", path("left.exr")});
+  const test::Run run = splat({"--camera", "left-view", "-o", path("left.exr")});
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
 TEST_F(Splat, ReuseDoesNothingTwice) {
   ASSERT_EQ(splat({"-o", path("reuse.exr")}).code, 0);
   const auto before = std::filesystem::last_write_time(path("reuse.exr"));
-  const Run again = splat({"--reuse", "-o", path("reuse.exr")});
+  const test::Run again = splat({"--reuse", "-o", path("reuse.exr")});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(std::filesystem::last_write_time(path("reuse.exr")), before);
-  const Run why = splat({"--why", "--accuracy", "0.3", "-o", path("reuse.exr")});
+  const test::Run why = splat({"--why", "--accuracy", "0.3", "-o", path("reuse.exr")});
   EXPECT_EQ(why.code, 0) << why.err;
   EXPECT_NE(why.out.find("accuracy"), std::string::npos) << why.out;
 }
@@ -129,9 +129,9 @@ TEST_F(Splat, TruncatedCacheIsRefusedAtEveryLength) {
 
 TEST_F(Splat, InterruptedLeavesWhatWasThere) {
   spill(path("kept.exr"), "earlier");
-  const Run run = run_and_interrupt({"splat", *scene_, path("a.irradiance"), "--width", "2000",
-                                     "--pixel-samples", "64", "--splat", "cpu", "-o", path("kept.exr")},
-                                    std::chrono::milliseconds(500));
+  const test::Run run = run_and_interrupt({"splat", *scene_, path("a.irradiance"), "--width", "2000",
+                                           "--pixel-samples", "64", "--splat", "cpu", "-o", path("kept.exr")},
+                                          std::chrono::milliseconds(500));
   EXPECT_EQ(run.code, 130) << run.err;
   EXPECT_EQ(slurp(path("kept.exr")), "earlier");
   for (const auto& entry : std::filesystem::directory_iterator(*folder_))
@@ -142,15 +142,15 @@ TEST_F(Splat, MissesLoopConverges) {
   std::filesystem::copy_file(path("a.irradiance"), path("loop.irradiance"));
   long missing = -1;
   for (int round = 0; round < 4 && missing != 0; ++round) {
-    const Run run = run_tool({"splat", *scene_, path("loop.irradiance"), "--width", "64", "--height", "64",
-                              "--pixel-samples", "1", "--direct", "none", "--splat", "cpu", "--misses",
-                              path("m.csv"), "-o", path("loop.exr")});
+    const test::Run run = run_tool({"splat", *scene_, path("loop.irradiance"), "--width", "64", "--height",
+                                    "64", "--pixel-samples", "1", "--direct", "none", "--splat", "cpu",
+                                    "--misses", path("m.csv"), "-o", path("loop.exr")});
     ASSERT_EQ(run.code, 0) << run.err;
     const std::string csv = slurp(path("m.csv"));
     missing = std::count(csv.begin(), csv.end(), '\n') - 1;
     if (missing == 0) break;
-    const Run fill = run_tool({"irradiance", *scene_, path("a.photons"), "--at", path("m.csv"), "--add-to",
-                               path("loop.irradiance"), "-o", path("loop.irradiance")});
+    const test::Run fill = run_tool({"irradiance", *scene_, path("a.photons"), "--at", path("m.csv"),
+                                     "--add-to", path("loop.irradiance"), "-o", path("loop.irradiance")});
     ASSERT_EQ(fill.code, 0) << fill.err;
   }
   EXPECT_EQ(missing, 0);
