@@ -39,7 +39,7 @@ phos-irradiance "$scene" "$file.photons" --accuracy "$accuracy" --reuse -o "$fil
 # 3. Fill what this camera sees and no record covers, until nothing is missing.
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do
-  phos-splat "$scene" "$file.view.irradiance" "${view[@]}" --pixel-samples 1 --direct none --gloss-samples 1 \
+  phos-splat "$scene" "$file.view.irradiance" "${view[@]}" --pixel-samples "$samples" --direct none --gloss-samples 1 \
     --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
   missing=$(($(wc -l <"$file.misses.csv") - 1))
   echo "round $round: $missing visible points without a record"
