@@ -33,7 +33,7 @@ std::string percent(double part, double whole) {
   return out.str();
 }
 
-void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report, double seconds) {
+void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report) {
   double light = 0, error = 0;
   for (const IrradianceRecord& r : cache.records) {
     light += static_cast<double>(luminance(r.irradiance)),
@@ -45,7 +45,7 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
   tool.stat("candidates", report.candidates);
   tool.stat("candidates_uncovered", report.uncovered);
   tool.stat("passes", report.passes);
-  if (report.made > 0) tool.stat("ms_per_record", 1e3 * seconds / static_cast<double>(report.made));
+  if (report.made > 0) tool.stat("ms_per_record", 1e3 * report.making_s / static_cast<double>(report.made));
   tool.say(text(cache.records.size(), " records (", report.kept, " new) cover ", report.candidates,
                 " candidates in ", report.passes, report.passes == 1 ? " pass" : " passes",
                 light > 0 ? "; mean standard error " + percent(error, light) : ""));
@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("records");
       report = place_records(cache, photons, rays, records, placement, tool.seed(), points, at.empty(),
                              tool.counters());
-      summarise(tool, cache, report, timer.seconds());
+      summarise(tool, cache, report);
     }
     if (cache.records.empty()) {
       tool.warn(photons.size() == 0

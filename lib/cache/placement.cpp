@@ -1,6 +1,7 @@
 #include "cache/placement.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 
@@ -135,7 +136,9 @@ class Placer {
       for (; begin < open.size() && batch.size() < most; ++begin) {
         if (!growth_.covered(open[begin])) batch.push_back(open[begin]);
       }
+      const auto start = std::chrono::steady_clock::now();
       const std::vector<IrradianceRecord> made = make(batch);
+      report_.making_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       for (std::size_t i = 0; i < made.size(); ++i) {
         if (growth_.covered(batch[i])) continue;
         growth_.accept(made[i], report_);

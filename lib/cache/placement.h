@@ -23,6 +23,7 @@ struct PlacementOptions {
 struct PlacementReport {
   std::uint64_t candidates = 0, made = 0, kept = 0, uncovered = 0;
   std::uint64_t passes = 0, clamped_to_neighbour = 0, clamped_to_least = 0;
+  double making_s = 0;  ///< wall time spent in making records
 };
 
 /// Declares the options of both (names and units as users see them).

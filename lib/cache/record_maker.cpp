@@ -16,7 +16,8 @@ constexpr std::size_t kLeastClustered =
     128;  // photons that a zone must hold to be shrunk to a quarter of its area
 // Points at the very border of a surface often lie outside of the hull: one in a thousand may be called dark.
 constexpr double kDarkPhotons = 6.9;
-constexpr std::size_t kMostNearest = 2048;
+constexpr std::size_t kLeastForDensity = 16;  // photons nearby that promise how many a zone will hold
+constexpr std::size_t kMostNearest = 512;
 
 const char* const kEventNames[RecordEvents::count_] = {
     "records with too few photons", "records fully lit",
@@ -93,7 +94,8 @@ float RecordMaker::ray_distance_m(const Site& site, std::uint64_t item) const {
 
 /// The thesis' first query: the nearest photons tell how far the surroundings are. Leaves their distances
 /// from p in scratch.radii, sorted, for the choice of the zone.
-float RecordMaker::photon_distance_m(Site& site, Scratch& s, float limit_m) const {
+float RecordMaker::photon_distance_m(const Site& site, std::uint32_t seed_row, Scratch& s,
+                                     float limit_m) const {
   s.radii.clear(), s.directions.clear(), s.weights.clear(), s.distances.clear();
   const auto wanted_count = static_cast<std::size_t>(options_.near_photons);
   for (std::size_t k = wanted_count; photons_.size() > 0; k *= 4) {
@@ -105,7 +107,9 @@ float RecordMaker::photon_distance_m(Site& site, Scratch& s, float limit_m) cons
       const std::uint32_t row = s.rows[i];
       const float away = std::sqrt(s.distance2[i]);
       if (away > limit_m) break;
-      if (!wanted(row) || std::fabs(glm::dot(photons_.position[row] - site.p, site.frame.z)) > slab) continue;
+      if (row == seed_row || !wanted(row) ||
+          std::fabs(glm::dot(photons_.position[row] - site.p, site.frame.z)) > slab)
+        continue;
       if (glm::dot(decode_octahedral(photons_.normal[row]), site.frame.z) < kSameFacing) continue;
       const Vec3 w = site.frame.to_local(decode_octahedral(photons_.direction[row]));
       if (!(w.z > 0)) continue;
@@ -114,7 +118,7 @@ float RecordMaker::photon_distance_m(Site& site, Scratch& s, float limit_m) cons
     }
     const bool exhausted = s.rows.size() >= photons_.size() || k * 4 > kMostNearest ||
                            (!s.distance2.empty() && std::sqrt(s.distance2.back()) > limit_m);
-    if (exhausted || s.radii.size() * 2 >= wanted_count) break;
+    if (exhausted || s.radii.size() >= std::min(wanted_count, kLeastForDensity)) break;
   }
   return mean_distance_m(s.directions, s.weights, s.distances);
 }
@@ -123,7 +127,7 @@ float RecordMaker::photon_distance_m(Site& site, Scratch& s, float limit_m) cons
 float RecordMaker::zone_radius_m(const Site& site, const Scratch& s, float distance_m) const {
   const auto most = static_cast<float>(*options_.max_radius_m);
   float radius = static_cast<float>(options_.accuracy) * std::min(distance_m, most);
-  if (!s.radii.empty()) {
+  if (s.radii.size() >= kLeastForDensity) {
     const std::size_t k = s.radii.size(), least = static_cast<std::size_t>(options_.min_photons);
     const float last = std::max(s.radii.back(), site.rounding_m);
     const auto holding = [&](double photons) {
@@ -135,7 +139,7 @@ float RecordMaker::zone_radius_m(const Site& site, const Scratch& s, float dista
   } else {
     radius = most;
   }
-  radius = std::min({radius, std::max(distance_m, static_cast<float>(*options_.min_radius_m)), most});
+  radius = std::min({radius, std::max(distance_m, 2 * static_cast<float>(*options_.min_radius_m)), most});
   return std::max(radius, 64 * site.rounding_m);
 }
 
@@ -224,8 +228,24 @@ ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t se
   }
 }
 
-/// Irradiance moved from the area's centroid to p along the gradient (C3), its error, gradients, and what
-/// they and the edges allow of the radius.
+/// Irradiance moved from the area's centroid to p along the gradient, photon by photon (C3).
+void RecordMaker::move_to_centre(const Site& site, const ZoneEstimate& zone, const Scratch& s,
+                                 IrradianceRecord& record) const {
+  const Vec3 step = site.frame.to_world(Vec3(-zone.centroid_m, 0));
+  DVec3 sum(0), squares(0);
+  for (std::size_t i = 0; i < s.zone.size(); ++i) {
+    if (!s.density.used[i]) continue;
+    const double change =
+        static_cast<double>(glm::dot(photon_translation_term(s.zone, i, site.frame.z), step));
+    const DVec3 f = DVec3(s.zone.flux_lm[i]) * (1 + change);
+    sum += f, squares += f * f;
+  }
+  const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
+  record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
+  record.stderr_lx = Rgb(glm::sqrt(squares / (zone.area_m2 * zone.area_m2) + geometric * geometric));
+}
+
+/// Irradiance at p with its error and gradients, and what they and the edges allow of the radius.
 void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_radius_m, const Scratch& s,
                        IrradianceRecord& record) const {
   const auto a = static_cast<float>(options_.accuracy);
@@ -236,19 +256,8 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_ra
     return;
   }
   const std::span<const std::uint8_t> used(s.density.used);
-  const Vec3 step = site.frame.to_world(Vec3(-zone.centroid_m, 0));
-  DVec3 sum(0), squares(0);
-  for (std::size_t i = 0; i < s.zone.size(); ++i) {
-    if (!used[i]) continue;
-    const double change =
-        static_cast<double>(glm::dot(photon_translation_term(s.zone, i, site.frame.z), step));
-    const DVec3 f = DVec3(s.zone.flux_lm[i]) * (1 + change);
-    sum += f, squares += f * f;
-  }
-  const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
-  record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
-  record.stderr_lx = Rgb(glm::sqrt(squares / (zone.area_m2 * zone.area_m2) + geometric * geometric));
-
+  record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
+  if (zone.centroid_m != Vec2(0)) move_to_centre(site, zone, s, record);
   const Gradients analytic = photon_gradients(s.zone, used, zone.area_m2, site.frame);
   const float brightest = max_component(record.irradiance);
   float within = record.radius_m;  // KBPv06: where the gradient would change a channel by itself
@@ -277,7 +286,7 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
   const float diagonal = rays_.scene().bounds.diagonal_m();
   Site site{p, make_frame(n), kRounding * std::max({scale_of(p), 1e-3f * diagonal, 1e-30f})};
   const float by_rays = ray_distance_m(site, item);
-  const float by_photons = photon_distance_m(site, s, by_rays);
+  const float by_photons = photon_distance_m(site, seed_row, s, by_rays);
   // Photons know the lit surroundings, rays the dark ones too: the harmonic mean of both, or the one there
   // is.
   float distance = by_photons;
@@ -296,7 +305,8 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
   if (narrow < wide)
     record.radius_m = std::min(record.radius_m, narrow / static_cast<float>(options_.accuracy));
   fill(site, zone, narrow, s, record);
-  record.radius_m = std::min(record.radius_m, above_next_surface_m(site, record.radius_m));
+  const float least = std::min(record.radius_m, 0.5f * narrow / static_cast<float>(options_.accuracy));
+  record.radius_m = std::max(least, std::min(record.radius_m, above_next_surface_m(site, record.radius_m)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
   for (int c = 0; c < 3; ++c) {

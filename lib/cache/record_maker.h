@@ -26,7 +26,7 @@ struct RecordOptions {
   std::int64_t near_photons = 128;                     ///< k of the first query
   std::int64_t min_photons = 100, max_photons = 1000;  ///< aimed at in a zone
   std::int64_t distance_rays = 32;                     ///< 0: distances from photons alone
-  std::int64_t probes = 256;
+  std::int64_t probes = 128;
 
   /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size). Throws
   /// Error(usage) if the smaller exceeds the larger.
@@ -73,13 +73,15 @@ class RecordMaker {
  private:
   struct Site;
   float ray_distance_m(const Site& site, std::uint64_t item) const;
-  float photon_distance_m(Site& site, Scratch& scratch, float limit_m) const;
+  float photon_distance_m(const Site& site, std::uint32_t seed_row, Scratch& scratch, float limit_m) const;
   float zone_radius_m(const Site& site, const Scratch& scratch, float distance_m) const;
   float above_next_surface_m(const Site& site, float radius_m) const;
   void limit_slab(Site& site, float radius_m) const;
   void gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& scratch) const;
   bool on_surface(const Site& site, const Vec2& offset_m) const;
   ZoneEstimate estimate(Site& site, float& radius_m, std::uint32_t seed_row, Scratch& scratch) const;
+  void move_to_centre(const Site& site, const ZoneEstimate& zone, const Scratch& scratch,
+                      IrradianceRecord& record) const;
   void fill(const Site& site, const ZoneEstimate& zone, float zone_radius_m, const Scratch& scratch,
             IrradianceRecord& record) const;
 
