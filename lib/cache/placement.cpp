@@ -192,7 +192,11 @@ void declare_options(Options& options, RecordOptions& r, PlacementOptions& p) {
   options.section("Estimates");
   options.integer("near-photons", r.near_photons, "N",
                   "photons of the first query, for the distance to surroundings", {8, 4096});
-  options.integer("min-photons", r.min_photons, "N", "photons that a zone should hold at least", {1, 1e6});
+  options.integer("min-photons", r.min_photons, "N",
+                  "photons that a zone should hold at least, as far as the surroundings allow; records are "
+                  "no closer to each "
+                  "other than half such a zone",
+                  {1, 1e6});
   options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7});
   options.integer("distance-rays", r.distance_rays, "N",
                   "rays that look for dark surroundings; 0: photons alone", {0, 4096});
