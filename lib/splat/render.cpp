@@ -30,12 +30,15 @@ struct Layers {
         normal(n),
         position(n),
         noise(n),
+        sampled(n),
+        sampled_square(n),
         indirect_error(n),
         illuminance(n),
         weight(n),
         depth(n) {}
   std::vector<Rgb> direct, indirect, glossy, specular, emission, albedo, normal, position;
-  std::vector<Rgb> noise;           ///< variance of direct light and gloss, summed over pixel samples
+  std::vector<Rgb> noise;  ///< variance of direct light and gloss, summed over pixel samples
+  std::vector<Rgb> sampled, sampled_square;  ///< the two as each pixel sample saw them
   std::vector<Rgb> indirect_error;  ///< summed as if fully correlated between samples (they share records)
   std::vector<float> illuminance, weight, depth;
 };
@@ -75,6 +78,11 @@ struct ChunkResult {
   }
 };
 
+/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
+int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples) {
+  return static_cast<int>((of_pixel + pixel_samples - 1) / pixel_samples);
+}
+
 /// One sample of every pixel, from G-buffer to layers.
 class SamplePass {
  public:
@@ -101,8 +109,10 @@ class SamplePass {
     const SurfacePoint point = rays_.surface(ray, gbuffer_.hit[i]);
     const Bsdf bsdf(rays_.scene(), point);
     const Vec3 wo = -ray.direction;
+    // What the samples of a pixel share, and each one's own.
+    RandomStream sequence(options_.seed, Stage::direct_light, i);
     RandomStream random(
-        options_.seed, Stage::direct_light,
+        options_.seed, Stage::specular,
         i * static_cast<std::uint64_t>(options_.pixel_samples) + static_cast<std::uint64_t>(sample_));
     layers_.emission[i] += emitted_luminance(rays_.scene(), point);
     layers_.albedo[i] += bsdf.diffuse_reflectance();
@@ -113,8 +123,10 @@ class SamplePass {
         result.log.misses.push_back({point.position, point.smooth_normal});
       }
     }
-    from_lights(i, point, bsdf, wo, random);
-    if (bsdf.has_gloss()) from_gloss(i, point, bsdf, wo, random, result.log);
+    Rgb sampled = from_lights(i, point, bsdf, wo, sequence);
+    if (bsdf.has_gloss()) sampled += from_gloss(i, point, bsdf, wo, sequence, random, result.log);
+    layers_.sampled[i] += sampled;
+    layers_.sampled_square[i] += sampled * sampled;
     layers_.specular[i] += shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
     if (sample_ == 0) {
       layers_.normal[i] = point.smooth_normal;
@@ -136,31 +148,40 @@ class SamplePass {
     return true;
   }
 
-  void from_lights(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                   RandomStream& random) const {
+  /// This pixel sample's part of what is asked for the whole pixel.
+  SampleRange range(std::int64_t of_pixel) const {
+    const int n = samples_of_each(of_pixel, options_.pixel_samples);
+    return {sample_ * n, n, static_cast<int>(options_.pixel_samples) * n};
+  }
+
+  /// Returns what is subject to noise.
+  Rgb from_lights(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                  RandomStream& sequence) const {
     const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
     if (options_.direct == DirectBy::shadow_map && diffuse) {
       layers_.direct[i] += shadow_mapped_[i] * bsdf.diffuse_reflectance() / kPi;
       layers_.illuminance[i] += luminance(shadow_mapped_[i]);
-    } else if (options_.direct == DirectBy::traced && (diffuse || bsdf.has_gloss())) {
-      const DirectLight light = shading_.direct(point, bsdf, wo, static_cast<int>(options_.light_samples),
-                                                static_cast<int>(options_.gloss_samples), random);
-      layers_.direct[i] += light.radiance;
-      layers_.noise[i] += light.variance;
-      if (!cached_direct_) layers_.illuminance[i] += luminance(light.illuminance);
     }
+    if (options_.direct != DirectBy::traced || !(diffuse || bsdf.has_gloss())) return Rgb(0);
+    const DirectLight light = shading_.direct(point, bsdf, wo, range(options_.light_samples),
+                                              range(options_.gloss_samples).count, sequence);
+    layers_.direct[i] += light.radiance;
+    layers_.noise[i] += light.variance;
+    if (!cached_direct_) layers_.illuminance[i] += luminance(light.illuminance);
+    return light.radiance;
   }
 
-  void from_gloss(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                  RandomStream& random, ShadingLog& log) const {
+  Rgb from_gloss(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                 RandomStream& sequence, RandomStream& random, ShadingLog& log) const {
     // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
-    const auto light_samples =
-        options_.direct == DirectBy::traced ? static_cast<int>(options_.light_samples) : 0;
-    const GlossLight light = shading_.gloss(point, bsdf, wo, static_cast<int>(options_.gloss_samples),
-                                            light_samples, 0, random, log);
+    const int light_samples = options_.direct == DirectBy::traced ? range(options_.light_samples).count : 0;
+    const GlossLight light = shading_.gloss(point, bsdf, wo, range(options_.gloss_samples), light_samples, 0,
+                                            sequence, random, log);
     layers_.glossy[i] += light.radiance;
     layers_.noise[i] += light.variance;
-    if (options_.direct != DirectBy::none) layers_.direct[i] += light.from_lamps;
+    if (options_.direct == DirectBy::none) return light.radiance;
+    layers_.direct[i] += light.from_lamps;
+    return light.radiance + light.from_lamps;
   }
 
   const RayScene& rays_;
@@ -179,7 +200,8 @@ void average(std::vector<Rgb>& sums, float samples) {
   for (Rgb& v : sums) v /= samples;
 }
 
-Image make_image(Layers& layers, int width, int height, int samples) {
+/// `single`: each pixel sample sent one ray only, so that the noise shows in the spread of the samples alone.
+Image make_image(Layers& layers, int width, int height, int samples, bool single) {
   Image image(width, height);
   const auto n = static_cast<float>(samples);
   std::vector<Rgb> beauty(image.pixels()), error(image.pixels());
@@ -189,7 +211,12 @@ Image make_image(Layers& layers, int width, int height, int samples) {
   for (std::size_t i = 0; i < beauty.size(); ++i) {
     beauty[i] =
         layers.direct[i] + layers.indirect[i] + layers.glossy[i] + layers.specular[i] + layers.emission[i];
-    error[i] = glm::sqrt(layers.noise[i] / (n * n) + layers.indirect_error[i] * layers.indirect_error[i]);
+    Rgb variance = layers.noise[i] / (n * n);
+    if (single && samples > 1) {
+      const Rgb mean = layers.sampled[i] / n;
+      variance = glm::max(layers.sampled_square[i] / n - mean * mean, Rgb(0)) / (n - 1);
+    }
+    error[i] = glm::sqrt(variance + layers.indirect_error[i] * layers.indirect_error[i]);
   }
   image.set_rgb("", beauty);
   image.set_rgb("direct", layers.direct);
@@ -256,13 +283,22 @@ void declare_options(Options& options, RenderOptions& r) {
       {{"traced", DirectBy::traced}, {"shadow-map", DirectBy::shadow_map}, {"none", DirectBy::none}},
       "direct light: by shadow rays, by shadow maps (fast preview, diffuse only), or left out");
   options.integer("light-samples", r.light_samples, "N",
-                  "shadow rays (or shadow maps) per area light and pixel sample", {1, 65536});
+                  "shadow rays per area light and pixel, shared among its samples (one each at least); or "
+                  "shadow maps per area light",
+                  {1, 65536});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
-  options.integer("gloss-samples", r.gloss_samples, "N", "rays per pixel sample on a glossy surface",
-                  {0, 65536});
+  options.integer("gloss-samples", r.gloss_samples, "N",
+                  "rays per pixel on a glossy surface, shared among its samples", {0, 65536});
   options.integer("specular-depth", r.specular_depth, "N", "longest chain of mirrors and glass", {0, 1000});
-  options.text("isa", r.isa, "NAME",
-               "instruction set for rays (sse2: same bytes on every machine); the best if not given");
+  options.choice<std::string>(
+      "isa", r.isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
 }
 
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
@@ -291,8 +327,6 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
   RecordTree records(rays.scene().bounds, *options.accuracy);
   for (const IrradianceRecord& r : cache.records) records.insert(r);
   ShadingOptions shading_options;
-  shading_options.light_samples = static_cast<int>(options.light_samples);
-  shading_options.gloss_samples = static_cast<int>(options.gloss_samples);
   shading_options.specular_depth = static_cast<int>(options.specular_depth);
   shading_options.cached_direct = cache.quantity == "all";
   shading_options.reflect_direct = options.direct != DirectBy::none;
@@ -345,7 +379,9 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
   result.counters = total.log.counters;
   result.misses = std::move(total.log.misses);
   spread(result.misses, options.seed, static_cast<std::size_t>(options.max_misses));
-  result.image = make_image(layers, width, height, samples);
+  const bool single = samples_of_each(options.light_samples, samples) == 1 ||
+                      samples_of_each(options.gloss_samples, samples) == 1;
+  result.image = make_image(layers, width, height, samples, single);
   return result;
 }
 

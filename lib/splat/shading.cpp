@@ -32,20 +32,59 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 
 }  // namespace
 
-DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
-                            int gloss_rays, RandomStream& random) const {
+Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
+                 const ShadingOptions& options)
+    : rays_(rays), lights_(lights), records_(records), options_(options) {
+  for (std::size_t i = 0; i < lights.size(); ++i) extent_.push_back(extent_of(lights[i]));
+}
+
+Shading::Extent Shading::extent_of(const Light& light) const {
+  Extent extent;
+  if (light.kind != Light::Kind::area) return extent;
+  const Scene& scene = rays_.scene();
+  const Instance& instance = scene.instance[light.instance];
+  const std::uint32_t end = instance.first_triangle + instance.triangle_count;
+  Bounds bounds;
+  for (std::uint32_t t = instance.first_triangle; t < end; ++t)
+    for (const std::uint32_t v : scene.triangle[t].v) bounds.include(scene.position[v]);
+  extent.centre = bounds.centre();
+  extent.radius_m = 0.5f * bounds.diagonal_m() * 1.001f;
+  extent.front = geometric_normal(scene, instance.first_triangle);
+  float thickness_m = 0;
+  for (std::uint32_t t = instance.first_triangle; t < end; ++t) {
+    if (glm::dot(geometric_normal(scene, t), extent.front) < 0.999f) extent.front = Vec3(0);
+    for (const std::uint32_t v : scene.triangle[t].v)
+      thickness_m =
+          std::max(thickness_m, std::fabs(glm::dot(scene.position[v] - extent.centre, extent.front)));
+  }
+  if (thickness_m > 1e-4f * extent.radius_m || scene.material[instance.material].double_sided)
+    extent.front = Vec3(0);
+  return extent;
+}
+
+bool Shading::out_of_sight(const Extent& lamp, const SurfacePoint& point) const {
+  const Vec3 way = lamp.centre - point.position;
+  if (glm::dot(way, point.normal) < -lamp.radius_m || glm::dot(way, point.geometric_normal) < -lamp.radius_m)
+    return true;
+  return glm::dot(way, lamp.front) > 1e-3f * lamp.radius_m;
+}
+
+DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                            const SampleRange& samples, int gloss_rays, RandomStream& sequence) const {
   DirectLight sum;
   const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const bool area = lights_[i].kind == Light::Kind::area;
-    const int n = area ? samples : 1;
-    const float u0 = random.uniform();
-    const Vec2 shift = random.uniform2();
+    const float u0 = sequence.uniform();
+    const Vec2 shift = sequence.uniform2();
+    if (out_of_sight(extent_[i], point)) continue;
+    const int n = area ? samples.count : 1;
     Rgb mean(0), square(0);
     for (int s = 0; s < n; ++s) {
       Illumination light;
-      const float u_triangle = (static_cast<float>(s) + u0) / static_cast<float>(n);
-      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(s, shift),
+      const int k = samples.first + s;
+      const float u_triangle = (static_cast<float>(k) + u0) / static_cast<float>(samples.total);
+      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(k, shift),
                               light))
         continue;
       const float cosine = glm::dot(point.normal, light.direction);
@@ -76,14 +115,15 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   return sum;
 }
 
-GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
-                          int light_samples, int depth, RandomStream& random, ShadingLog& log) const {
+GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                          const SampleRange& samples, int light_samples, int depth, RandomStream& sequence,
+                          RandomStream& random, ShadingLog& log) const {
   GlossLight sum;
   Rgb square(0);
-  const Vec2 shift = random.uniform2();
-  for (int s = 0; s < samples; ++s) {
+  const Vec2 shift = sequence.uniform2();
+  for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
-    if (!bsdf.sample_gloss(wo, r2_point(s, shift), sample)) continue;
+    if (!bsdf.sample_gloss(wo, r2_point(samples.first + s, shift), sample)) continue;
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) continue;
@@ -95,18 +135,18 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       const float density =
           lights_.density(static_cast<std::size_t>(light), hit.triangle, hit.distance_m, cos_light);
       from_lamp =
-          sample.weight * lamp * (1.f - light_weight(light_samples, density, samples, sample.density));
+          sample.weight * lamp * (1.f - light_weight(light_samples, density, samples.count, sample.density));
     }
     const Rgb rest = sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
     sum.from_lamps += from_lamp;
     sum.radiance += rest;
     square += (from_lamp + rest) * (from_lamp + rest);
   }
-  const auto count = static_cast<float>(std::max(samples, 1));
+  const auto count = static_cast<float>(std::max(samples.count, 1));
   sum.from_lamps /= count;
   sum.radiance /= count;
   const Rgb mean = sum.from_lamps + sum.radiance;
-  if (samples > 1) sum.variance = glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
+  if (samples.count > 1) sum.variance = glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
   return sum;
 }
 
@@ -147,7 +187,7 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += direct(point, bsdf, wo, 1, send_on ? 1 : 0, random).radiance;
   if (send_on) {
-    const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, log);
+    const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);
     light += arriving.radiance;
     if (options_.reflect_direct) light += arriving.from_lamps;
   } else if (glossy) {

@@ -21,10 +21,18 @@ struct ShadingOptions {
   bool reflect_direct = true;  ///< what gloss and mirrors show is lit by the lamps
 };
 
+/// Samples [first, first + count) of a low-discrepancy sequence of `total`, which several points (the samples
+/// of one pixel) share. The random stream `sequence` that starts it must then be the same for each of them.
+struct SampleRange {
+  SampleRange(int n) : count(n), total(n) {}
+  SampleRange(int first_sample, int n, int all) : first(first_sample), count(n), total(all) {}
+  int first = 0, count = 1, total = 1;
+};
+
 /// Direct light at a point.
 struct DirectLight {
   Rgb radiance{0};     ///< cd/m2 towards the viewer
-  Rgb variance{0};     ///< of radiance
+  Rgb variance{0};     ///< of radiance; 0 if no light has more than one sample
   Rgb illuminance{0};  ///< lx on the shading normal's side
 };
 
@@ -49,31 +57,40 @@ struct ShadingLog {
 class Shading {
  public:
   Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
-          const ShadingOptions& options)
-      : rays_(rays), lights_(lights), records_(records), options_(options) {}
+          const ShadingOptions& options);
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
   /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct.
-  DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples, int gloss_rays,
-                     RandomStream& random) const;
+  DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
+                     int gloss_rays, RandomStream& sequence) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
   /// they land. `light_samples` is what direct() was called with; 0 if it was not, so that lamps count whole.
-  GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int samples,
-                   int light_samples, int depth, RandomStream& random, ShadingLog& log) const;
+  GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
+                   int light_samples, int depth, RandomStream& sequence, RandomStream& random,
+                   ShadingLog& log) const;
 
   /// Light through mirrors and smooth glass: every branch, deterministic, to options.specular_depth. cd/m2
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
 
  private:
+  /// Where a lamp lies: it lights nothing that looks away from all of it.
+  struct Extent {
+    Vec3 centre{0};
+    float radius_m = kInfinity;
+    Vec3 front{0};  ///< of a plane one-sided lamp; else 0
+  };
+  Extent extent_of(const Light& light) const;
+  bool out_of_sight(const Extent& lamp, const SurfacePoint& point) const;
   Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
   const RayScene& rays_;
   const Luminaires& lights_;
   const RecordTree& records_;
   ShadingOptions options_;
+  std::vector<Extent> extent_;  // per light
 };
 
 }  // namespace phos

@@ -62,7 +62,7 @@ void measure(const Shading& shading, const SurfacePoint& point, const Bsdf& bsdf
     if (split.light_samples > 0)
       light += shading.direct(point, bsdf, wo, split.light_samples, split.gloss_samples, random).radiance;
     const GlossLight gloss =
-        shading.gloss(point, bsdf, wo, split.gloss_samples, split.light_samples, 0, random, log);
+        shading.gloss(point, bsdf, wo, split.gloss_samples, split.light_samples, 0, random, random, log);
     light += gloss.from_lamps;
     EXPECT_EQ(gloss.radiance, Rgb(0));  // black walls show nothing but their own light
     const DVec3 v(light / kLuminance);
