@@ -68,12 +68,21 @@ int main(int argc, char** argv) {
   SceneOptions scene_options;
   RecordOptions records;
   PlacementOptions placement;
-  std::string at, add_to;
+  std::string at, add_to, isa;
   bool allow_mismatch = false;
   Options& options = tool.options();
   options.inputs("SCENE PHOTONS", inputs.paths, "scene (.glb, .gltf, .obj) and photons of it");
   declare_options(options, scene_options);
   declare_options(options, records, placement);
+  options.choice<std::string>(
+      "isa", isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
   options.file("add-to", add_to,
@@ -118,7 +127,7 @@ int main(int argc, char** argv) {
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at);
-    const RayScene rays(scene);
+    const RayScene rays(scene, {isa});
     PlacementReport report;
     {
       const auto timer = tool.time("records");
