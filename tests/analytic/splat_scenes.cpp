@@ -17,7 +17,8 @@ constexpr double kAllowance = 0.02;
 /// Paths that leave about as many photons in each scene (a path lands 1 / (1 - albedo) times).
 std::int64_t paths_for(const AnalyticScene& s) {
   const double albedo = static_cast<double>(s.scene.material[0].kd.x);
-  return static_cast<std::int64_t>(400000 * std::max(0.02, 1 - albedo));
+  const bool even = s.name == "furnace" || s.name == "emitting environment";  // no shape to be resolved
+  return static_cast<std::int64_t>((even ? 400000 : 1600000) * std::max(0.02, 1 - albedo));
 }
 
 void expect_agreement(const Agreement& a, const std::string& what) {
@@ -25,8 +26,8 @@ void expect_agreement(const Agreement& a, const std::string& what) {
   EXPECT_LT(a.missing, 0.01) << what;
   EXPECT_GT(a.within, 0.95) << what;
   EXPECT_GT(a.within_two, 0.85) << what;
-  EXPECT_LT(std::fabs(a.relative_bias), 0.02) << what;
-  EXPECT_LT(a.relative_error, 0.2) << what;  // the allowed deviation is not vast
+  EXPECT_LT(std::fabs(a.relative_bias), 0.01) << what;
+  EXPECT_LT(a.relative_error, 0.1) << what;  // the allowed deviation is not vast
 }
 
 class EveryScene : public testing::TestWithParam<std::size_t> {};
@@ -84,12 +85,29 @@ TEST(ThinWalls, DoNotLeak) {
   }
 }
 
+/// A plan: the floor from straight above, without perspective.
+TEST(Orthographic, SplatsAgreeWithTheClosedForm) {
+  AnalyticScene s = point_light_over_plane();
+  Camera camera = look_at({0, 20, 0}, {0, 0, 0}, {0, 0, -1}, 1);
+  camera.perspective = false;
+  camera.ymag_m = 4;
+  const Lit lit = light_up(s.scene, 1600000);
+  const GBuffer gbuffer = trace_gbuffer(*lit.rays, camera, kSide, kSide, kCentre);
+  const IrradianceCache cache = records_in_view(lit, gbuffer, Quantity::all, kAccuracy);
+  expect_agreement(compare(s, gbuffer, splat_on_cpu(cache.records, kAccuracy, gbuffer, camera), kAllowance),
+                   "plan, cpu");
+  GlRenderer gl(*lit.scene);
+  const GBuffer drawn = gl.rasterise(camera, kSide, kSide, kCentre);
+  expect_agreement(compare(s, drawn, gl.splat(cache.records, kAccuracy, drawn, camera), kAllowance),
+                   "plan, gl");
+}
+
 /// Sizes from a micrometre to a thousand kilometres give the same picture.
 TEST(Scale, DoesNotMatter) {
   const AnalyticScene original = rectangle_light_parallel();
   for (const float factor : {1e-6f, 1e-3f, 1e6f}) {
     const AnalyticScene s = scaled(original, factor);
-    const Lit lit = light_up(s.scene, 200000);
+    const Lit lit = light_up(s.scene, 800000);
     const Camera& camera = s.scene.camera[0];
     const GBuffer gbuffer = trace_gbuffer(*lit.rays, camera, 24, 24, kCentre);
     const IrradianceCache cache = records_in_view(lit, gbuffer, Quantity::all, 0.2);
@@ -100,7 +118,7 @@ TEST(Scale, DoesNotMatter) {
       EXPECT_GT(a.pixels, 100) << s.name;
       EXPECT_EQ(a.missing, 0) << s.name;
       EXPECT_GT(a.within, 0.9) << s.name;
-      EXPECT_LT(std::fabs(a.relative_bias), 0.03) << s.name;
+      EXPECT_LT(std::fabs(a.relative_bias), 0.02) << s.name;
     }
   }
 }

@@ -99,6 +99,58 @@ TEST_F(Splat, ReuseDoesNothingTwice) {
   EXPECT_NE(why.out.find("accuracy"), std::string::npos) << why.out;
 }
 
+TEST_F(Splat, EveryWayOfDirectLight) {
+  const auto mean = [](const Image& image, const std::string& channel) {
+    double sum = 0;
+    for (const float v : image.channel(channel)) sum += static_cast<double>(v);
+    return sum / static_cast<double>(image.pixels());
+  };
+  double direct[3];
+  const char* const ways[] = {"traced", "shadow-map", "none"};
+  for (int i = 0; i < 3; ++i) {
+    const test::Run run = splat({"--direct", ways[i], "--light-samples", "16", "-o", path("way.exr")});
+    ASSERT_EQ(run.code, 0) << run.err;
+    direct[i] = mean(read_image(path("way.exr")), "direct.G");
+  }
+  EXPECT_GT(direct[0], 0);
+  EXPECT_NEAR(direct[1] / direct[0], 1, 0.1);
+  EXPECT_EQ(direct[2], 0);
+}
+
+/// A cache of all light already holds what the lamps send: the sum stays what it was.
+TEST_F(Splat, CachesOfAllLightAreNotLitTwice) {
+  const test::Run records = run_tool(
+      {"irradiance", *scene_, path("a.photons"), "--paths", "all", "-o", path("all.irradiance"), "--quiet"});
+  ASSERT_EQ(records.code, 0) << records.err;
+  ASSERT_EQ(splat({"--light-samples", "16", "-o", path("indirect.exr")}).code, 0);
+  const test::Run run = run_tool(
+      {"splat", *scene_, path("all.irradiance"), "--width", "48", "--splat", "cpu", "-o", path("all.exr")});
+  ASSERT_EQ(run.code, 0) << run.err;
+  double sum[2] = {0, 0};
+  int both = 0;
+  const Image one = read_image(path("indirect.exr")), other = read_image(path("all.exr"));
+  for (std::size_t i = 0; i < one.pixels(); ++i) {
+    if (!(one.channel("weight.Y")[i] > 0) || !(other.channel("weight.Y")[i] > 0)) continue;
+    sum[0] += static_cast<double>(one.channel("illuminance.Y")[i]);
+    sum[1] += static_cast<double>(other.channel("illuminance.Y")[i]);
+    ++both;
+  }
+  EXPECT_GT(both, 1000);
+  EXPECT_NEAR(sum[1] / sum[0], 1, 0.1);
+  expect_error(
+      run_tool({"splat", *scene_, path("a.irradiance"), path("all.irradiance"), "-o", path("x.exr")}), 4,
+      "--paths");
+}
+
+TEST_F(Splat, MismatchCanBeAllowed) {
+  const std::string empty = data("cornell-empty.glb");
+  const test::Run run = run_tool({"splat", empty, path("a.irradiance"), "--allow-mismatch", "--width", "16",
+                                  "--splat", "cpu", "-o", path("mismatch.exr")});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(read_image(path("mismatch.exr")).attributes.at("phos.parameters").find("\"allow-mismatch\":true"),
+            std::string::npos);
+}
+
 TEST_F(Splat, WrongInputsAreOneLineAndTheRightCode) {
   const std::string out = path("never.exr");
   expect_error(run_tool({"splat", path("no.glb"), path("a.irradiance"), "-o", out}), 3, "no.glb");
@@ -110,6 +162,9 @@ TEST_F(Splat, WrongInputsAreOneLineAndTheRightCode) {
   expect_error(splat({"-o", path("no/such/folder.exr")}), 3, "folder.exr");
   expect_error(splat({"--accuracy", "0", "-o", out}), 2, "--accuracy");
   expect_error(splat({}), 2, "--output");
+  expect_error(splat({"--reuse", "--misses", path("m.csv"), "-o", out}), 2, "--misses");
+  expect_error(splat({"--width", "60000", "--height", "60000", "-o", out}), 2, "too many");
+  expect_error(splat({"--isa", "z80", "-o", out}), 2, "isa");
   spill(path("text.glb"), "This is no scene.\n");
   expect_error(run_tool({"splat", path("text.glb"), path("a.irradiance"), "-o", out}), 3, "text.glb");
   EXPECT_FALSE(std::filesystem::exists(out));

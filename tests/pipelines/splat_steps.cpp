@@ -44,7 +44,7 @@ class Steps : public testing::Test {
     must({"photons", scene, "--photons", "200000", "-o", photons});
     must({"irradiance", scene, photons, "-o", cache});
     ASSERT_GT(fill(scene, photons, cache, {"--width", "32", "--pixel-samples", "16"}), 0);
-    must({"splat", scene, cache, "--width", "32", "--pixel-samples", "16", "--light-samples", "4", "-o",
+    must({"splat", scene, cache, "--width", "32", "--pixel-samples", "16", "--light-samples", "64", "-o",
           path(name + ".exr")});
     must({"reference", scene, "--width", "32", "--samples", "512", "-o", path(name + ".ref.exr")});
   }
@@ -125,7 +125,7 @@ TEST_F(Steps, CornellIndirectLightAgreesWithTheReference) {
   EXPECT_FALSE(image.has_layer("glossy"));
   const LayerMetrics indirect = compare_layer(image, reference, "indirect");
   EXPECT_LT(std::fabs(indirect.relative_bias), 0.03);
-  EXPECT_LT(error_beyond_noise(image, reference), 0.12);
+  EXPECT_LT(error_beyond_noise(image, reference), 0.15);
   const LayerMetrics direct = compare_layer(image, reference, "direct");
   EXPECT_LT(std::fabs(direct.relative_bias), 0.01);
   EXPECT_LT(direct.relative_rmse, 0.12);
@@ -146,7 +146,7 @@ TEST_F(Steps, GlossyCornellAgreesWithTheReference) {
   const Image light = scattered(path("g.exr"));
   const LayerMetrics indirect = compare_layer(light, reference, "indirect");
   EXPECT_LT(std::fabs(indirect.relative_bias), 0.03);
-  EXPECT_LT(error_beyond_noise(light, reference), 0.15);
+  EXPECT_LT(error_beyond_noise(light, reference), 0.2);
 }
 
 /// A mirror ball and a glass ball. The reference finds the light focused below the glass by chance alone, so

@@ -130,7 +130,8 @@ inline Numbers ranges_of(const std::string& file) {
   const test::Run run = run_tool({"info", file, "--json"});
   EXPECT_EQ(run.code, 0) << run.err;
   Numbers numbers;
-  for (const auto& [tensor, about] : parse_json(run.out, file).find("tensors")->as_object()) {
+  const Json described = parse_json(run.out, file);
+  for (const auto& [tensor, about] : described.find("tensors")->as_object()) {
     for (const char* what : {"mean", "min", "max"}) {
       const Json* values = about.find(what);
       if (values == nullptr) continue;

@@ -34,7 +34,13 @@ class GoldenCornell : public testing::Test {
   static std::string canonical(const std::string& file) {
     const test::Run run = run_tool({"info", file, "--canonical"});
     EXPECT_EQ(run.code, 0) << run.err;
-    return run.out;
+    std::string said;
+    for (const std::string& line : lines_of(run.out)) {
+      // The index is opaque and compressed: its size is the business of its library.
+      const bool opaque = line.find("FLANN index") != std::string::npos;
+      said.append(opaque ? "  kdtree         (any size)" : line).append("\n");
+    }
+    return said;
   }
 
  private:
