@@ -86,12 +86,13 @@ int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples) {
 /// One sample of every pixel, from G-buffer to layers.
 class SamplePass {
  public:
-  SamplePass(const RayScene& rays, const Camera& camera, const Shading& shading, const RenderOptions& options,
-             bool cached_direct, const GBuffer& gbuffer, const SplatBuffer& splats,
-             const std::vector<Rgb>& shadow_mapped, int sample, Layers& layers)
+  SamplePass(const RayScene& rays, const Camera& camera, const Shading& shading, const RecordTree& records,
+             const RenderOptions& options, bool cached_direct, const GBuffer& gbuffer,
+             const SplatBuffer& splats, const std::vector<Rgb>& shadow_mapped, int sample, Layers& layers)
       : rays_(rays),
         camera_(camera),
         shading_(shading),
+        records_(records),
         options_(options),
         cached_direct_(cached_direct),
         gbuffer_(gbuffer),
@@ -118,7 +119,7 @@ class SamplePass {
     layers_.albedo[i] += bsdf.diffuse_reflectance();
     if (bsdf.has_diffuse()) {
       ++result.looked_up;
-      if (!from_cache(i, bsdf)) {
+      if (!from_cache(i, point, bsdf)) {
         ++result.missed;
         result.log.misses.push_back({point.position, point.smooth_normal});
       }
@@ -136,14 +137,21 @@ class SamplePass {
   }
 
  private:
-  bool from_cache(std::size_t i, const Bsdf& bsdf) const {
-    const Vec4& light = splats_.light[i];
+  bool from_cache(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf) const {
+    Vec4 light = splats_.light[i], error = splats_.error[i];
+    if (!(light.w > 0)) {
+      // On the rim of a record rounding decides, and the lookup that places records has the last word: else
+      // the loop over misses would ask for the same point for ever.
+      const Interpolated found = records_.interpolate(point.position, point.smooth_normal);
+      light = Vec4(found.irradiance * found.weight, found.weight);
+      error = Vec4(found.stderr_lx * found.weight, 0);
+    }
     layers_.weight[i] += light.w;
     if (!(light.w > 0)) return false;
     const Rgb irradiance = Rgb(light) / light.w;
     const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
     layers_.indirect[i] += irradiance * reflected;
-    layers_.indirect_error[i] += Rgb(splats_.error[i]) / light.w * reflected;
+    layers_.indirect_error[i] += Rgb(error) / light.w * reflected;
     layers_.illuminance[i] += luminance(irradiance);
     return true;
   }
@@ -187,6 +195,7 @@ class SamplePass {
   const RayScene& rays_;
   const Camera& camera_;
   const Shading& shading_;
+  const RecordTree& records_;
   const RenderOptions& options_;
   bool cached_direct_;
   const GBuffer& gbuffer_;
@@ -362,8 +371,8 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
                                              static_cast<int>(options.shadow_map_size));
     }
     const Stopwatch watch(result.seconds, "shading");
-    const SamplePass pass(rays, camera, shading, options, shading_options.cached_direct, gbuffer, splats,
-                          shadow_mapped, s, layers);
+    const SamplePass pass(rays, camera, shading, records, options, shading_options.cached_direct, gbuffer,
+                          splats, shadow_mapped, s, layers);
     const ChunkResult shaded = parallel_reduce(
         pixels, 1024, ChunkResult{},
         [&](std::size_t begin, std::size_t end) {
