@@ -6,21 +6,40 @@ namespace phos {
 
 namespace {
 
-Vec3 from_spherical(float cos_theta, float phi) {
+/// (cos, sin) for |angle| <= pi/4, where the first terms left out are below half a unit in the last place.
+Vec2 cos_sin_of_eighth(float angle) {
+  const float x2 = angle * angle;
+  const float cosine = 1 + x2 * (-1.f / 2 + x2 * (1.f / 24 + x2 * (-1.f / 720 + x2 * (1.f / 40320))));
+  const float sine =
+      angle * (1 + x2 * (-1.f / 6 + x2 * (1.f / 120 + x2 * (-1.f / 5040 + x2 * (1.f / 362880)))));
+  return {cosine, sine};
+}
+
+Vec3 from_spherical(float cos_theta, float turns) {
   const float sin_theta = std::sqrt(std::max(0.f, 1.f - cos_theta * cos_theta));
-  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+  return Vec3(sin_theta * cos_sin(turns), cos_theta);
 }
 
 }  // namespace
+
+Vec2 cos_sin(float turns) {
+  const int quarter = static_cast<int>(4 * turns + 0.5f);
+  const Vec2 c = cos_sin_of_eighth(kPi / 2 * (4 * turns - static_cast<float>(quarter)));
+  const Vec2 turned = (quarter & 1) != 0 ? Vec2(-c.y, c.x) : c;
+  return (quarter & 2) != 0 ? -turned : turned;
+}
 
 Vec2 sample_disc(const Vec2& u) {
   // Shirley and Chiu 1997: concentric, so that strata stay compact.
   const Vec2 p = 2.f * u - 1.f;
   if (p.x == 0 && p.y == 0) return {0, 0};
   const bool wide = std::fabs(p.x) > std::fabs(p.y);
-  const float r = wide ? p.x : p.y;
-  const float phi = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
-  return {r * std::cos(phi), r * std::sin(phi)};
+  // Indexed, not branched to: a branch would be mispredicted every other time.
+  const float ends[2] = {p.y, p.x};
+  const float r = ends[wide], other = ends[!wide];
+  const Vec2 c = cos_sin_of_eighth(kPi / 4 * (other / r));
+  const float d[2] = {r * c.y, r * c.x};
+  return {d[wide], d[!wide]};
 }
 
 Vec3 sample_cosine_hemisphere(const Vec2& u) {
@@ -28,14 +47,14 @@ Vec3 sample_cosine_hemisphere(const Vec2& u) {
   return {d.x, d.y, std::sqrt(std::max(0.f, 1.f - d.x * d.x - d.y * d.y))};
 }
 
-Vec3 sample_uniform_sphere(const Vec2& u) { return from_spherical(1.f - 2.f * u.x, 2 * kPi * u.y); }
+Vec3 sample_uniform_sphere(const Vec2& u) { return from_spherical(1.f - 2.f * u.x, u.y); }
 
 Vec3 sample_uniform_cone(const Vec2& u, float cos_max) {
-  return from_spherical(1.f - u.x * (1.f - cos_max), 2 * kPi * u.y);
+  return from_spherical(1.f - u.x * (1.f - cos_max), u.y);
 }
 
 Vec3 sample_power_cosine(const Vec2& u, float exponent) {
-  return from_spherical(std::pow(1.f - u.x, 1.f / (exponent + 1.f)), 2 * kPi * u.y);
+  return from_spherical(std::pow(1.f - u.x, 1.f / (exponent + 1.f)), u.y);
 }
 
 Vec2 sample_triangle(const Vec2& u) {

@@ -5,6 +5,9 @@
 
 namespace phos {
 
+/// (cos, sin) of an angle of `turns` full turns, in [0, 1]; error below 1.5e-7. Polynomials: unlike the C
+/// library's, the same bits on every machine.
+Vec2 cos_sin(float turns);
 /// Cosine-weighted direction on the upper hemisphere; density cos(theta)/pi per sr.
 Vec3 sample_cosine_hemisphere(const Vec2& u);
 /// Uniform on the sphere; density 1/(4 pi) per sr.

@@ -11,19 +11,12 @@ Vec3 normalized_or_zero(const Vec3& v) {
   return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
-Frame make_frame(const Vec3& n) {
-  // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
-  const float sign = std::copysign(1.f, n.z);
-  const float a = -1.f / (sign + n.z);
-  const float b = n.x * n.y * a;
-  return {{1.f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
-}
-
 namespace {
 
+/// For v in [-1, 1].
 std::uint32_t to_snorm16(float v) {
-  const float clamped = std::clamp(v, -1.f, 1.f);
-  return static_cast<std::uint32_t>(static_cast<std::uint16_t>(std::lround(clamped * 32767.f)));
+  const float code = v * 32767.f;
+  return static_cast<std::uint32_t>(static_cast<int>(code + std::copysign(0.5f, code))) & 0xffffu;
 }
 
 float from_snorm16(std::uint32_t bits) {
@@ -35,14 +28,12 @@ float from_snorm16(std::uint32_t bits) {
 std::uint32_t encode_octahedral(const Vec3& n) {
   const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
   if (!(sum > 0) || !std::isfinite(sum)) return 0;
-  float u = n.x / sum;
-  float v = n.y / sum;
-  if (n.z < 0) {
-    const float folded_u = (1.f - std::fabs(v)) * std::copysign(1.f, u);
-    v = (1.f - std::fabs(u)) * std::copysign(1.f, v);
-    u = folded_u;
-  }
-  return to_snorm16(u) | (to_snorm16(v) << 16);
+  const float u = n.x / sum, v = n.y / sum;
+  // Indexed, not branched to: the sign of z is as good as random.
+  const float us[2] = {u, std::copysign(1.f - std::fabs(v), u)};
+  const float vs[2] = {v, std::copysign(1.f - std::fabs(u), v)};
+  const bool below = n.z < 0;
+  return to_snorm16(us[below]) | (to_snorm16(vs[below]) << 16);
 }
 
 Vec3 decode_octahedral(std::uint32_t code) {

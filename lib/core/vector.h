@@ -24,22 +24,34 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Y of linear Rec.709: 0.2126 R + 0.7152 G + 0.0722 B.
 inline float luminance(const Rgb& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 inline float max_component(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
-/// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scales first).
+/// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scales
+/// first).
 Vec3 normalized_or_zero(const Vec3& v);
 
 /// Orthonormal, right-handed; z is the normal.
 struct Frame {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  Vec3 to_local(const Vec3& world) const { return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)}; }
+  Vec3 to_local(const Vec3& world) const {
+    return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)};
+  }
   Vec3 to_world(const Vec3& local) const { return local.x * x + local.y * y + local.z * z; }
 };
 
-/// Frame about a unit normal, continuous except at one pole (Duff et al. 2017). Undefined for a vector that is not unit.
-Frame make_frame(const Vec3& unit_normal);
+/// Frame about a unit normal n, continuous except at one pole (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited"). Undefined for a vector that is not unit.
+inline Frame make_frame(const Vec3& n) {
+  const float sign = std::copysign(1.f, n.z);
+  const float a = -1.f / (sign + n.z);
+  const float b = n.x * n.y * a;
+  return {{1.f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
 
-/// Unit vector in two signed 16-bit numbers (octahedral map; error below 1e-4 rad). Zero vector encodes as +z.
+/// Unit vector in two signed 16-bit numbers (octahedral map; error below 1e-4 rad). Zero vector encodes as
+/// +z.
 std::uint32_t encode_octahedral(const Vec3& unit);
 Vec3 decode_octahedral(std::uint32_t code);
 

@@ -87,8 +87,8 @@ bool Bsdf::sample_lobe(const Vec3& o, const Vec2& u, Vec3& i) const {
       i = make_frame(mirrored(o)).to_world(sample_power_cosine(u, exponent_));
       return i.z > 0;
     case Lobe::ward: {
-      const float r = std::sqrt(-std::log(1 - u.x)), phi = 2 * kPi * u.y;
-      h = glm::normalize(Vec3(alpha_x_ * r * std::cos(phi), alpha_y_ * r * std::sin(phi), 1));
+      const Vec2 slope = std::sqrt(-std::log(1 - u.x)) * cos_sin(u.y);
+      h = glm::normalize(Vec3(alpha_x_ * slope.x, alpha_y_ * slope.y, 1));
       break;
     }
     case Lobe::ggx:
