@@ -19,8 +19,8 @@ double mean_luminance(const Scene& scene, const TextureUse& use) {
   if (!use.used()) return 1;
   const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
   double sum = 0;
-  for (const Vec4& t : texture.texels) sum += luminance(Rgb(t));
-  return texture.texels.empty() ? 1 : sum / static_cast<double>(texture.texels.size());
+  for (std::size_t i = 0; i < texture.size(); ++i) sum += luminance(Rgb(texture.texel(i)));
+  return texture.size() == 0 ? 1 : sum / static_cast<double>(texture.size());
 }
 
 void classify(MaterialSummary& s, double texture) {
@@ -168,7 +168,7 @@ std::uint64_t scene_bytes(const Scene& s) {
   std::uint64_t n = bytes_of(s.position) + bytes_of(s.normal) + bytes_of(s.uv0) + bytes_of(s.uv1) +
                     bytes_of(s.tangent) + bytes_of(s.colour) + bytes_of(s.triangle) +
                     bytes_of(s.triangle_instance);
-  for (const Texture& t : s.texture) n += bytes_of(t.texels);
+  for (const Texture& t : s.texture) n += bytes_of(t.texels) + bytes_of(t.codes);
   return n;
 }
 

@@ -81,6 +81,8 @@ std::string hash_materials(const Scene& scene) {
     hasher.add(t.wrap_v);
     hasher.add(t.nearest);
     add_vectors(hasher, t.texels);
+    hasher.add_span(std::span<const Texture::Code>(t.codes));
+    hasher.add(t.srgb);
   }
   return hasher.finish().hex();
 }

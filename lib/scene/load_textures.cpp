@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "scene/texture.h"
 
 namespace phos {
 namespace {
@@ -62,27 +63,14 @@ Size header_size(const std::string& bytes) {
   return {};
 }
 
-/// IEC 61966-2-1.
-float srgb_to_linear(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-
-/// Value of each code of a channel.
-std::vector<float> code_values(std::size_t codes, bool srgb) {
-  std::vector<float> values(codes);
-  for (std::size_t i = 0; i < codes; ++i) {
-    const float v = static_cast<float>(i) / static_cast<float>(codes - 1);
-    values[i] = srgb ? srgb_to_linear(v) : v;
-  }
-  return values;
-}
-
-template <class Code>
 void fill_texels(const std::vector<unsigned char>& bytes, bool srgb, std::vector<Vec4>& texels) {
-  const std::vector<float> colour = code_values(std::size_t{1} << 8 * sizeof(Code), srgb);
-  const std::vector<float> linear = code_values(std::size_t{1} << 8 * sizeof(Code), false);
+  constexpr int kLargest = 0xffff;
+  std::vector<float> colour(kLargest + 1);
+  for (int i = 0; i <= kLargest; ++i) colour[static_cast<std::size_t>(i)] = decode_channel(i, kLargest, srgb);
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    std::array<Code, 4> c;
+    std::array<std::uint16_t, 4> c;
     std::memcpy(c.data(), bytes.data() + i * sizeof c, sizeof c);
-    texels[i] = {colour[c[0]], colour[c[1]], colour[c[2]], linear[c[3]]};
+    texels[i] = {colour[c[0]], colour[c[1]], colour[c[2]], decode_channel(c[3], kLargest, false)};
   }
 }
 
@@ -105,11 +93,13 @@ std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) 
   if (image.image.size() < pixels * 4 * code) return "cannot be decoded";
   texture.width = image.width;
   texture.height = image.height;
-  texture.texels.resize(pixels);
   if (code == 2) {
-    fill_texels<std::uint16_t>(image.image, srgb, texture.texels);
+    texture.texels.resize(pixels);
+    fill_texels(image.image, srgb, texture.texels);
   } else {
-    fill_texels<std::uint8_t>(image.image, srgb, texture.texels);
+    texture.srgb = srgb;
+    texture.codes.resize(pixels);
+    std::memcpy(texture.codes.data(), image.image.data(), pixels * sizeof(Texture::Code));
   }
   return "";
 }

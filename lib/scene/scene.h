@@ -1,6 +1,7 @@
 // A scene as the light sees it: world-space triangles, materials, luminaires, cameras, at one time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,11 +13,18 @@
 
 namespace phos {
 
-/// Linear values, row 0 at v = 0 (glTF). sRGB is decoded on load where the use asks for it.
+/// Row 0 is at v = 0 (glTF). Texels are linear values, or the codes of an 8-bit image: a quarter of the
+/// memory, and of the cache misses.
 struct Texture {
+  using Code = std::array<std::uint8_t, 4>;
   std::string name;
   int width = 0, height = 0;
   std::vector<Vec4> texels;
+  std::vector<Code> codes;  ///< RGBA, used where `texels` is empty
+  bool srgb = false;        ///< colours of `codes` are sRGB; else 0..255 stands for 0..1. Alpha always does
+  std::size_t size() const { return texels.empty() ? codes.size() : texels.size(); }
+  /// Linear value of texel i < size().
+  Vec4 texel(std::size_t i) const;
   enum class Wrap : std::uint8_t { repeat, clamp, mirror };
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
   bool nearest = false;  ///< magnification filter; else bilinear
@@ -49,7 +57,8 @@ enum class Model : std::uint8_t {
 struct Material {
   std::string name;
   Model model = Model::lambert;
-  Rgb kd{0};  ///< diffuse reflectance, or base colour of metallic_roughness; multiplied by base_colour texture
+  Rgb kd{
+      0};  ///< diffuse reflectance, or base colour of metallic_roughness; multiplied by base_colour texture
   Rgb ks{0};  ///< specular reflectance (phong, ward, mirror) or f0 (conductor)
   float exponent = 1;
   float alpha_x = 0, alpha_y = 0;  ///< GGX or Ward roughness (alpha, not its root)
@@ -60,7 +69,7 @@ struct Material {
   float transmission = 0;  ///< KHR_materials_transmission
   TextureUse base_colour, metallic_roughness, normal, emissive;
   float normal_scale = 1;
-  Rgb emission{0};  ///< luminance, cd/m2; multiplied by the emissive texture
+  Rgb emission{0};            ///< luminance, cd/m2; multiplied by the emissive texture
   bool double_sided = false;  ///< emission from both sides; reflection is two-sided always
   enum class Alpha : std::uint8_t { opaque, mask, blend };
   Alpha alpha_mode = Alpha::opaque;
@@ -121,10 +130,10 @@ struct Scene {
   std::string path;
   // Per vertex, world space.
   std::vector<Vec3> position;
-  std::vector<Vec3> normal;     ///< unit shading normals
-  std::vector<Vec2> uv0, uv1;   ///< empty, or one per vertex
-  std::vector<Vec4> tangent;    ///< empty, or xyz + handedness
-  std::vector<Vec4> colour;     ///< COLOR_0, linear; empty where no vertex has one
+  std::vector<Vec3> normal;    ///< unit shading normals
+  std::vector<Vec2> uv0, uv1;  ///< empty, or one per vertex
+  std::vector<Vec4> tangent;   ///< empty, or xyz + handedness
+  std::vector<Vec4> colour;    ///< COLOR_0, linear; empty where no vertex has one
   // Per triangle.
   std::vector<Triangle> triangle;
   std::vector<std::uint32_t> triangle_instance;
@@ -136,7 +145,7 @@ struct Scene {
   std::vector<Animation> animation;
   double time_s = 0;
   double frames_per_s = 24;
-  std::int64_t frames = 0;  ///< of scenes[0].extras.animation, or from the longest animation
+  std::int64_t frames = 0;            ///< of scenes[0].extras.animation, or from the longest animation
   std::vector<std::string> warnings;  ///< what the loader mended or ignored, one line each
   std::map<std::string, std::uint64_t> events;  ///< degenerate triangles dropped, normals made, ...
   // Filled by finalize().
@@ -144,12 +153,14 @@ struct Scene {
   std::string hash;  ///< of everything that changes the light (not cameras, not names)
   Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}}
 
-  const Material& material_of(std::uint32_t tri) const { return material[instance[triangle_instance[tri]].material]; }
+  const Material& material_of(std::uint32_t tri) const {
+    return material[instance[triangle_instance[tri]].material];
+  }
 };
 
-/// Completes a scene whose geometry, materials, punctual lights and cameras are set: makes absent normals, area lights
-/// from emitting instances, fluxes, bounds, hash and parts. Throws Error(bad_input) for indices out of range or
-/// non-finite positions. Loader and tests use it alike.
+/// Completes a scene whose geometry, materials, punctual lights and cameras are set: makes absent normals,
+/// area lights from emitting instances, fluxes, bounds, hash and parts. Throws Error(bad_input) for indices
+/// out of range or non-finite positions. Loader and tests use it alike.
 void finalize(Scene& scene);
 
 /// Geometric normal by winding (unit; zero for a degenerate triangle) and area in m2.

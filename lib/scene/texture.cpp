@@ -1,26 +1,42 @@
 #include "scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace phos {
 
 namespace {
 
+/// Value of each 8-bit code.
+struct Decoded {
+  std::array<float, 256> value;
+  explicit Decoded(bool srgb) {
+    for (int i = 0; i < 256; ++i) value[static_cast<std::size_t>(i)] = decode_channel(i, 255, srgb);
+  }
+};
+const Decoded kLinear(false), kSrgb(true);
+
+/// t - floor(t); 0 for what is not finite. (std::floor is a call on the oldest x86.)
+float fraction(float t) {
+  if (!(std::fabs(t) < 0x1p23f)) return 0;  // whole
+  const float truncated = static_cast<float>(static_cast<int>(t));
+  return t - (truncated > t ? truncated - 1 : truncated);
+}
+
 /// Maps a coordinate into [0,1]; 0 for one that is not finite.
 float wrapped(float t, Texture::Wrap wrap) {
-  if (!std::isfinite(t)) return 0;
   switch (wrap) {
     case Texture::Wrap::clamp:
-      return std::clamp(t, 0.f, 1.f);
+      return std::isfinite(t) ? std::clamp(t, 0.f, 1.f) : 0.f;
     case Texture::Wrap::mirror: {
-      const float period = t - 2.f * std::floor(0.5f * t);
+      const float period = 2 * fraction(0.5f * t);
       return period > 1.f ? 2.f - period : period;
     }
     case Texture::Wrap::repeat:
       break;
   }
-  return t - std::floor(t);
+  return fraction(t);
 }
 
 /// Index of a texel that may lie one beyond either end.
@@ -31,25 +47,35 @@ int wrapped_texel(int i, int n, Texture::Wrap wrap) {
 
 }  // namespace
 
+float decode_channel(int code, int largest, bool srgb) {
+  const float v = static_cast<float>(code) / static_cast<float>(largest);
+  if (!srgb) return v;
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);  // IEC 61966-2-1
+}
+
+Vec4 Texture::texel(std::size_t i) const {
+  if (!texels.empty()) return texels[i];
+  const Code& c = codes[i];
+  const std::array<float, 256>& colour = (srgb ? kSrgb : kLinear).value;
+  return {colour[c[0]], colour[c[1]], colour[c[2]], kLinear.value[c[3]]};
+}
+
 Vec4 Texture::at(const Vec2& uv) const {
-  if (width <= 0 || height <= 0 || texels.empty()) return Vec4(1);
+  if (width <= 0 || height <= 0 || size() == 0) return Vec4(1);
   const float x = wrapped(uv.x, wrap_u) * static_cast<float>(width);
   const float y = wrapped(uv.y, wrap_v) * static_cast<float>(height);
-  const auto texel = [&](int i, int j) -> const Vec4& {
-    return texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(i)];
+  const auto there = [&](int i, int j) {
+    return texel(static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i));
   };
   if (nearest) {
-    return texel(std::min(static_cast<int>(x), width - 1), std::min(static_cast<int>(y), height - 1));
+    return there(std::min(static_cast<int>(x), width - 1), std::min(static_cast<int>(y), height - 1));
   }
-  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
-  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
-  const int i0 = wrapped_texel(static_cast<int>(x0), width, wrap_u);
-  const int i1 = wrapped_texel(static_cast<int>(x0) + 1, width, wrap_u);
-  const int j0 = wrapped_texel(static_cast<int>(y0), height, wrap_v);
-  const int j1 = wrapped_texel(static_cast<int>(y0) + 1, height, wrap_v);
-  const Vec4 top = (1 - fx) * texel(i0, j0) + fx * texel(i1, j0);
-  const Vec4 bottom = (1 - fx) * texel(i0, j1) + fx * texel(i1, j1);
+  const int x0 = static_cast<int>(x + 0.5f) - 1, y0 = static_cast<int>(y + 0.5f) - 1;
+  const float fx = x - 0.5f - static_cast<float>(x0), fy = y - 0.5f - static_cast<float>(y0);
+  const int i0 = wrapped_texel(x0, width, wrap_u), i1 = wrapped_texel(x0 + 1, width, wrap_u);
+  const int j0 = wrapped_texel(y0, height, wrap_v), j1 = wrapped_texel(y0 + 1, height, wrap_v);
+  const Vec4 top = (1 - fx) * there(i0, j0) + fx * there(i1, j0);
+  const Vec4 bottom = (1 - fx) * there(i0, j1) + fx * there(i1, j1);
   return (1 - fy) * top + fy * bottom;
 }
 

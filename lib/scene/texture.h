@@ -5,6 +5,9 @@
 
 namespace phos {
 
+/// Linear value, 0..1, of a channel's code out of 0..largest.
+float decode_channel(int code, int largest, bool srgb);
+
 /// Texture coordinates after KHR_texture_transform (scale, then rotation, then offset).
 Vec2 transformed(const TextureUse& use, const Vec2& uv);
 

@@ -134,10 +134,9 @@ void GlMesh::make_masks() {
     if (!use.used()) continue;
     const Texture& texture = scene_.texture[static_cast<std::size_t>(use.texture)];
     GlObject& alpha = alpha_[static_cast<std::size_t>(use.texture)];
-    if (alpha || texture.texels.empty()) continue;
-    std::vector<float> there(texture.texels.size());
-    std::transform(texture.texels.begin(), texture.texels.end(), there.begin(),
-                   [](const Vec4& t) { return t.w; });
+    if (alpha || texture.size() == 0) continue;
+    std::vector<float> there(texture.size());
+    for (std::size_t t = 0; t < there.size(); ++t) there[t] = texture.texel(t).w;
     alpha = make_texture(gl_, GL_R32F, texture.width, texture.height);
     const GLint filter = texture.nearest ? GL_NEAREST : GL_LINEAR;
     gl_.TextureParameteri(alpha.id(), GL_TEXTURE_MIN_FILTER, filter);

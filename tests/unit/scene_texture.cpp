@@ -46,6 +46,20 @@ TEST(Texture, TakesTheNearestTexelWhereAsked) {
   EXPECT_EQ(four(Texture::Wrap::clamp, true).at({1, 1}).x, 3);
 }
 
+TEST(Texture, CodesAreDecoded) {
+  Texture t;
+  t.width = 2, t.height = 1;
+  t.codes = {{0, 128, 255, 128}, {51, 10, 0, 255}};
+  t.wrap_u = t.wrap_v = Texture::Wrap::clamp;
+  EXPECT_EQ(t.size(), 2u);
+  EXPECT_EQ(t.at({0, 0.5f}), Vec4(0, 128 / 255.f, 1, 128 / 255.f));
+  EXPECT_FLOAT_EQ(t.at({0.5f, 0.5f}).x, 0.1f);
+  t.srgb = true;
+  EXPECT_NEAR(t.texel(0).y, 0.2158605, 1e-6);          // a middle grey
+  EXPECT_NEAR(t.texel(1).y, 10 / 255. / 12.92, 1e-7);  // the straight piece near black
+  EXPECT_EQ(t.texel(0).w, 128 / 255.f);
+}
+
 TEST(Texture, IsFiniteForAnyCoordinates) {
   for (const auto wrap : {Texture::Wrap::repeat, Texture::Wrap::clamp, Texture::Wrap::mirror}) {
     for (const bool nearest : {false, true}) {
