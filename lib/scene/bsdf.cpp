@@ -165,33 +165,39 @@ float Bsdf::density(const Vec3& wo, const Vec3& wi) const {
 }
 
 float Bsdf::flux_correction(const Vec3& wo, const Vec3& wi) const {
+  if (frame_.z == geometric_normal_) return 1;
   const float ratio = std::fabs(glm::dot(wo, frame_.z) * glm::dot(wi, geometric_normal_)) /
                       std::fabs(glm::dot(wo, geometric_normal_) * glm::dot(wi, frame_.z));
   return std::isfinite(ratio) ? ratio : 0.f;
 }
 
+bool Bsdf::sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, TransportMode mode) const {
+  if (!has_diffuse() || !(glm::dot(wo, frame_.z) > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
+  const Vec3 i = sample_cosine_hemisphere(u), wi = frame_.to_world(i);
+  if (!(i.z > 0) || !(glm::dot(wi, geometric_normal_) > 0)) return false;
+  result.direction = wi;
+  result.weight = mode == TransportMode::flux ? flux_correction(wo, wi) * diffuse_ : diffuse_;
+  result.density = i.z / kPi;
+  result.specular = result.transmitted = false;
+  return true;
+}
+
 bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
+  if (lobe_ == Lobe::none && delta_ == Delta::none && !coated_) return sample_lambert(wo, u, result, mode);
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
-  const bool plain = lobe_ == Lobe::none && delta_ == Delta::none;
-  Choice p;
-  if (plain) {
-    if (!has_diffuse()) return false;
-    p.diffuse = 1;
-  } else {
-    BsdfSample branches[2];
-    const int count = specular_branches(wo, branches, TransportMode::flux);
-    p = choice(o, branches, count);
-    const float beyond = u_lobe - (p.diffuse + p.gloss);
-    if (count > 0 && beyond >= 0) {
-      const int b = count == 2 && beyond >= p.delta[0] ? 1 : 0;
-      if (!(p.delta[b] > 0)) return false;
-      if (mode == TransportMode::radiance) specular_branches(wo, branches, mode);
-      result = branches[b];
-      result.weight /= p.delta[b];
-      if (mode == TransportMode::flux) result.weight *= flux_correction(wo, result.direction);
-      return true;
-    }
+  BsdfSample branches[2];
+  const int count = specular_branches(wo, branches, TransportMode::flux);
+  const Choice p = choice(o, branches, count);
+  const float beyond = u_lobe - (p.diffuse + p.gloss);
+  if (count > 0 && beyond >= 0) {
+    const int b = count == 2 && beyond >= p.delta[0] ? 1 : 0;
+    if (!(p.delta[b] > 0)) return false;
+    if (mode == TransportMode::radiance) specular_branches(wo, branches, mode);
+    result = branches[b];
+    result.weight /= p.delta[b];
+    if (mode == TransportMode::flux) result.weight *= flux_correction(wo, result.direction);
+    return true;
   }
   Vec3 i;
   if (p.gloss == 0 || u_lobe < p.diffuse) {
@@ -207,8 +213,7 @@ bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& resul
   result.density = p.diffuse * i.z / kPi;
   if (p.gloss > 0) result.density += p.gloss * lobe_density(o, i);
   if (!(result.density > 0)) return false;
-  result.weight =
-      plain && !coated_ ? diffuse_ : (base_value(o, i) + lobe_value(o, i)) * (i.z / result.density);
+  result.weight = (base_value(o, i) + lobe_value(o, i)) * (i.z / result.density);
   if (mode == TransportMode::flux) result.weight *= flux_correction(wo, wi);
   return true;
 }

@@ -95,6 +95,7 @@ class Bsdf {
   struct Choice {
     float diffuse = 0, gloss = 0, delta[2] = {0, 0};
   };
+  bool sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, TransportMode mode) const;
   Choice choice(const Vec3& o, const BsdfSample branches[2], int count) const;
   float broad_share(const Vec3& o) const;
   float flux_correction(const Vec3& wo, const Vec3& wi) const;

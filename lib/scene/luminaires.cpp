@@ -25,13 +25,15 @@ float spot_falloff(const Light& light, float cos_angle) {
 
 namespace {
 
+/// In double: the point then lies on the plane to within the rounding of its coordinates.
+Vec3 point_at(const Vec3 corner[3], const Vec2& weights) {
+  const auto u = static_cast<double>(weights.x), v = static_cast<double>(weights.y);
+  return Vec3((1 - u - v) * glm::dvec3(corner[0]) + u * glm::dvec3(corner[1]) + v * glm::dvec3(corner[2]));
+}
+
 struct Corners {
   Vec3 p[3];
   float error_m() const { return offset_m(p[0], p[1], p[2]); }
-  Vec3 at(const Vec2& weights) const {
-    const auto u = static_cast<double>(weights.x), v = static_cast<double>(weights.y);
-    return Vec3((1 - u - v) * glm::dvec3(p[0]) + u * glm::dvec3(p[1]) + v * glm::dvec3(p[2]));
-  }
   Vec3 normal() const { return normal_of(p[0], p[1], p[2]); }
   double area_m2() const {
     return 0.5 *
@@ -85,7 +87,7 @@ Luminaires::Shape Luminaires::make_shape(const Light& light) const {
   // A triangle whose probed texels are all dark may still shine somewhere: it keeps a tenth of the mean.
   const double least = total_area > 0 ? 0.1 * power / total_area : 0;
   Shape shape;
-  shape.cdf.resize(n), shape.density_per_m2.resize(n);
+  shape.cdf.resize(n), shape.facet.resize(n);
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) {
     sum += area[k] * (power > 0 ? std::max(mean[k], least) : 1.0);
@@ -94,7 +96,11 @@ Luminaires::Shape Luminaires::make_shape(const Light& light) const {
   for (std::size_t k = 0; k < n; ++k) {
     shape.cdf[k] = sum > 0 ? shape.cdf[k] / sum : static_cast<double>(k + 1) / static_cast<double>(n);
     const double share = shape.cdf[k] - (k > 0 ? shape.cdf[k - 1] : 0);
-    shape.density_per_m2[k] = area[k] > 0 ? static_cast<float>(share / area[k]) : 0.f;
+    const Corners c = corners_of(*scene_, static_cast<std::uint32_t>(instance.first_triangle + k));
+    shape.facet[k] = {{c.p[0], c.p[1], c.p[2]},
+                      c.normal(),
+                      c.error_m(),
+                      area[k] > 0 ? static_cast<float>(share / area[k]) : 0.f};
   }
   if (n == 2 && std::fabs(shape.cdf[0] - 0.5) < 1e-6) find_parallelogram(instance, shape);
   return shape;
@@ -123,13 +129,12 @@ Luminaires::Spot Luminaires::choose(const Light& light, const Shape& shape, floa
   if (shape.parallelogram) {
     // Across the square: one triangle below its diagonal, the other above it, turned by half a turn.
     const bool second = u.x + u.y > 1;
-    const Vec2 edge = second ? Vec2(1 - u.x, 1 - u.y) : u;
-    const unsigned corner = shape.corner[second ? 1 : 0];
-    float weight[3];
-    weight[corner] = 1 - edge.x - edge.y;
-    weight[(corner + 1) % 3] = edge.x;
-    weight[(corner + 2) % 3] = edge.y;
-    return {instance.first_triangle + (second ? 1u : 0u), {weight[1], weight[2]}};
+    const float xs[2] = {u.x, 1 - u.x}, ys[2] = {u.y, 1 - u.y};
+    const float x = xs[second], y = ys[second];
+    // Of the corners after the opposite one, and so on round.
+    const float weight[] = {x, y, 1 - x - y, x, y};
+    const unsigned corner = shape.corner[second];
+    return {instance.first_triangle + second, {weight[3 - corner], weight[4 - corner]}};
   }
   const auto it = std::upper_bound(shape.cdf.begin(), shape.cdf.end(), static_cast<double>(u_triangle));
   auto k = static_cast<std::size_t>(it - shape.cdf.begin());
@@ -141,14 +146,14 @@ EmissionPoint Luminaires::sample_point(std::size_t i, float u_triangle, const Ve
   const Light& light = scene_->light[i];
   PHOS_CHECK(light.kind == Light::Kind::area && !shape_[i].cdf.empty(), "light ", i, " has no area");
   const Spot spot = choose(light, shape_[i], u_triangle, u);
-  const Corners corners = corners_of(*scene_, spot.triangle);
+  const Facet& facet = shape_[i].facet[spot.triangle - scene_->instance[light.instance].first_triangle];
   EmissionPoint point;
-  point.position = corners.at(spot.weights);
-  point.normal = corners.normal();
-  point.error_m = corners.error_m();
+  point.position = point_at(facet.corner, spot.weights);
+  point.normal = facet.normal;
+  point.error_m = facet.error_m;
   point.triangle = spot.triangle;
   point.luminance = emission_at(*scene_, spot.triangle, spot.weights.x, spot.weights.y);
-  point.density = shape_[i].density_per_m2[spot.triangle - scene_->instance[light.instance].first_triangle];
+  point.density = facet.density_per_m2;
   return point;
 }
 
@@ -192,7 +197,7 @@ float Luminaires::density(std::size_t i, std::uint32_t triangle, float distance_
   const Instance& instance = scene_->instance[light.instance];
   const std::uint32_t k = triangle - instance.first_triangle;  // wraps for one before it
   if (k >= instance.triangle_count) return 0;
-  return shape_[i].density_per_m2[k] * distance_m * distance_m / cos_light;
+  return shape_[i].facet[k].density_per_m2 * distance_m * distance_m / cos_light;
 }
 
 std::int32_t Luminaires::light_of(std::uint32_t triangle) const {

@@ -61,9 +61,14 @@ class Luminaires {
   std::vector<double> power_shares(double minimum_share) const;
 
  private:
+  struct Facet {
+    Vec3 corner[3], normal;
+    float error_m;
+    float density_per_m2;  // 0 for one that is never chosen
+  };
   struct Shape {
-    std::vector<double> cdf;            // over the triangles, ends at 1
-    std::vector<float> density_per_m2;  // of each triangle; 0 for one that is never chosen
+    std::vector<double> cdf;   // over the triangles, ends at 1
+    std::vector<Facet> facet;  // of each triangle
     bool parallelogram = false;
     std::uint8_t corner[2] = {0,
                               0};  // the corners (of the two triangles) that lie opposite their common edge

@@ -18,11 +18,24 @@ namespace {
 
 constexpr unsigned kOpaque = 0, kMasked = 1;
 
-/// Geometric normal of the front side, and the offset of rays that leave.
-struct Plane {
-  Vec3 normal;
+/// What every hit on a triangle needs of it, in one cache line.
+struct alignas(64) Facet {
+  Vec3 corner[3];
+  Vec3 normal;  // of the front side
   float offset_m;
+  std::uint32_t instance, material;
+  bool flat;  // the vertices have that normal too
 };
+static_assert(sizeof(Facet) == 64);
+
+/// Vertex normals are rounded: one that differs by less than this from the triangle's own is the same.
+bool is_flat(const Scene& scene, const Triangle& triangle, const Vec3& normal) {
+  if (scene.normal.empty()) return true;
+  return std::all_of(std::begin(triangle.v), std::end(triangle.v), [&](std::uint32_t v) {
+    const Vec3 gap = glm::abs(scene.normal[v] - normal);
+    return std::max({gap.x, gap.y, gap.z}) <= 0x1p-20f;
+  });
+}
 
 /// A texel that rays pass through. Blending is not simulated: what is less than half there is a hole.
 bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
@@ -79,11 +92,11 @@ struct RayScene::Impl {
   RTCDevice device = nullptr;
   RTCScene tree = nullptr;
   std::vector<std::uint32_t> triangle_of[2];  // per Embree geometry; empty where primitive i is triangle i
-  std::vector<Plane> plane;                   // per triangle
+  std::vector<Facet> facet;                   // per triangle
   std::vector<Reads> reads;                   // per material
 
   void make_device(const std::string& isa);
-  void make_planes();
+  void make_facets();
   void attach(unsigned geometry, const std::vector<std::uint32_t>* triangles);
   void build();
   std::uint32_t triangle(unsigned geometry, unsigned primitive) const {
@@ -108,12 +121,19 @@ void RayScene::Impl::make_device(const std::string& isa) {
            static_cast<int>(rtcGetDeviceError(nullptr)), "); use one that this machine has, such as sse2"));
 }
 
-void RayScene::Impl::make_planes() {
-  plane.resize(scene.triangle.size());
-  parallel_for(plane.size(), 4096, [&](std::size_t i) {
-    const auto& corner = scene.triangle[i].v;
-    const Vec3 &a = scene.position[corner[0]], &b = scene.position[corner[1]], &c = scene.position[corner[2]];
-    plane[i] = {normal_of(a, b, c), phos::offset_m(a, b, c)};
+void RayScene::Impl::make_facets() {
+  facet.resize(scene.triangle.size());
+  parallel_for(facet.size(), 4096, [&](std::size_t i) {
+    const auto& v = scene.triangle[i].v;
+    const Vec3 &a = scene.position[v[0]], &b = scene.position[v[1]], &c = scene.position[v[2]];
+    const Vec3 normal = normal_of(a, b, c);
+    const std::uint32_t instance = scene.triangle_instance[i];
+    facet[i] = {{a, b, c},
+                normal,
+                phos::offset_m(a, b, c),
+                instance,
+                scene.instance[instance].material,
+                is_flat(scene, scene.triangle[i], normal)};
   });
 }
 
@@ -175,7 +195,7 @@ void RayScene::Impl::build() {
 
 RayScene::RayScene(const Scene& scene, const RayOptions& options) : impl_(std::make_unique<Impl>(scene)) {
   impl_->make_device(options.isa);
-  impl_->make_planes();
+  impl_->make_facets();
   for (const Material& material : scene.material) impl_->reads.push_back(reads_of(scene, material));
   impl_->build();
 }
@@ -237,26 +257,24 @@ bool RayScene::visible(const SurfacePoint& a, const Vec3& point, float error_m) 
 }
 
 SurfacePoint RayScene::surface(const Ray& ray, const Hit& hit) const {
-  const Scene& scene = impl_->scene;
-  const auto& corner = scene.triangle[hit.triangle].v;
-  const Plane& plane = impl_->plane[hit.triangle];
+  const Facet& facet = impl_->facet[hit.triangle];
   const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
 
   SurfacePoint point;
   point.triangle = hit.triangle;
-  point.instance = scene.triangle_instance[hit.triangle];
-  point.material = scene.instance[point.instance].material;
+  point.instance = facet.instance;
+  point.material = facet.material;
   point.distance_m = hit.distance_m;
-  point.error_m = plane.offset_m;
+  point.error_m = facet.offset_m;
   // In double: the point then lies on the plane to within the rounding of its coordinates.
   const double u = hit.u, v = hit.v, w = 1 - u - v;
-  const Vec3 &a = scene.position[corner[0]], &b = scene.position[corner[1]], &c = scene.position[corner[2]];
+  const auto& [a, b, c] = facet.corner;
   point.position =
       Vec3(static_cast<float>(w * a.x + u * b.x + v * c.x), static_cast<float>(w * a.y + u * b.y + v * c.y),
            static_cast<float>(w * a.z + u * b.z + v * c.z));
-  point.front = glm::dot(ray.direction, plane.normal) <= 0;
-  point.geometric_normal = point.front ? plane.normal : -plane.normal;
-  shade(scene, impl_->reads[point.material], weight, -ray.direction, point);
+  point.front = glm::dot(ray.direction, facet.normal) <= 0;
+  point.geometric_normal = point.front ? facet.normal : -facet.normal;
+  shade(impl_->scene, impl_->reads[point.material], weight, -ray.direction, point, facet.flat);
   return point;
 }
 

@@ -103,14 +103,14 @@ Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 void shade(const Scene& scene, const Reads& reads, const float weight[3], const Vec3& towards_eye,
-           SurfacePoint& point) {
+           SurfacePoint& point, bool flat) {
   // Seen from below its own horizon a shading normal would be black; it is tilted until this cosine is left.
   constexpr float kLeastCosine = 0.01f;
   const Material& material = scene.material[point.material];
   if (reads.uv0) point.uv0 = texture_coordinates(scene, point.triangle, 0, weight[1], weight[2]);
   if (reads.uv1) point.uv1 = texture_coordinates(scene, point.triangle, 1, weight[1], weight[2]);
   if (reads.colour) point.colour = blend(scene.colour, scene.triangle[point.triangle], weight);
-  point.smooth_normal = smooth_normal_of(scene, point, weight);
+  point.smooth_normal = flat ? point.geometric_normal : smooth_normal_of(scene, point, weight);
   point.normal = point.smooth_normal;
 
   Vec4 tangent(0);
@@ -120,15 +120,15 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
         bent_towards(mapped_normal(scene, material, tangent, point), point.geometric_normal, 0.05f);
   }
   const float grazing = glm::dot(towards_eye, point.geometric_normal);
-  if (point.normal != point.geometric_normal) {
+  if (!flat || reads.normal_map) {
     point.normal = bent_towards(point.normal, towards_eye, std::fmin(kLeastCosine, grazing));
   }
-  point.tangent = Vec3(0);
+  point.tangent = make_frame(point.normal).x;
   if (reads.tangent) {
     const Vec3 t(tangent);
-    point.tangent = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
+    const Vec3 along = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
+    if (along != Vec3(0)) point.tangent = along;
   }
-  if (point.tangent == Vec3(0)) point.tangent = make_frame(point.normal).x;
 }
 
 }  // namespace phos

@@ -19,8 +19,9 @@ Reads reads_of(const Scene& scene, const Material& material);
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Fills smooth_normal, normal, tangent, uv and colour of a point whose other fields are set. `weight` are
-/// the barycentric weights; `towards_eye` is the unit direction it is seen from.
+/// the barycentric weights; `towards_eye` is the unit direction it is seen from; `flat` says that the
+/// vertices have the triangle's normal.
 void shade(const Scene& scene, const Reads& reads, const float weight[3], const Vec3& towards_eye,
-           SurfacePoint& point);
+           SurfacePoint& point, bool flat = false);
 
 }  // namespace phos
