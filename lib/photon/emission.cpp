@@ -46,7 +46,7 @@ float sample_spot_cosine(float cos_inner, float cos_outer, float u) {
 }
 
 Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed)
-    : scene_(&scene), luminaires_(scene), paths_(paths), bounding_radius_m_(bounding_radius_m(scene)) {
+    : scene_(&scene), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
   if (luminaires_.size() == 0)
     throw Error(
         ExitCode::bad_input, scene.path,
@@ -67,6 +67,7 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
   double sum = 0;
   for (double& share : share_) {
     share /= shares;
+    scale_.push_back(static_cast<float>(1 / (share * static_cast<double>(paths))));
     sum += share;
     last_.push_back(sum >= 1 ? kLastTick : static_cast<std::uint64_t>(std::ldexp(sum, 64)));
   }
@@ -88,24 +89,24 @@ std::size_t Emitter::light_of(std::uint64_t path) const {
 
 EmittedPhoton Emitter::emit(std::uint64_t path, RandomStream& random) const {
   const std::size_t i = light_of(path);
+  EmittedPhoton photon = start(i, random);
+  photon.flux_lm *= scale_[i];
+  return photon;
+}
+
+EmittedPhoton Emitter::start(std::size_t i, RandomStream& random) const {
   const Light& light = luminaires_[i];
-  EmittedPhoton photon;
   switch (light.kind) {
     case Light::Kind::area:
-      photon = from_area(i, random);
       break;
     case Light::Kind::point:
-      photon = from_point(light, random);
-      break;
+      return from_point(light, random);
     case Light::Kind::spot:
-      photon = from_spot(light, random);
-      break;
+      return from_spot(light, random);
     case Light::Kind::directional:
-      photon = from_infinity(light, random);
-      break;
+      return from_infinity(light, random);
   }
-  photon.flux_lm *= static_cast<float>(1 / (share_[i] * static_cast<double>(paths_)));
-  return photon;
+  return from_area(i, random);
 }
 
 EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
@@ -137,11 +138,10 @@ EmittedPhoton Emitter::from_point(const Light& light, RandomStream& random) cons
 EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const {
   const Vec2 u = random.uniform2();
   const float cosine = sample_spot_cosine(light.cos_inner, light.cos_outer, u.x);
-  const float sine = std::sqrt(std::fmax(0.0f, 1 - cosine * cosine)), phi = 2 * kPi * u.y;
+  const float sine = std::sqrt(std::fmax(0.0f, 1 - cosine * cosine));
   EmittedPhoton photon;
   photon.ray.origin = light.position;
-  photon.ray.direction =
-      make_frame(light.direction).to_world(Vec3(sine * std::cos(phi), sine * std::sin(phi), cosine));
+  photon.ray.direction = make_frame(light.direction).to_world(Vec3(sine * cos_sin(u.y), cosine));
   photon.source_normal = photon.ray.direction;
   photon.flux_lm =
       static_cast<float>(spot_solid_angle_sr(light.cos_inner, light.cos_outer)) * light.intensity;

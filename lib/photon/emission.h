@@ -40,6 +40,7 @@ class Emitter {
   int flux_exponent() const { return flux_exponent_; }
 
  private:
+  EmittedPhoton start(std::size_t i, RandomStream& random) const;
   EmittedPhoton from_area(std::size_t i, RandomStream& random) const;
   EmittedPhoton from_point(const Light& light, RandomStream& random) const;
   EmittedPhoton from_spot(const Light& light, RandomStream& random) const;
@@ -47,8 +48,9 @@ class Emitter {
 
   const Scene* scene_;
   Luminaires luminaires_;
-  std::uint64_t paths_, rotation_ = 0;
+  std::uint64_t rotation_ = 0;
   std::vector<double> share_;
+  std::vector<float> scale_;  // of a photon of light i, for its share of the paths
   std::vector<std::uint64_t>
       last_;  // light i takes the ticks up to and including last_[i], after those of i-1
   float bounding_radius_m_ = 0;

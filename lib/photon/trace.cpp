@@ -18,9 +18,9 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kPathChunk = 1024;
-// Chunks of a wave wait in memory for each other before they are joined in order: the first few tell how many
-// photons a path gives, the later ones are as many as give this number of rows.
-constexpr std::uint64_t kFirstWave = 16 * kPathChunk, kWaveRows = 1 << 19;
+// Chunks of a wave wait in memory for each other before they are joined in order. Enough of them to keep
+// every thread busy, and no more, so that their memory is used again before it has left the cache.
+constexpr std::uint64_t kChunksPerThread = 16;
 constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
 
 // Without the not-a-number rules of fmax, which cost a call.
@@ -44,6 +44,7 @@ struct Part {
 struct Flight {
   Ray ray;
   Rgb flux_lm{0};
+  FluxSum units;  // of flux_lm
   Vec3 source_normal{0, 0, 1};
   std::uint32_t bounce = 0;
   bool from_infinity = false;
@@ -85,8 +86,9 @@ class PathTracer {
       ++part.non_finite;
       return;
     }
-    part.emitted += units(start.flux_lm);
-    Flight flight{start.ray, start.flux_lm, start.source_normal, 0, start.from_infinity, true};
+    Flight flight{start.ray,           start.flux_lm, units(start.flux_lm), start.source_normal, 0,
+                  start.from_infinity, true};
+    part.emitted += flight.units;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
   }
@@ -97,21 +99,22 @@ class PathTracer {
   /// To the next surface and off it again. False: the photon is no more.
   bool step(Flight& flight, RandomStream& random, Part& part) const {
     if (log_) part.rays.push_back(flight.ray);
-    SurfacePoint point;
-    if (!trace(rays_, flight.ray, point)) {
-      part.escaped += units(flight.flux_lm);
+    Hit hit;
+    if (!rays_.intersect(flight.ray, hit)) {
+      part.escaped += flight.units;
       ++part.escaped_paths;
       return false;
     }
+    const SurfacePoint point = rays_.surface(flight.ray, hit);
     const Bsdf bsdf(rays_.scene(), point);
-    const FluxSum arriving = units(flight.flux_lm);
     if (stores(bsdf)) {
       store(part.photons, flight, point);
-      part.stored += arriving;
+      part.stored += flight.units;
     }
-    part.absorbed += arriving;
+    part.absorbed += flight.units;
     if (!scatter(bsdf, point, flight, random, part)) return false;
-    part.absorbed -= units(flight.flux_lm);
+    flight.units = units(flight.flux_lm);
+    part.absorbed -= flight.units;
     return true;
   }
 
@@ -135,7 +138,7 @@ class PathTracer {
     }
     const float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
     if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return false;
-    flight.flux_lm = flux / survival;
+    flight.flux_lm = (1 / survival) * flux;
     flight.ray = Ray{point.leave(sample.direction), sample.direction};
     flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
                                                                                    : -point.geometric_normal;
@@ -263,9 +266,9 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   const PathTracer tracer(rays, emitter, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");
   std::vector<Part> parts;
-  std::uint64_t wave = kFirstWave;
+  const std::uint64_t full_wave = kChunksPerThread * kPathChunk * static_cast<std::uint64_t>(thread_count());
   for (std::uint64_t done = 0; done < range.count;) {
-    wave = std::min(wave, range.count - done);
+    const std::uint64_t wave = std::min(full_wave, range.count - done);
     const std::uint64_t first = range.first + done;
     parts.resize(std::max<std::size_t>(parts.size(), (wave + kPathChunk - 1) / kPathChunk));
     parallel_chunks(wave, kPathChunk, [&](std::size_t begin, std::size_t end) {
@@ -285,8 +288,6 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
                   text("no memory for the about ", expected, " photons that ", range.count,
                        " paths will store here; emit fewer (--photons)"));
     }
-    const std::uint64_t rows_per_chunk = 1 + totals.stored * kPathChunk / done;
-    wave = kPathChunk * std::clamp<std::uint64_t>(kWaveRows / rows_per_chunk, kFirstWave / kPathChunk, 1024);
   }
   totals.settle();
   return photons;
