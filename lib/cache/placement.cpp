@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint64_t kPointItems = std::uint64_t{1}
                                       << 40;  // random streams of points, apart from those of photons
-constexpr std::size_t kChunk = 16;
+constexpr std::size_t kChunk = 4;             // records made by one task
+constexpr std::size_t kLeastBatch = 16, kMostBatch = 1024;
 
 struct Candidate {
   Vec3 p, n;
@@ -45,24 +46,25 @@ class Growth {
       : tree_(bounds, cache.accuracy), clamp_(bounds), maker_(maker), frozen_(cache.records.size()) {
     for (const IrradianceRecord& r : cache.records) {
       tree_.insert(r);
-      made_.push_back(r);
+      made_.push_back({r, r.radius_m});
       clamp_.insert(r.position, r.normal, r.radius_m, true, [](std::size_t, float) {});
     }
   }
 
   bool covered(const Candidate& c) const { return tree_.covered(c.p, c.n); }
 
-  void accept(const IrradianceRecord& record, PlacementReport& report) {
-    const float radius = clamp_.insert(record.position, record.normal, record.radius_m, false,
-                                       [&](std::size_t i, float smaller) {
-                                         const float final_m = within_limits(smaller);
-                                         if (final_m < tree_.records()[i].radius_m) tree_.shrink(i, final_m);
-                                         ++report.clamped_to_neighbour;
-                                       });
+  void accept(const RecordMaker::Made& made, PlacementReport& report) {
+    const IrradianceRecord& record = made.record;
+    const float radius = clamp_.insert(
+        record.position, record.normal, record.radius_m, false, [&](std::size_t i, float smaller) {
+          const float final_m = within_limits(smaller, made_[i].least_radius_m);
+          if (final_m < tree_.records()[i].radius_m) tree_.shrink(i, final_m);
+          ++report.clamped_to_neighbour;
+        });
     if (radius < record.radius_m) ++report.clamped_to_neighbour;
-    made_.push_back(record);
+    made_.push_back(made);
     IrradianceRecord placed = record;
-    placed.radius_m = within_limits(radius);
+    placed.radius_m = within_limits(radius, made.least_radius_m);
     tree_.insert(placed);
   }
 
@@ -70,9 +72,9 @@ class Growth {
   /// gradients are reduced so that extrapolation stays bounded (A7).
   void finish(std::vector<IrradianceRecord>& records, PlacementReport& report) const {
     for (std::size_t i = frozen_; i < made_.size(); ++i) {
-      IrradianceRecord r = made_[i];
+      IrradianceRecord r = made_[i].record;
       const float raw = clamp_.radius_m(i);
-      r.radius_m = within_limits(raw);
+      r.radius_m = within_limits(raw, made_[i].least_radius_m);
       if (raw < r.radius_m) {
         ++report.clamped_to_least;
         for (Vec3& g : r.translation_gradient) g *= raw / r.radius_m;
@@ -84,14 +86,14 @@ class Growth {
   std::size_t size() const { return made_.size(); }
 
  private:
-  float within_limits(float radius_m) const {
-    return std::clamp(radius_m, static_cast<float>(*maker_.options().min_radius_m),
+  float within_limits(float radius_m, float least_m) const {
+    return std::clamp(std::max(radius_m, least_m), static_cast<float>(*maker_.options().min_radius_m),
                       static_cast<float>(*maker_.options().max_radius_m));
   }
   RecordTree tree_;
   NeighbourClamp clamp_;
   const RecordMaker& maker_;
-  std::vector<IrradianceRecord> made_;  // radius before clamping
+  std::vector<RecordMaker::Made> made_;  // radius before clamping
   std::size_t frozen_;
 };
 
@@ -127,30 +129,34 @@ class Placer {
     return left;
   }
 
-  /// Makes and accepts in batches; a batch is a fraction of what there is, so that few are made in vain.
+  /// Makes and accepts in batches. A batch grows while its records keep clear of each other and shrinks when
+  /// they cover each other's places, so that few are made in vain.
   std::size_t cover(const std::vector<Candidate>& open) {
     std::size_t placed = 0;
     for (std::size_t begin = 0; begin < open.size();) {
-      const std::size_t most = std::clamp<std::size_t>(growth_.size() / 8, 16, 1024);
       std::vector<Candidate> batch;
-      for (; begin < open.size() && batch.size() < most; ++begin) {
+      for (; begin < open.size() && batch.size() < batch_size_; ++begin) {
         if (!growth_.covered(open[begin])) batch.push_back(open[begin]);
       }
       const auto start = std::chrono::steady_clock::now();
-      const std::vector<IrradianceRecord> made = make(batch);
+      const std::vector<RecordMaker::Made> made = make(batch);
       report_.making_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::size_t kept = 0;
       for (std::size_t i = 0; i < made.size(); ++i) {
         if (growth_.covered(batch[i])) continue;
         growth_.accept(made[i], report_);
-        ++placed;
+        ++kept;
       }
+      const bool in_vain = kept * 10 < made.size() * 9;
+      batch_size_ = std::clamp(in_vain ? batch_size_ / 2 : batch_size_ * 2, kLeastBatch, kMostBatch);
+      placed += kept;
       report_.made += made.size();
     }
     return placed;
   }
 
-  std::vector<IrradianceRecord> make(const std::vector<Candidate>& batch) {
-    std::vector<IrradianceRecord> made(batch.size());
+  std::vector<RecordMaker::Made> make(const std::vector<Candidate>& batch) {
+    std::vector<RecordMaker::Made> made(batch.size());
     std::mutex mutex;
     parallel_chunks(batch.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       thread_local RecordMaker::Scratch scratch;
@@ -167,6 +173,7 @@ class Placer {
   const RecordMaker& maker_;
   Growth& growth_;
   PlacementReport& report_;
+  std::size_t batch_size_ = kLeastBatch;
 };
 
 }  // namespace

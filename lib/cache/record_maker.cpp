@@ -9,6 +9,9 @@
 namespace phos {
 namespace {
 
+// A record reaches at least this part of the zone whose photons it has: nearer records would tell the same
+// tale.
+constexpr float kReach = 0.75f;
 constexpr float kSlab = 0.05f;             // half thickness of a zone in its radii (FORMULAS C5)
 constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
 constexpr float kRounding = 2e-6f;         // of a coordinate: positions are floats that rays have found
@@ -267,8 +270,7 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_ra
       within = record.irradiance[c] / slope;
     }
   }
-  // Records nearer to each other than half the photons' reach would tell the same photons' tale.
-  record.radius_m = std::max(within, 0.5f * zone_radius_m / a);
+  record.radius_m = std::max(within, kReach * zone_radius_m / a);
   const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
   if (options_.gradients == GradientMode::none) return;
@@ -281,8 +283,8 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_ra
   }
 }
 
-IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t item, std::uint32_t seed_row,
-                                   Scratch& s) const {
+RecordMaker::Made RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t item, std::uint32_t seed_row,
+                                    Scratch& s) const {
   const float diagonal = rays_.scene().bounds.diagonal_m();
   Site site{p, make_frame(n), kRounding * std::max({scale_of(p), 1e-3f * diagonal, 1e-30f})};
   const float by_rays = ray_distance_m(site, item);
@@ -305,7 +307,7 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
   if (narrow < wide)
     record.radius_m = std::min(record.radius_m, narrow / static_cast<float>(options_.accuracy));
   fill(site, zone, narrow, s, record);
-  const float least = std::min(record.radius_m, 0.5f * narrow / static_cast<float>(options_.accuracy));
+  const float least = std::min(record.radius_m, kReach * narrow / static_cast<float>(options_.accuracy));
   record.radius_m = std::max(least, std::min(record.radius_m, above_next_surface_m(site, record.radius_m)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
@@ -317,7 +319,7 @@ IrradianceRecord RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t i
                 text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
                      ") m exceeds the range of numbers; give the lights or the scene other units"));
   }
-  return record;
+  return {record, std::min(least, record.radius_m)};
 }
 
 }  // namespace phos

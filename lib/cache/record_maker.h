@@ -63,8 +63,13 @@ class RecordMaker {
   /// The record at p with unit normal n; `item` numbers its random rays; `seed_row` is the photon that it
   /// sits on, which is left out (Palm), or kNoPhoton. radius_m is the distance after the gradient and edge
   /// limits, NOT clamped to [min, max] and not yet to its neighbours'. Always finite and positive.
-  IrradianceRecord make(const Vec3& p, const Vec3& n, std::uint64_t item, std::uint32_t seed_row,
-                        Scratch& scratch) const;
+  /// least_radius_m: neighbours need not clamp it further, since records nearer to each other than their
+  /// photons reach would tell the same photons' tale.
+  struct Made {
+    IrradianceRecord record;
+    float least_radius_m = 0;
+  };
+  Made make(const Vec3& p, const Vec3& n, std::uint64_t item, std::uint32_t seed_row, Scratch& scratch) const;
 
   /// Does this photon count (DESIGN "path": direct light is computed separately)?
   bool wanted(std::uint32_t row) const;

@@ -18,12 +18,12 @@ struct Entry {
   Vec3 position;
   float radius_m;
   Vec3 normal;
-  std::uint32_t record, next;
+  std::uint32_t record;
 };
 
 struct Cell {
   std::array<std::uint32_t, 8> child;
-  std::uint32_t first = kNone;
+  std::vector<Entry> entries;
   Cell() { child.fill(kNone); }
 };
 
@@ -35,8 +35,8 @@ struct RecordTree::Impl {
   double side_m;
   std::vector<IrradianceRecord> records;
   std::vector<Cell> cells{1};
-  std::vector<Entry> entries;
-  std::vector<std::size_t> first_entry;  // per record; a record's entries lie together
+  std::vector<float> hung_radius_m;  // per record: the radius by which its cells were chosen
+  std::size_t misplaced = 0;         // records that shrank to less than half of it
 
   /// Octant of a point, and the corner of that octant. Points outside of the root fall into its border cells:
   /// insertion and lookup clamp alike, so nothing is missed.
@@ -47,25 +47,53 @@ struct RecordTree::Impl {
     return corner_lo + half * DVec3(o & 1u ? 1 : 0, o & 2u ? 1 : 0, o & 4u ? 1 : 0);
   }
 
-  void hang(std::uint32_t cell, const DVec3& cell_lo, double side, const DVec3& box_lo, const DVec3& box_hi,
-            double size_m, int depth, const Entry& entry) {
-    if (side < 4 * size_m || depth == kDeepest) {
-      entries.push_back(entry);
-      entries.back().next = cells[cell].first;
-      cells[cell].first = static_cast<std::uint32_t>(entries.size() - 1);
-      return;
-    }
+  /// Box of a record's zone; half_m is half its side.
+  struct Box {
+    DVec3 lo, hi;
+    double half_m;
+  };
+
+  /// use(cell) for the cells of about the box's size that it touches; makes those that are not there.
+  template <class Use>
+  void each_cell(std::uint32_t cell, const DVec3& cell_lo, double side, const Box& box, int depth,
+                 const Use& use) {
+    if (side < 4 * box.half_m || depth == kDeepest) return use(cells[cell]);
     const double half = side / 2;
     const DVec3 middle = cell_lo + half;
-    const unsigned from = octant(box_lo, middle), to = octant(box_hi, middle);
+    const unsigned from = octant(box.lo, middle), to = octant(box.hi, middle);
     for (unsigned o = 0; o < 8; ++o) {
       if ((o & from) != from || (o & ~to) != 0) continue;  // not between the two on every axis
       if (cells[cell].child[o] == kNone) {
         cells[cell].child[o] = static_cast<std::uint32_t>(cells.size());
         cells.emplace_back();
       }
-      hang(cells[cell].child[o], corner(cell_lo, half, o), half, box_lo, box_hi, size_m, depth + 1, entry);
+      each_cell(cells[cell].child[o], corner(cell_lo, half, o), half, box, depth + 1, use);
     }
+  }
+
+  template <class Use>
+  void each_cell_of(std::uint32_t index, const Use& use) {
+    const Vec3 p = records[index].position;
+    const double reach = static_cast<double>(accuracy) * static_cast<double>(hung_radius_m[index]);
+    // The lookup measures in float: let the box be larger by its rounding.
+    const double slack =
+        1e-5 * std::min(reach, 1e30) + 1e-6 * static_cast<double>(max_component(glm::abs(p)));
+    const double half = std::min(reach, 1e35) + slack;
+    each_cell(0, lo, side_m, {DVec3(p) - half, DVec3(p) + half, half}, 0, use);
+  }
+
+  void hang(std::uint32_t index) {
+    const IrradianceRecord& r = records[index];
+    hung_radius_m.push_back(r.radius_m);
+    each_cell_of(index, [&](Cell& c) { c.entries.push_back({r.position, r.radius_m, r.normal, index}); });
+  }
+
+  /// Shrunken records crowd the large cells that they once needed; they are hung anew once they are many.
+  void hang_all() {
+    cells.assign(1, Cell());
+    hung_radius_m.clear();
+    misplaced = 0;
+    for (std::uint32_t i = 0; i < records.size(); ++i) hang(i);
   }
 
   /// visit(record index, weight) for each record valid at p until it returns false.
@@ -76,14 +104,14 @@ struct RecordTree::Impl {
     double side = side_m;
     const DVec3 point(p);
     while (cell != kNone) {
-      for (std::uint32_t i = cells[cell].first; i != kNone; i = entries[i].next) {
-        const Entry& e = entries[i];
+      for (const Entry& e : cells[cell].entries) {
         const Vec3 d = p - e.position;
         const float reach = accuracy * e.radius_m;
         if (!(glm::dot(d, d) < reach * reach)) continue;
-        const IrradianceRecord& r = records[e.record];
-        const float w = record_weight(record_error(r, p, n), accuracy);
-        if (w > kLeastWeight && !record_in_front(r, p, n) && !visit(e.record, w)) return;
+        const float eps =
+            glm::length(d) / e.radius_m + glm::length(n - e.normal) * 0.70710678f;  // record_error()
+        const float w = record_weight(eps, accuracy);
+        if (w > kLeastWeight && !record_in_front(records[e.record], p, n) && !visit(e.record, w)) return;
       }
       side /= 2;
       const unsigned o = octant(point, cell_lo + side);
@@ -106,26 +134,22 @@ RecordTree::RecordTree(RecordTree&&) noexcept = default;
 
 void RecordTree::insert(const IrradianceRecord& r) {
   PHOS_CHECK(r.radius_m > 0 && is_finite(r.position), "radius ", r.radius_m);
-  const auto index = static_cast<std::uint32_t>(impl_->records.size());
   impl_->records.push_back(r);
-  impl_->first_entry.push_back(impl_->entries.size());
-  const double reach = static_cast<double>(impl_->accuracy) * static_cast<double>(r.radius_m);
-  // The lookup measures in float: let the box be larger by its rounding.
-  const Vec3 size = glm::abs(r.position);
-  const double slack = 1e-5 * std::min(reach, 1e30) + 1e-6 * static_cast<double>(max_component(size));
-  const DVec3 centre(r.position);
-  const double half = std::min(reach, 1e35) + slack;
-  impl_->hang(0, impl_->lo, impl_->side_m, centre - half, centre + half, half, 0,
-              Entry{r.position, r.radius_m, r.normal, index, kNone});
+  impl_->hang(static_cast<std::uint32_t>(impl_->records.size() - 1));
 }
 
 void RecordTree::shrink(std::size_t record, float radius_m) {
   PHOS_CHECK(record < impl_->records.size() && radius_m > 0 && radius_m <= impl_->records[record].radius_m,
              "record ", record, " radius ", radius_m);
-  const std::size_t last =
-      record + 1 < impl_->records.size() ? impl_->first_entry[record + 1] : impl_->entries.size();
-  for (std::size_t i = impl_->first_entry[record]; i < last; ++i) impl_->entries[i].radius_m = radius_m;
+  impl_->each_cell_of(static_cast<std::uint32_t>(record), [&](Cell& c) {
+    const auto own = [&](const Entry& e) { return e.record == record; };
+    std::find_if(c.entries.begin(), c.entries.end(), own)->radius_m = radius_m;
+  });
+  const float hung_m = impl_->hung_radius_m[record];
+  const bool was_misplaced = impl_->records[record].radius_m < hung_m / 2;
   impl_->records[record].radius_m = radius_m;
+  if (!was_misplaced && radius_m < hung_m / 2 && ++impl_->misplaced > 64 + impl_->records.size() / 8)
+    impl_->hang_all();
 }
 
 std::size_t RecordTree::size() const { return impl_->records.size(); }

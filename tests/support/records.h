@@ -38,7 +38,7 @@ inline RecordOptions all_light(const Scene& scene) {
 inline IrradianceRecord record_at(const RecordMaker& maker, const Vec3& p, const Vec3& n,
                                   std::uint64_t item = 0) {
   RecordMaker::Scratch scratch;
-  return maker.make(p, n, item, RecordMaker::kNoPhoton, scratch);
+  return maker.make(p, n, item, RecordMaker::kNoPhoton, scratch).record;
 }
 
 }  // namespace phos::test
