@@ -99,6 +99,10 @@ class PathTracer {
   /// To the next surface and off it again. False: the photon is no more.
   bool step(Flight& flight, RandomStream& random, Part& part) const {
     if (log_) part.rays.push_back(flight.ray);
+    // Drawn before the ray is traced, so that the processor can work them out in the waits of the traversal.
+    random.start_bounce(flight.bounce + 1);
+    const float u_lobe = random.uniform();
+    const Vec2 u = random.uniform2();
     Hit hit;
     if (!rays_.intersect(flight.ray, hit)) {
       part.escaped += flight.units;
@@ -112,22 +116,20 @@ class PathTracer {
       part.stored += flight.units;
     }
     part.absorbed += flight.units;
-    if (!scatter(bsdf, point, flight, random, part)) return false;
+    if (!scatter(bsdf, point, u_lobe, u, flight, random, part)) return false;
     flight.units = units(flight.flux_lm);
     part.absorbed -= flight.units;
     return true;
   }
 
   /// Samples the material and plays Russian roulette.
-  bool scatter(const Bsdf& bsdf, const SurfacePoint& point, Flight& flight, RandomStream& random,
-               Part& part) const {
+  bool scatter(const Bsdf& bsdf, const SurfacePoint& point, float u_lobe, const Vec2& u, Flight& flight,
+               RandomStream& random, Part& part) const {
     if (flight.bounce == kMaxBounces) {
       ++part.too_long;
       return false;
     }
-    random.start_bounce(++flight.bounce);
-    const float u_lobe = random.uniform();
-    const Vec2 u = random.uniform2();
+    ++flight.bounce;
     const Vec3 wo = -flight.ray.direction;
     BsdfSample sample;
     if (!bsdf.sample(wo, u_lobe, u, sample, TransportMode::flux)) return false;
