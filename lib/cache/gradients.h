@@ -16,6 +16,15 @@ struct ZonePhotons {
   std::vector<float> inverse_distance;  ///< 1/m; 0 from infinitely far
   std::vector<Vec3> source_normal;      ///< of the surface it left; minus `direction` where there is none
   std::size_t size() const { return offset_m.size(); }
+  /// Row `from` takes the place of row `to`.
+  void move(std::size_t from, std::size_t to) {
+    offset_m[to] = offset_m[from], flux_lm[to] = flux_lm[from], direction[to] = direction[from];
+    inverse_distance[to] = inverse_distance[from], source_normal[to] = source_normal[from];
+  }
+  void resize(std::size_t n) {
+    offset_m.resize(n), flux_lm.resize(n), direction.resize(n), inverse_distance.resize(n),
+        source_normal.resize(n);
+  }
   void clear() {
     offset_m.clear(), flux_lm.clear(), direction.clear(), inverse_distance.clear(), source_normal.clear();
   }

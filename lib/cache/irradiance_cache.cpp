@@ -7,9 +7,6 @@
 namespace phos {
 namespace {
 
-constexpr float kInFrontTolerance = 0.01f;  // tau of FORMULAS A6, in units of R
-constexpr float kGrowthLimit = 2;           // k of FORMULAS A5
-
 std::span<const float> flat(const std::vector<Vec3>& v) { return {&v.data()->x, 3 * v.size()}; }
 
 [[noreturn]] void reject(const Container& file, std::size_t row, const std::string& what) {
@@ -38,7 +35,7 @@ void check_row(const Container& file, std::size_t row, const IrradianceRecord& r
 
 bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (!(glm::dot(n, r.normal) > 0)) return true;
-  return glm::dot(p - r.position, n + r.normal) * 0.5f < -kInFrontTolerance * r.radius_m;
+  return glm::dot(p - r.position, n + r.normal) * 0.5f < -kFrontTolerance * r.radius_m;
 }
 
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {

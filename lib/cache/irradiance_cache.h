@@ -37,6 +37,13 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
 /// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named).
 IrradianceCache read_irradiance(const Container& file);
 
+/// The least weight that counts: below it a record is not valid, and a point without others is a miss.
+inline constexpr float kLeastWeight = 1e-6f;
+/// How far a record may lie behind the plane between itself and the point it lights, in units of its radius.
+inline constexpr float kFrontTolerance = 0.01f;
+/// An extrapolated irradiance is at most this many times the record's.
+inline constexpr float kGrowthLimit = 2;
+
 /// eps of FORMULAS A1, robust form: |p - p_i|/R_i + |n - n_i|/sqrt(2).
 inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   return glm::length(p - r.position) / r.radius_m + glm::length(n - r.normal) * 0.70710678f;

@@ -12,6 +12,8 @@ namespace {
 // A record reaches at least this part of the zone whose photons it has: nearer records would tell the same
 // tale.
 constexpr float kReach = 0.75f;
+// A zone short of photons grows to at most this many times a R: beyond, other light is mixed in.
+constexpr float kMostGrowth = 2.5f;
 constexpr float kSlab = 0.05f;             // half thickness of a zone in its radii (FORMULAS C5)
 constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
 constexpr float kRounding = 2e-6f;         // of a coordinate: positions are floats that rays have found
@@ -27,7 +29,7 @@ const char* const kEventNames[RecordEvents::count_] = {
     "records from the hull",        "records in the dark",
     "records with degenerate hull", "records with shrunk zone",
     "records without photons",      "records probed",
-    "records at a shadow edge"};
+    "records at a shadow edge",     "records beside a wall"};
 
 float scale_of(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
@@ -56,6 +58,7 @@ struct RecordMaker::Site {
   Frame frame;
   float rounding_m;                // of coordinates here
   float above_m = 0, below_m = 0;  // slab that holds the zone's photons
+  bool parted = false;             // something stands between the record and a part of its surface
 };
 
 RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const RecordOptions& resolved,
@@ -129,7 +132,8 @@ float RecordMaker::photon_distance_m(const Site& site, std::uint32_t seed_row, S
 /// The second query's radius: a x R, enlarged or reduced for the photons that its neighbourhood promises.
 float RecordMaker::zone_radius_m(const Site& site, const Scratch& s, float distance_m) const {
   const auto most = static_cast<float>(*options_.max_radius_m);
-  float radius = static_cast<float>(options_.accuracy) * std::min(distance_m, most);
+  const float right = static_cast<float>(options_.accuracy) * std::min(distance_m, most);
+  float radius = right;
   if (s.radii.size() >= kLeastForDensity) {
     const std::size_t k = s.radii.size(), least = static_cast<std::size_t>(options_.min_photons);
     const float last = std::max(s.radii.back(), site.rounding_m);
@@ -142,7 +146,8 @@ float RecordMaker::zone_radius_m(const Site& site, const Scratch& s, float dista
   } else {
     radius = most;
   }
-  radius = std::min({radius, std::max(distance_m, 2 * static_cast<float>(*options_.min_radius_m)), most});
+  const auto least_right = static_cast<float>(options_.accuracy * *options_.min_radius_m);
+  radius = std::min({radius, kMostGrowth * std::max(right, least_right), most});
   return std::max(radius, 64 * site.rounding_m);
 }
 
@@ -167,7 +172,7 @@ float RecordMaker::above_next_surface_m(const Site& site, float radius_m) const 
 
 /// FORMULAS C5: photons on this surface, from this side.
 void RecordMaker::gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& s) const {
-  s.zone.clear();
+  s.zone.clear(), s.height_m.clear();
   photons_.in_sphere(site.p, radius_m * (1 + kSlab * kSlab), s.rows);
   const auto nearest = static_cast<float>(*options_.min_radius_m);
   std::uint32_t last_code = 0;
@@ -186,7 +191,7 @@ void RecordMaker::gather(const Site& site, float radius_m, std::uint32_t seed_ro
     if (facing < kSameFacing) continue;
     const Vec3 w = decode_octahedral(photons_.direction[row]);
     if (!(glm::dot(w, site.frame.z) > 0)) continue;
-    s.zone.offset_m.push_back(Vec2(local));
+    s.zone.offset_m.push_back(Vec2(local)), s.height_m.push_back(local.z);
     // Flux per surface area times `facing` is flux per tangent-plane area.
     s.zone.flux_lm.push_back(photons_.flux[row] * facing);
     s.zone.direction.push_back(w);
@@ -195,12 +200,35 @@ void RecordMaker::gather(const Site& site, float radius_m, std::uint32_t seed_ro
   }
 }
 
-bool RecordMaker::on_surface(const Site& site, const Vec2& offset_m) const {
+/// Does a line above the surface lead from the record to that place? Walls that stand on the surface part it,
+/// and surfaces run on inside of walls, where no light comes.
+bool RecordMaker::within_sight(const Site& site, const Vec2& offset_m, float height_m) const {
+  const Vec3 up = site.above_m * site.frame.z;
+  const Vec3 to = site.frame.to_world(Vec3(offset_m, height_m));
+  const float distance = glm::length(to);
+  return !(distance > 0) || !rays_.occluded({site.p + up, to / distance, 0, distance});
+}
+
+bool RecordMaker::on_surface(Site& site, const Vec2& offset_m) const {
   const Vec3 from = site.p + site.frame.to_world(Vec3(offset_m, site.above_m));
   const Ray ray{from, -site.frame.z, 0, site.above_m + site.below_m};
   Hit hit;
   if (!rays_.intersect(ray, hit)) return false;
-  return glm::dot(rays_.surface(ray, hit).smooth_normal, site.frame.z) > kSameFacing;
+  if (!(glm::dot(rays_.surface(ray, hit).smooth_normal, site.frame.z) > kSameFacing)) return false;
+  if (within_sight(site, offset_m, site.above_m - hit.distance_m)) return true;
+  site.parted = true;
+  return false;
+}
+
+/// Leaves out the photons of places that are not within_sight.
+void RecordMaker::drop_hidden(const Site& site, Scratch& s) const {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < s.zone.size(); ++i) {
+    if (!within_sight(site, s.zone.offset_m[i], s.height_m[i])) continue;
+    s.zone.move(i, kept), s.height_m[kept] = s.height_m[i];
+    ++kept;
+  }
+  s.zone.resize(kept), s.height_m.resize(kept);
 }
 
 /// The zone's estimate; a zone with a caustic in it is made smaller while it has photons to spare (C3).
@@ -212,9 +240,13 @@ ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t se
   bool shrunk = false;
   for (;;) {
     limit_slab(site, radius_m);
+    site.parted = false;
     gather(site, radius_m, seed_row, s);
-    const ZoneEstimate zone =
-        zone_irradiance(s.zone.offset_m, s.zone.flux_lm, radius_m, probe, density, s.density);
+    ZoneEstimate zone = zone_irradiance(s.zone.offset_m, s.zone.flux_lm, radius_m, probe, density, s.density);
+    if (site.parted) {
+      drop_hidden(site, s);
+      zone = zone_irradiance(s.zone.offset_m, s.zone.flux_lm, radius_m, probe, density, s.density);
+    }
     if (zone.clustered && s.zone.size() >= kLeastClustered) {
       radius_m /= 2, shrunk = true;
       continue;
@@ -226,6 +258,7 @@ ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t se
                                       : RecordEvents::dark];
     n[RecordEvents::degenerate] += zone.degenerate, n[RecordEvents::shrunk] += shrunk;
     n[RecordEvents::unlit] += s.zone.size() == 0, n[RecordEvents::probed] += zone.probed;
+    n[RecordEvents::parted] += site.parted;
     n[RecordEvents::at_edge] += std::isfinite(zone.edge_m);
     return zone;
   }
@@ -304,7 +337,8 @@ RecordMaker::Made RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t 
   const float wide = zone_radius_m(site, s, distance);
   float narrow = wide;
   const ZoneEstimate zone = estimate(site, narrow, seed_row, s);
-  if (narrow < wide)
+  // It serves no point whose photons it has not seen: their light may be another's.
+  if (s.zone.size() > 0)
     record.radius_m = std::min(record.radius_m, narrow / static_cast<float>(options_.accuracy));
   fill(site, zone, narrow, s, record);
   const float least = std::min(record.radius_m, kReach * narrow / static_cast<float>(options_.accuracy));

@@ -35,7 +35,7 @@ struct RecordOptions {
 
 /// What happened while records were made; counts per record made.
 struct RecordEvents {
-  enum Event { few, full, hull, dark, degenerate, shrunk, unlit, probed, at_edge, count_ };
+  enum Event { few, full, hull, dark, degenerate, shrunk, unlit, probed, at_edge, parted, count_ };
   std::array<std::uint64_t, count_> n{};
   void add_to(Counters& counters) const;
 };
@@ -83,7 +83,9 @@ class RecordMaker {
   float above_next_surface_m(const Site& site, float radius_m) const;
   void limit_slab(Site& site, float radius_m) const;
   void gather(const Site& site, float radius_m, std::uint32_t seed_row, Scratch& scratch) const;
-  bool on_surface(const Site& site, const Vec2& offset_m) const;
+  bool within_sight(const Site& site, const Vec2& offset_m, float height_m) const;
+  bool on_surface(Site& site, const Vec2& offset_m) const;
+  void drop_hidden(const Site& site, Scratch& scratch) const;
   ZoneEstimate estimate(Site& site, float& radius_m, std::uint32_t seed_row, Scratch& scratch) const;
   void move_to_centre(const Site& site, const ZoneEstimate& zone, const Scratch& scratch,
                       IrradianceRecord& record) const;

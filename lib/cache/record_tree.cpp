@@ -9,7 +9,6 @@
 namespace phos {
 namespace {
 
-constexpr float kLeastWeight = 1e-6f;  // below it a record counts as a miss (FORMULAS A4)
 constexpr int kDeepest = 40;
 constexpr std::uint32_t kNone = ~0u;
 

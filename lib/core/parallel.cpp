@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_scheduler_observer.h>
 #include <xmmintrin.h>
 
 #include <algorithm>
@@ -16,17 +15,9 @@ namespace phos {
 
 namespace {
 
-class FlushToZeroObserver : public tbb::task_scheduler_observer {
- public:
-  FlushToZeroObserver() { observe(true); }
-  ~FlushToZeroObserver() override { observe(false); }
-  void on_scheduler_entry(bool) override { set_flush_to_zero(); }
-};
-
 struct Threads {
   int count = 0;
   std::unique_ptr<tbb::global_control> limit;
-  FlushToZeroObserver observer;
 };
 
 Threads& threads() {
@@ -61,6 +52,7 @@ void parallel_chunks(std::size_t n, std::size_t chunk, const std::function<void(
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, chunks, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
+        set_flush_to_zero();  // a worker may be new
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
           throw_if_interrupted();
           body(c * chunk, std::min(n, (c + 1) * chunk));

@@ -8,11 +8,11 @@
 
 namespace phos {
 
-/// Number of threads for every loop after this call; 0 means all cores. Sets flush-to-zero in each worker.
+/// Number of threads for every loop after this call; 0 means all cores.
 void set_threads(int threads);
 int thread_count();
 
-/// Denormals become zero in the calling thread (x86 FTZ and DAZ). set_threads and every worker call it.
+/// Denormals become zero in the calling thread (x86 FTZ and DAZ). set_threads and every loop's workers call it.
 void set_flush_to_zero();
 
 /// Calls body(begin, end) for [0,n) cut in chunks of `chunk` items, in any order and in parallel. The first exception

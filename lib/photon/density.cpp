@@ -9,9 +9,9 @@
 namespace phos {
 namespace {
 
-constexpr double kLeastHull = 1e-9;         // of R^2: below it the hull is degenerate
-constexpr double kLeastCoverage = 0.25;     // of the hull by surface (C2)
-constexpr std::size_t kEnoughToTell = 512;  // photons whose largest empty cap is below 2 % of the zone
+constexpr double kLeastHull = 1e-9;      // of R^2: below it the hull is degenerate
+constexpr double kLeastCoverage = 0.25;  // of the hull by surface (C2)
+constexpr int kNarrow = 8;               // a surface that fills less than 1/8 of its zone
 constexpr int kSectors = 8;
 constexpr int kCells = 2 * kSectors;  // two rings of equal area
 constexpr double kPiD = std::numbers::pi;
@@ -88,6 +88,7 @@ struct Coverage {
   double zone = 1, hull = 1;  ///< fractions on the surface
   bool zone_partial = false, hull_partial = false;
   Vec2 zone_centroid{0}, hull_centroid{0};
+  int probes = 1;
   bool hull_known = false;  ///< enough probes fell in the hull
   double strip = 0,
          cap = 0;        ///< fraction of the zone, on the surface, between edge and centre; beyond the edge
@@ -192,13 +193,18 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
       !few && !e.degenerate && cap_fraction(edge.h) <= std::min(0.5, (std::log(count) + 3) / count);
   const Cells counts = count_cells(offsets_m, radius_m);
 
-  // Enough photons, evenly spread, leave no room for a border that matters; fewer need a look, and more if
-  // that fails.
+  // Where the photons leave no gap, a few probes still look for a border, and many if one finds it.
   Coverage c;
   const bool doubt = in_doubt(counts, m);
-  if (lit && (doubt || m < kEnoughToTell)) e.probed = true;
-  if (!lit || (e.probed && !whole(radius_m, on_surface))) {
-    c = probe(offsets_m, hull, edge, radius_m, on_surface, options.probes, scratch.covered);
+  e.probed = lit;
+  if (!lit || !whole(radius_m, on_surface)) {
+    int probes = options.probes;
+    c = probe(offsets_m, hull, edge, radius_m, on_surface, probes, scratch.covered);
+    if (c.zone * kNarrow < 1) {  // a ledge: the few probes that found it do not tell its area
+      probes *= kNarrow;
+      c = probe(offsets_m, hull, edge, radius_m, on_surface, probes, scratch.covered);
+    }
+    c.probes = probes;
     e.probed = true;
   } else {
     c.hull_cells.fill(1);
@@ -208,7 +214,7 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
   const auto over_surface = [&](ZoneKind kind) {
     e.kind = kind;
     e.area_m2 = disc * c.zone;
-    e.area_error = probe_error(c.zone_partial, c.zone, options.probes);
+    e.area_error = probe_error(c.zone_partial, c.zone, c.probes);
     e.centroid_m = c.zone_centroid;
     add_up(flux_lm, scratch.used, e);
     return e;
@@ -217,7 +223,7 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
   const double coverage = c.hull_known ? std::max(c.hull, kLeastCoverage) : 1;
   const double inside = count - static_cast<double>(hull.vertices.size());
   e.area_m2 = hull.area * coverage;
-  e.area_error = probe_error(c.hull_partial, c.hull, options.probes);
+  e.area_error = probe_error(c.hull_partial, c.hull, c.probes);
   if (edge.h < 0 && inside / e.area_m2 * disc * c.strip >= options.dark_photons) {
     if (options.centre_lit) return over_surface(ZoneKind::few);  // the hull is a part of what is lit
     e = ZoneEstimate{.kind = ZoneKind::dark,

@@ -11,11 +11,6 @@
 
 namespace phos {
 
-/// The least weight that counts: below it a record is not valid (as in RecordTree; FORMULAS A4).
-inline constexpr float kLeastWeight = 1e-6f;
-/// FORMULAS A6 and A5, as in record_in_front and extrapolate.
-inline constexpr float kFrontTolerance = 0.01f, kGrowthLimit = 2;
-
 class TileGrid {
  public:
   TileGrid(const GBuffer& gbuffer, int tile_size);
