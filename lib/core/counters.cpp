@@ -15,7 +15,8 @@ void Counters::require_at_most(const std::string& event, double fraction, std::u
   const std::uint64_t n = (*this)[event];
   if (static_cast<double>(n) <= fraction * static_cast<double>(trials)) return;
   throw Error(ExitCode::numerical, "",
-              text(event, ": ", n, " of ", trials, ", more than the allowed share of ", shortest(fraction), "; ", remedy));
+              text(event, ": ", n, " of ", trials, ", more than the allowed share of ", shortest(fraction),
+                   "; ", remedy));
 }
 
 }  // namespace phos

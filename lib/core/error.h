@@ -26,8 +26,9 @@ std::string text(const Args&... args) {
   return out.str();
 }
 
-/// An error for the person at the command line. `where` is the file or option at fault ("" if none); `message` is one
-/// line that says what is wrong and how to mend it. A tool prints `phos-x: where: message` and exits with `code`.
+/// An error for the person at the command line. `where` is the file or option at fault ("" if none);
+/// `message` is one line that says what is wrong and how to mend it. A tool prints `phos-x: where: message`
+/// and exits with `code`.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, std::string where, const std::string& message);
@@ -45,8 +46,8 @@ class Error : public std::runtime_error {
 }  // namespace phos
 
 /// Always on. PHOS_CHECK(n > 0, "n = ", n) aborts with the values where the condition is false.
-#define PHOS_CHECK(condition, ...)                                                                          \
-  do {                                                                                                      \
-    if (!(condition)) [[unlikely]]                                                                          \
-      ::phos::check_failed(__FILE__, __LINE__, #condition, ::phos::text(__VA_ARGS__));                      \
+#define PHOS_CHECK(condition, ...)                                                     \
+  do {                                                                                 \
+    if (!(condition)) [[unlikely]]                                                     \
+      ::phos::check_failed(__FILE__, __LINE__, #condition, ::phos::text(__VA_ARGS__)); \
   } while (false)

@@ -31,7 +31,8 @@ bool interrupted() { return asked_to_stop.load(std::memory_order_relaxed); }
 
 void throw_if_interrupted() {
   if (interrupted())
-    throw Error(ExitCode::interrupted, "", "interrupted; nothing was written, what was there before is unchanged");
+    throw Error(ExitCode::interrupted, "",
+                "interrupted; nothing was written, what was there before is unchanged");
 }
 
 }  // namespace phos

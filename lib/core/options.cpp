@@ -144,26 +144,31 @@ struct Options::Impl {
   }
   static std::string left(const Declaration& d) {
     if (d.is_input) return d.unit;
-    return (d.short_name.empty() ? "" : "-" + d.short_name + ", ") + "--" + d.name + (d.is_flag ? "" : " " + d.unit);
+    return (d.short_name.empty() ? "" : "-" + d.short_name + ", ") + "--" + d.name +
+           (d.is_flag ? "" : " " + d.unit);
   }
   std::string usage() const {
     std::string s = tool + " [options]";
     for (const Declaration& d : declarations)
       if (d.is_input) s += " " + (d.required ? d.unit : "[" + d.unit + "]");
     for (const Declaration& d : declarations)
-      if (!d.is_input && d.required) s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
+      if (!d.is_input && d.required)
+        s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
     return s;
   }
   std::vector<std::string> sections() const {
     std::vector<std::string> names;
     for (const Declaration& d : declarations)
-      if (!d.is_input && std::find(names.begin(), names.end(), d.section) == names.end()) names.push_back(d.section);
+      if (!d.is_input && std::find(names.begin(), names.end(), d.section) == names.end())
+        names.push_back(d.section);
     return names;
   }
 };
 
-Options::Options(std::string tool, std::string summary, std::string description) : impl_(std::make_unique<Impl>()) {
-  impl_->tool = std::move(tool), impl_->summary = std::move(summary), impl_->description = std::move(description);
+Options::Options(std::string tool, std::string summary, std::string description)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->tool = std::move(tool), impl_->summary = std::move(summary),
+  impl_->description = std::move(description);
   impl_->app.set_help_flag();
   impl_->app.add_flag("--help,-h", impl_->help);
   impl_->app.add_flag("--version", impl_->version);
@@ -190,7 +195,8 @@ void Options::number(const std::string& name, double& value, const std::string& 
   Declaration& d = impl_->declare(name, unit, help, recorded);
   d.limits = limits_text(range), d.default_text = shortest(value);
   d.value = [&value] { return Json(value); };
-  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
+  impl_->add(
+      d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
 }
 
 void Options::number(const std::string& name, std::optional<double>& value, const std::string& unit,
@@ -198,19 +204,22 @@ void Options::number(const std::string& name, std::optional<double>& value, cons
   Declaration& d = impl_->declare(name, unit, help, recorded);
   d.limits = limits_text(range), d.default_text = value ? shortest(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
-  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
+  impl_->add(
+      d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
 }
 
-void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
-                      Range range, Recorded recorded) {
+void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit,
+                      const std::string& help, Range range, Recorded recorded) {
   Declaration& d = impl_->declare(name, unit, help, recorded);
   d.limits = limits_text(range), d.default_text = std::to_string(value);
   d.value = [&value] { return Json(value); };
-  impl_->add(d, [&value, range, n = d.name](const std::string& s) { value = parse_number<std::int64_t>(n, s, range); });
+  impl_->add(d, [&value, range, n = d.name](const std::string& s) {
+    value = parse_number<std::int64_t>(n, s, range);
+  });
 }
 
-void Options::text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
-                   Recorded recorded) {
+void Options::text(const std::string& name, std::string& value, const std::string& unit,
+                   const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, unit, help, recorded);
   d.default_text = value;
   d.value = [&value] { return Json(value); };
@@ -225,7 +234,11 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
     for (const std::string& s : value) items.push_back(s);
     return items;
   };
-  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)->delimiter(',')->expected(1)->take_all()->allow_extra_args(false);
+  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)
+                 ->delimiter(',')
+                 ->expected(1)
+                 ->take_all()
+                 ->allow_extra_args(false);
 }
 
 void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {
@@ -235,8 +248,9 @@ void Options::file(const std::string& name, std::string& value, const std::strin
   impl_->add(d, [&value](const std::string& s) { value = s; });
 }
 
-void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
-                              std::function<void(std::size_t)> set, const std::string& help, Recorded recorded) {
+void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names,
+                              std::size_t index, std::function<void(std::size_t)> set,
+                              const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, "WHICH", help, recorded);
   d.choices = names, d.default_text = names[index];
   const auto chosen = std::make_shared<std::size_t>(index);
@@ -253,15 +267,16 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
   });
 }
 
-void Options::input(const std::string& placeholder, std::string& value, const std::string& help, bool required) {
+void Options::input(const std::string& placeholder, std::string& value, const std::string& help,
+                    bool required) {
   Declaration& d = impl_->declare(placeholder, placeholder, help, Recorded::no);
   d.is_input = true, d.required = required;
   d.value = [&value] { return Json(value); };
   d.parsed = impl_->app.add_option(placeholder, value);
 }
 
-void Options::inputs(const std::string& placeholder, std::vector<std::string>& values, const std::string& help,
-                     bool required) {
+void Options::inputs(const std::string& placeholder, std::vector<std::string>& values,
+                     const std::string& help, bool required) {
   Declaration& d = impl_->declare(placeholder, placeholder + "...", help, Recorded::no);
   d.is_input = true, d.required = required;
   d.value = [] { return Json(); };
@@ -270,7 +285,8 @@ void Options::inputs(const std::string& placeholder, std::vector<std::string>& v
 
 namespace {
 
-/// Replaces each @file by the options it holds: one per line, `name=value`, `name value` or a flag; # starts a comment.
+/// Replaces each @file by the options it holds: one per line, `name=value`, `name value` or a flag; # starts
+/// a comment.
 std::vector<std::string> expand_files(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
@@ -387,7 +403,8 @@ std::string Options::help() const {
   line("--man", "the manual page, for man -l -");
   line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!impl_->examples.empty()) out += "\nExamples:\n";
-  for (const Example& e : impl_->examples) out += "  " + e.command + "\n      " + wrap(e.what, 6, kWidth) + "\n";
+  for (const Example& e : impl_->examples)
+    out += "  " + e.command + "\n      " + wrap(e.what, 6, kWidth) + "\n";
   out += "\nExit codes:\n";
   for (const auto& [code, what] : kExitCodes) line(std::to_string(code), what);
   return out;
@@ -395,7 +412,8 @@ std::string Options::help() const {
 
 std::string Options::manual() const {
   std::string title = impl_->tool;
-  std::transform(title.begin(), title.end(), title.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(title.begin(), title.end(), title.begin(),
+                 [](char c) { return static_cast<char>(std::toupper(c)); });
   std::string out = ".TH " + title + " 1 \"\" \"phos " + phos::version() + "\" \"phos manual\"\n";
   out += ".SH NAME\n" + roff(impl_->tool) + " \\- " + roff(impl_->summary) + "\n";
   out += ".SH SYNOPSIS\n.B " + roff(impl_->usage()) + "\n.SH DESCRIPTION\n" + roff(impl_->description) + "\n";

@@ -14,7 +14,8 @@
 
 namespace phos {
 
-/// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths, threads).
+/// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths,
+/// threads).
 enum class Recorded { yes, no };
 
 struct Range {
@@ -38,8 +39,8 @@ class Options {
   void section(const std::string& title);
 
   void flag(const std::string& name, bool& value, const std::string& help, Recorded = Recorded::yes);
-  void number(const std::string& name, double& value, const std::string& unit, const std::string& help, Range = {},
-              Recorded = Recorded::yes);
+  void number(const std::string& name, double& value, const std::string& unit, const std::string& help,
+              Range = {}, Recorded = Recorded::yes);
   void number(const std::string& name, std::optional<double>& value, const std::string& unit,
               const std::string& help, Range = {}, Recorded = Recorded::yes);
   void integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
@@ -61,18 +62,21 @@ class Options {
       names.push_back(values[i].first);
       if (values[i].second == value) index = i;
     }
-    choice_of_names(name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, help, recorded);
+    choice_of_names(
+        name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, help, recorded);
   }
 
   /// Positional inputs (never recorded).
-  void input(const std::string& placeholder, std::string& value, const std::string& help, bool required = true);
+  void input(const std::string& placeholder, std::string& value, const std::string& help,
+             bool required = true);
   void inputs(const std::string& placeholder, std::vector<std::string>& values, const std::string& help,
               bool required = true);
   /// A line under "Examples" in the help.
   void example(const std::string& command, const std::string& what);
 
-  /// Reads a command line. False if --help, --version or --man was asked for and has been printed to stdout. Throws
-  /// Error(usage) with one line otherwise. `@file` reads options from a file (one per line, name=value or a flag).
+  /// Reads a command line. False if --help, --version or --man was asked for and has been printed to stdout.
+  /// Throws Error(usage) with one line otherwise. `@file` reads options from a file (one per line, name=value
+  /// or a flag).
   bool parse(int argc, const char* const* argv);
 
   /// Was the option given on the command line?

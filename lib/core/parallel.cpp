@@ -45,7 +45,8 @@ int thread_count() {
   return threads().count;
 }
 
-void parallel_chunks(std::size_t n, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_chunks(std::size_t n, std::size_t chunk,
+                     const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
   thread_count();
   const std::size_t chunks = (n + chunk - 1) / chunk;

@@ -1,5 +1,5 @@
-// Deterministic parallel loops on oneTBB. What runs in a chunk, and the order in which partial results are joined, do
-// not depend on the number of threads.
+// Deterministic parallel loops on oneTBB. What runs in a chunk, and the order in which partial results are
+// joined, do not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,14 @@ namespace phos {
 void set_threads(int threads);
 int thread_count();
 
-/// Denormals become zero in the calling thread (x86 FTZ and DAZ). set_threads and every loop's workers call it.
+/// Denormals become zero in the calling thread (x86 FTZ and DAZ). set_threads and every loop's workers call
+/// it.
 void set_flush_to_zero();
 
-/// Calls body(begin, end) for [0,n) cut in chunks of `chunk` items, in any order and in parallel. The first exception
-/// is rethrown. Throws Error(interrupted) between chunks once the user has asked to stop.
-void parallel_chunks(std::size_t n, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& body);
+/// Calls body(begin, end) for [0,n) cut in chunks of `chunk` items, in any order and in parallel. The first
+/// exception is rethrown. Throws Error(interrupted) between chunks once the user has asked to stop.
+void parallel_chunks(std::size_t n, std::size_t chunk,
+                     const std::function<void(std::size_t, std::size_t)>& body);
 
 /// body(i) for i in [0,n).
 template <class Body>
@@ -32,7 +34,8 @@ void parallel_for(std::size_t n, std::size_t chunk, const Body& body) {
 template <class T, class Make, class Join>
 T parallel_reduce(std::size_t n, std::size_t chunk, T total, const Make& make, const Join& join) {
   std::vector<T> partial((n + chunk - 1) / chunk);
-  parallel_chunks(n, chunk, [&](std::size_t begin, std::size_t end) { partial[begin / chunk] = make(begin, end); });
+  parallel_chunks(n, chunk,
+                  [&](std::size_t begin, std::size_t end) { partial[begin / chunk] = make(begin, end); });
   for (T& p : partial) join(total, p);
   return total;
 }

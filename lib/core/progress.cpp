@@ -75,8 +75,8 @@ void Progress::show(bool last) {
   const std::string tail = last ? seconds_text(elapsed) : seconds_text(left) + " left";
   const bool redraws = m == ProgressMode::automatic;
   std::fprintf(stderr, "%s%s: %3.0f %% of %s %s, %s/s, %s%s%s", redraws ? "\r" : "", label_.c_str(), percent,
-               count_text(static_cast<double>(total_)).c_str(), unit_.c_str(), count_text(rate).c_str(), tail.c_str(),
-               redraws ? "\x1b[K" : "", redraws && !last ? "" : "\n");
+               count_text(static_cast<double>(total_)).c_str(), unit_.c_str(), count_text(rate).c_str(),
+               tail.c_str(), redraws ? "\x1b[K" : "", redraws && !last ? "" : "\n");
 }
 
 }  // namespace phos

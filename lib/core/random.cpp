@@ -9,8 +9,8 @@ namespace phos {
 void RandomStream::refill() {
   PHOS_CHECK(block_ <= 0xffff && bounce_ <= 0xffff, "bounce ", bounce_, ", block ", block_);
   const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(item_),
-                                               static_cast<std::uint32_t>(item_ >> 32), bounce_ << 16 | block_,
-                                               static_cast<std::uint32_t>(stage_)}};
+                                               static_cast<std::uint32_t>(item_ >> 32),
+                                               bounce_ << 16 | block_, static_cast<std::uint32_t>(stage_)}};
   const r123::Philox4x32::key_type key = {
       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
   const r123::Philox4x32::ctr_type result = r123::Philox4x32()(counter, key);

@@ -1,5 +1,6 @@
 // Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011, Random123).
-// A number depends on (seed, stage, item, bounce, dimension) and nothing else: not on threads, shards or order.
+// A number depends on (seed, stage, item, bounce, dimension) and nothing else: not on threads, shards or
+// order.
 #pragma once
 
 #include <array>
@@ -23,13 +24,15 @@ enum class Stage : std::uint32_t {
   test = 1000,
 };
 
-/// The numbers of one item (photon path, pixel sample, record). Cheap to construct; not shared between threads.
+/// The numbers of one item (photon path, pixel sample, record). Cheap to construct; not shared between
+/// threads.
 class RandomStream {
  public:
-  RandomStream(std::uint64_t seed, Stage stage, std::uint64_t item) : seed_(seed), item_(item), stage_(stage) {}
+  RandomStream(std::uint64_t seed, Stage stage, std::uint64_t item)
+      : seed_(seed), item_(item), stage_(stage) {}
 
-  /// Starts the numbers of a bounce (0 .. 65535) at its dimension 0, so that a path's later bounces do not shift
-  /// when an earlier one draws more.
+  /// Starts the numbers of a bounce (0 .. 65535) at its dimension 0, so that a path's later bounces do not
+  /// shift when an earlier one draws more.
   void start_bounce(std::uint32_t bounce) { bounce_ = bounce, block_ = 0, used_ = 4; }
 
   /// 32 random bits.

@@ -157,7 +157,8 @@ LayerMetrics measure(const Image& image, const Image& reference, const std::stri
 std::string layer_label(const std::string& layer) { return layer.empty() ? "beauty" : layer; }
 std::string layer_from_label(const std::string& label) {
   if (label == "beauty") return "";
-  return label.ends_with(".Y") ? label.substr(0, label.size() - 2) : label;  // "illuminance.Y" names its channel
+  return label.ends_with(".Y") ? label.substr(0, label.size() - 2)
+                               : label;  // "illuminance.Y" names its channel
 }
 
 std::string layer_unit(const std::string& layer) {

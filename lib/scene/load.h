@@ -17,15 +17,16 @@ struct SceneOptions {
 };
 void declare_options(Options& options, SceneOptions& scene);
 
-/// Loads and finalizes. The format is told from the content. Throws Error(bad_input): missing, not a scene, truncated,
-/// unknown required extension (named), glTF 1.0, index out of range, NaN vertex, no triangles, ...
+/// Loads and finalizes. The format is told from the content. Throws Error(bad_input): missing, not a scene,
+/// truncated, unknown required extension (named), glTF 1.0, index out of range, NaN vertex, no triangles, ...
 Scene load_scene(const std::string& path, const SceneOptions& options = {});
 
-/// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing ones are
-/// left out. Throws Error(bad_input) if the scene file itself cannot be read.
+/// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing
+/// ones are left out. Throws Error(bad_input) if the scene file itself cannot be read.
 std::vector<std::string> scene_files(const std::string& path);
 
-/// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input) if none.
+/// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input)
+/// if none.
 const Camera& find_camera(const Scene& scene, const std::string& name);
 
 }  // namespace phos

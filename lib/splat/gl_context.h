@@ -14,7 +14,8 @@ namespace phos {
 #define PHOS_GL_FUNCTIONS(X)                                                                                 \
   X(AttachShader)                                                                                            \
   X(BindBufferBase)                                                                                          \
-  X(BindFramebuffer) X(BindTextureUnit) X(BindVertexArray) X(BlendFunc) X(CheckNamedFramebufferStatus)       \
+  X(BindFramebuffer)                                                                                         \
+  X(BindTextureUnit) X(BindVertexArray) X(BlendFunc) X(CheckNamedFramebufferStatus)                          \
       X(ClearNamedFramebufferfv) X(ClearNamedFramebufferuiv) X(ClipControl) X(ColorMask) X(CompileShader)    \
           X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateShader) X(CreateTextures)          \
               X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)  \

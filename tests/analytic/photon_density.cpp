@@ -76,7 +76,8 @@ void expect_densities(const test::AnalyticScene& s, std::int64_t paths) {
 TEST(PhotonDensity, EveryAnalyticScene) {
   for (const test::AnalyticScene& s : test::all_point_scenes())
     // Closed rooms: as many landings for every albedo.
-    expect_densities(s, s.mean_irradiance_lx > 0 ? std::lround(100'000 * (1 - s.scene.material[0].kd.x)) : 300'000);
+    expect_densities(
+        s, s.mean_irradiance_lx > 0 ? std::lround(100'000 * (1 - s.scene.material[0].kd.x)) : 300'000);
 }
 
 TEST(PhotonDensity, MicrometresAndThousandsOfKilometres) {

@@ -94,8 +94,8 @@ TEST_F(Compare, EachLimitFailsByItself) {
 }
 
 TEST_F(Compare, JsonHoldsTheFigures) {
-  const auto run = run_tool({"compare", path("image.exr"), path("reference.exr"), "--json", "--ignore-emission",
-                             "--layer", "beauty,indirect"});
+  const auto run = run_tool({"compare", path("image.exr"), path("reference.exr"), "--json",
+                             "--ignore-emission", "--layer", "beauty,indirect"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json result = parse_json(run.out, "stdout");
   EXPECT_TRUE(result.find("passed")->as_bool());

@@ -34,7 +34,8 @@ inline void spill(const std::string& path, const std::string& bytes) {
 
 /// A fresh, empty folder for this test.
 inline std::string scratch(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(PHOS_SCRATCH) / (name + "-" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::path(PHOS_SCRATCH) / (name + "-" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder.string();

@@ -35,7 +35,8 @@ TEST(Random, StreamsDiffer) {
   std::set<std::uint32_t> first;
   for (std::uint64_t seed : {0ull, 1ull, 1ull << 40})
     for (std::uint64_t item : {0ull, 1ull, 1ull << 40})
-      for (const Stage stage : {Stage::emission, Stage::test}) first.insert(RandomStream(seed, stage, item).bits());
+      for (const Stage stage : {Stage::emission, Stage::test})
+        first.insert(RandomStream(seed, stage, item).bits());
   EXPECT_EQ(first.size(), 18u);
 }
 

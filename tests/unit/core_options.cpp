@@ -48,8 +48,8 @@ struct Everything {
 
 TEST(Options, ReadsEveryKind) {
   Everything e;
-  ASSERT_TRUE(e.parse({"--flag", "--number", "1e-6", "--maybe=-2", "--count", "7", "in.glb", "-o", "out", "--word", "two words",
-                       "--items", "a,b", "--items", "c", "--shape", "disc"}));
+  ASSERT_TRUE(e.parse({"--flag", "--number", "1e-6", "--maybe=-2", "--count", "7", "in.glb", "-o", "out",
+                       "--word", "two words", "--items", "a,b", "--items", "c", "--shape", "disc"}));
   EXPECT_TRUE(e.flag);
   EXPECT_EQ(e.number, 1e-6);
   EXPECT_EQ(e.maybe, -2);
