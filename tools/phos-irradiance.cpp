@@ -74,15 +74,7 @@ int main(int argc, char** argv) {
   options.inputs("SCENE PHOTONS", inputs.paths, "scene (.glb, .gltf, .obj) and photons of it");
   declare_options(options, scene_options);
   declare_options(options, records, placement);
-  options.choice<std::string>(
-      "isa", isa,
-      {{"best", ""},
-       {"sse2", "sse2"},
-       {"sse4.2", "sse4.2"},
-       {"avx", "avx"},
-       {"avx2", "avx2"},
-       {"avx512", "avx512"}},
-      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
+  declare_isa(options, isa);
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
   options.file("add-to", add_to,

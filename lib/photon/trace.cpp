@@ -227,15 +227,7 @@ void declare_options(Options& options, PhotonOptions& p) {
       "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
       "0 is by power alone, 1 is equal shares",
       {0, 1});
-  options.choice<std::string>(
-      "isa", p.isa,
-      {{"best", ""},
-       {"sse2", "sse2"},
-       {"sse4.2", "sse4.2"},
-       {"avx", "avx"},
-       {"avx2", "avx2"},
-       {"avx512", "avx512"}},
-      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
+  declare_isa(options, p.isa);
   options.text("shard", p.shard, "I/N",
                "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/options.h"
 #include "scene/scene.h"
 
 namespace phos {
@@ -43,6 +44,8 @@ struct SurfacePoint {
 struct RayOptions {
   std::string isa;  ///< "" = best of this machine; "sse2" for byte-exact files across machines
 };
+/// --isa: what RayOptions::isa is set to.
+void declare_isa(Options& options, std::string& isa);
 
 /// The acceleration structure. Queries are const and may be made from any thread. Holds a reference to the
 /// scene.

@@ -299,15 +299,7 @@ void declare_options(Options& options, RenderOptions& r) {
   options.integer("gloss-samples", r.gloss_samples, "N",
                   "rays per pixel on a glossy surface, shared among its samples", {0, 65536});
   options.integer("specular-depth", r.specular_depth, "N", "longest chain of mirrors and glass", {0, 1000});
-  options.choice<std::string>(
-      "isa", r.isa,
-      {{"best", ""},
-       {"sse2", "sse2"},
-       {"sse4.2", "sse4.2"},
-       {"avx", "avx"},
-       {"avx2", "avx2"},
-       {"avx512", "avx512"}},
-      "instruction set of the ray tracer; sse2 gives the same bytes on every x86 machine");
+  declare_isa(options, r.isa);
 }
 
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
