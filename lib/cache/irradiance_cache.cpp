@@ -7,7 +7,9 @@
 namespace phos {
 namespace {
 
-std::span<const float> flat(const std::vector<Vec3>& v) { return {reinterpret_cast<const float*>(v.data()), 3 * v.size()}; }
+std::span<const float> flat(const std::vector<Vec3>& v) {
+  return {reinterpret_cast<const float*>(v.data()), 3 * v.size()};
+}
 
 [[noreturn]] void reject(const Container& file, std::size_t row, const std::string& what) {
   throw Error(ExitCode::bad_input, file.path(),
