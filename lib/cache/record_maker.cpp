@@ -147,7 +147,7 @@ float RecordMaker::zone_radius_m(const Site& site, const Scratch& s, float dista
     radius = most;
   }
   const auto least_right = static_cast<float>(options_.accuracy * *options_.min_radius_m);
-  radius = std::min({radius, kMostGrowth * std::max(right, least_right), most});
+  radius = std::min({radius, kMostGrowth * std::max(right, 2 * least_right), most});
   return std::max(radius, 64 * site.rounding_m);
 }
 

@@ -103,7 +103,8 @@ Container::Impl::Impl(const std::string& p, const std::string& kind) : path(p), 
   provenance = from_metadata(header.metadata, path);
   check_version(provenance, path);
   if (!kind.empty() && provenance.kind != kind)
-    throw Error(ExitCode::bad_input, path, text("is a ", provenance.kind, " file, not ", kind));
+    throw Error(ExitCode::bad_input, path,
+                text("is a ", provenance.kind, " file, not ", kind, "; give what phos-", kind, " writes"));
   tensors = read_layout_tensors(header, file.bytes(), path);
   checksums = strings_by_name(header.metadata, kChecksums, path);
   const std::map<std::string, std::string> units = strings_by_name(header.metadata, kUnits, path);
