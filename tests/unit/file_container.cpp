@@ -187,7 +187,7 @@ TEST(Container, AnotherKindNamesBoth) {
   const Error e = error_of([&] { Container::open(path, "irradiance"); });
   EXPECT_EQ(e.code(), ExitCode::bad_input);
   EXPECT_EQ(e.where(), path);
-  EXPECT_STREQ(e.what(), "is a photons file, not irradiance");
+  EXPECT_STREQ(e.what(), "is a photons file, not irradiance; give what phos-irradiance writes");
 }
 
 TEST(Container, AnotherVersionNamesBoth) {
