@@ -11,6 +11,10 @@
 
 #include "core/interrupt.h"
 
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace phos {
 
 namespace {
@@ -24,6 +28,23 @@ Threads& threads() {
   static Threads instance;
   return instance;
 }
+
+/// Tells the thread sanitizer what the loop library's own synchronisation orders, which it cannot see: what
+/// was written before the loop is there in each chunk, and what chunks wrote is there after it.
+struct LoopOrder {
+#ifdef __SANITIZE_THREAD__
+  char begin = 0, end = 0;
+  void publish() { __tsan_release(&begin); }
+  void enter() { __tsan_acquire(&begin); }
+  void leave() { __tsan_release(&end); }
+  void collect() { __tsan_acquire(&end); }
+#else
+  void publish() {}
+  void enter() {}
+  void leave() {}
+  void collect() {}
+#endif
+};
 
 }  // namespace
 
@@ -50,16 +71,21 @@ void parallel_chunks(std::size_t n, std::size_t chunk,
   if (n == 0) return;
   thread_count();
   const std::size_t chunks = (n + chunk - 1) / chunk;
+  LoopOrder order;
+  order.publish();
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, chunks, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
+        order.enter();
         set_flush_to_zero();  // a worker may be new
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
           throw_if_interrupted();
           body(c * chunk, std::min(n, (c + 1) * chunk));
         }
+        order.leave();
       },
       tbb::simple_partitioner());
+  order.collect();
 }
 
 }  // namespace phos
