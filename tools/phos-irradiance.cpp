@@ -1,5 +1,6 @@
 // Places irradiance records and estimates them from photons.
 #include "cache/placement.h"
+#include "cache/record_maker.h"
 #include "file/hash.h"
 #include "file/tool.h"
 #include "scene/load.h"
@@ -73,7 +74,8 @@ int main(int argc, char** argv) {
   Options& options = tool.options();
   options.inputs("SCENE PHOTONS", inputs.paths, "scene (.glb, .gltf, .obj) and photons of it");
   declare_options(options, scene_options);
-  declare_options(options, records, placement);
+  declare_options(options, records);
+  declare_options(options, placement);
   declare_isa(options, isa);
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
@@ -123,8 +125,12 @@ int main(int argc, char** argv) {
     PlacementReport report;
     {
       const auto timer = tool.time("records");
-      report = place_records(cache, photons, rays, records, placement, tool.seed(), points, at.empty(),
-                             tool.counters());
+      const RecordMaker maker(photons, rays, records, tool.seed());
+      report = place_records(
+          cache, maker, rays, records, placement,
+          at.empty() ? photon_candidates(photons, records.paths, tool.seed(), placement.max_candidates)
+                     : point_candidates(points),
+          tool.counters());
       summarise(tool, cache, report);
     }
     if (cache.records.empty()) {

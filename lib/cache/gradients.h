@@ -30,12 +30,21 @@ struct ZonePhotons {
   }
 };
 
+/// How gradients are made. Photons allow analytic (their default), hemisphere, positional, blend and none;
+/// hemispheres of rays allow hybrid (their default), analytic, ward_heckbert, krivanek and none.
 enum class GradientMode {
-  photon,      ///< each photon's own analytic term (FORMULAS D2)
+  automatic,      ///< the estimator's default
+  analytic,       ///< each photon's or ray's own term (FORMULAS D2; RR-5264, B4): blind to occlusion
+  hybrid,         ///< analytic, and occlusion from neighbouring rays (B5)
+  ward_heckbert,  ///< differences between neighbouring rays (Ward and Heckbert 1992, B2)
+  krivanek,       ///< moving cell walls (Krivanek et al. 2005, B3)
   hemisphere,  ///< thesis 6.3: photons binned in a discretised hemisphere, differences between its cells (D1,
                ///< B1, B2)
+  positional,  ///< first moment of where photons landed (D3): sees all occlusion, at much noise
+  blend,       ///< analytic, moved towards positional as far as the two differ beyond noise (D4)
   none,
 };
+const char* name_of(GradientMode mode);
 
 /// Rows are channels, as in IrradianceRecord.
 struct Gradients {

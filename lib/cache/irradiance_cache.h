@@ -9,6 +9,7 @@
 
 #include "core/vector.h"
 #include "file/container.h"
+#include "scene/rays.h"
 
 namespace phos {
 
@@ -68,7 +69,9 @@ struct Interpolated {
 /// serially.
 class RecordTree {
  public:
-  RecordTree(const Bounds& bounds, double accuracy);
+  /// With `leak_test`, a record is valid only where no surface stands between it and the point (a ray per
+  /// record and query; the tree holds a reference).
+  RecordTree(const Bounds& bounds, double accuracy, const RayScene* leak_test = nullptr);
   ~RecordTree();
   RecordTree(RecordTree&&) noexcept;
   void insert(const IrradianceRecord& record);

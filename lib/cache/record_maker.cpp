@@ -24,33 +24,9 @@ constexpr double kDarkPhotons = 6.9;
 constexpr std::size_t kLeastForDensity = 16;  // photons nearby that promise how many a zone will hold
 constexpr std::size_t kMostNearest = 512;
 
-const char* const kEventNames[RecordEvents::count_] = {
-    "records with too few photons", "records fully lit",
-    "records from the hull",        "records in the dark",
-    "records with degenerate hull", "records with shrunk zone",
-    "records without photons",      "records probed",
-    "records at a shadow edge",     "records beside a wall"};
-
 float scale_of(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 }  // namespace
-
-void RecordEvents::add_to(Counters& counters) const {
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    if (n[i] > 0) counters.count(kEventNames[i], n[i]);
-  }
-}
-
-void RecordOptions::resolve(float diagonal_m) {
-  const double size = diagonal_m > 0 && std::isfinite(diagonal_m) ? static_cast<double>(diagonal_m) : 1;
-  if (!min_radius_m) min_radius_m = std::min(size / 100, max_radius_m.value_or(HUGE_VAL));
-  if (!max_radius_m) max_radius_m = std::max(size / 4, *min_radius_m);
-  if (*min_radius_m > *max_radius_m) {
-    throw Error(
-        ExitCode::usage, "--min-radius",
-        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
-  }
-}
 
 /// Where a record is made.
 struct RecordMaker::Site {
@@ -73,11 +49,6 @@ RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const R
   }
 }
 RecordMaker::~RecordMaker() = default;
-
-bool RecordMaker::wanted(std::uint32_t row) const {
-  return options_.paths == Quantity::all ||
-         photons_.path[row] != static_cast<std::uint8_t>(PhotonPath::direct);
-}
 
 /// Harmonic mean over cosine-weighted rays, misses counting as infinitely far (A7). Photons never come from
 /// dark surfaces; rays see them.
@@ -251,15 +222,19 @@ ZoneEstimate RecordMaker::estimate(Site& site, float& radius_m, std::uint32_t se
       radius_m /= 2, shrunk = true;
       continue;
     }
-    auto& n = s.events.n;
-    ++n[zone.kind == ZoneKind::few    ? RecordEvents::few
-        : zone.kind == ZoneKind::full ? RecordEvents::full
-        : zone.kind == ZoneKind::hull ? RecordEvents::hull
-                                      : RecordEvents::dark];
-    n[RecordEvents::degenerate] += zone.degenerate, n[RecordEvents::shrunk] += shrunk;
-    n[RecordEvents::unlit] += s.zone.size() == 0, n[RecordEvents::probed] += zone.probed;
-    n[RecordEvents::parted] += site.parted;
-    n[RecordEvents::at_edge] += std::isfinite(zone.edge_m);
+    const auto count = [&](bool happened, const char* event) {
+      if (happened) s.counters.count(event);
+    };
+    count(zone.kind == ZoneKind::few, "records with too few photons");
+    count(zone.kind == ZoneKind::full, "records fully lit");
+    count(zone.kind == ZoneKind::hull, "records from the hull");
+    count(zone.kind == ZoneKind::dark, "records in the dark");
+    count(zone.degenerate, "records with degenerate hull");
+    count(shrunk, "records with shrunk zone");
+    count(s.zone.size() == 0, "records without photons");
+    count(zone.probed, "records probed");
+    count(site.parted, "records beside a wall");
+    count(std::isfinite(zone.edge_m), "records at a shadow edge");
     return zone;
   }
 }
@@ -307,7 +282,7 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_ra
   const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
   if (options_.gradients == GradientMode::none) return;
-  const Gradients g = options_.gradients == GradientMode::photon
+  const Gradients g = options_.gradients == GradientMode::analytic
                           ? analytic
                           : hemisphere_gradients(s.zone, used, zone.area_m2, site.frame,
                                                  static_cast<int>(options_.hemisphere_rings));
@@ -316,11 +291,13 @@ void RecordMaker::fill(const Site& site, const ZoneEstimate& zone, float zone_ra
   }
 }
 
-RecordMaker::Made RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t item, std::uint32_t seed_row,
-                                    Scratch& s) const {
+Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
+  auto& s = static_cast<Scratch&>(worker);
+  const Vec3 p = at.position, n = at.normal;
+  const std::uint32_t seed_row = at.photon;
   const float diagonal = rays_.scene().bounds.diagonal_m();
   Site site{p, make_frame(n), kRounding * std::max({scale_of(p), 1e-3f * diagonal, 1e-30f})};
-  const float by_rays = ray_distance_m(site, item);
+  const float by_rays = ray_distance_m(site, at.item);
   const float by_photons = photon_distance_m(site, seed_row, s, by_rays);
   // Photons know the lit surroundings, rays the dark ones too: the harmonic mean of both, or the one there
   // is.
@@ -353,7 +330,7 @@ RecordMaker::Made RecordMaker::make(const Vec3& p, const Vec3& n, std::uint64_t 
                 text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
                      ") m exceeds the range of numbers; give the lights or the scene other units"));
   }
-  return {record, std::min(least, record.radius_m)};
+  return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};
 }
 
 }  // namespace phos

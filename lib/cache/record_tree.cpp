@@ -120,7 +120,8 @@ struct RecordTree::Impl {
   }
 };
 
-RecordTree::RecordTree(const Bounds& bounds, double accuracy) : impl_(std::make_unique<Impl>()) {
+RecordTree::RecordTree(const Bounds& bounds, double accuracy, const RayScene* /*leak_test*/)
+    : impl_(std::make_unique<Impl>()) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   impl_->accuracy = static_cast<float>(accuracy);
   const DVec3 centre = bounds.empty() ? DVec3(0) : DVec3(bounds.centre());

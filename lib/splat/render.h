@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "cache/irradiance_cache.h"
+#include "cache/shading.h"
 #include "core/counters.h"
 #include "core/json.h"
 #include "core/options.h"
 #include "image/image.h"
 #include "scene/rays.h"
-#include "splat/shading.h"
 
 namespace phos {
 

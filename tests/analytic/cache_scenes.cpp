@@ -34,7 +34,7 @@ TEST_P(EveryScene, RecordsAndInterpolationAgreeWithTheClosedForm) {
   cache.accuracy = options.accuracy, cache.quantity = "all";
   Counters counters;
   const PlacementReport report =
-      place_records(cache, lit.photons, *lit.rays, options, {.max_candidates = 20000}, 1, {}, true, counters);
+      test::place_at_photons(cache, lit.photons, *lit.rays, options, {.max_candidates = 20000}, 1, counters);
   EXPECT_GT(report.kept, 4u);
   RecordTree tree(s.scene.bounds, cache.accuracy);
   for (const IrradianceRecord& r : cache.records) tree.insert(r);
@@ -69,7 +69,7 @@ TEST(ClosedRoom, AreaMeanOfInterpolatedIrradiance) {
     IrradianceCache cache;
     cache.accuracy = options.accuracy;
     Counters counters;
-    place_records(cache, lit.photons, *lit.rays, options, {}, 1, {}, true, counters);
+    test::place_at_photons(cache, lit.photons, *lit.rays, options, {}, 1, counters);
     RecordTree tree(s.scene.bounds, cache.accuracy);
     for (const IrradianceRecord& r : cache.records) tree.insert(r);
     double sum = 0, weight = 0, missed = 0;
@@ -122,7 +122,7 @@ TEST(PointLight, GradientsAgreeWithTheClosedForm) {
 TEST(Furnace, HasNoGradient) {
   const test::AnalyticScene s = test::furnace(0.5f);
   const test::Lit lit = test::light_up(s.scene, 300000);
-  for (const GradientMode mode : {GradientMode::photon, GradientMode::hemisphere, GradientMode::none}) {
+  for (const GradientMode mode : {GradientMode::analytic, GradientMode::hemisphere, GradientMode::none}) {
     RecordOptions options = test::all_light(s.scene);
     options.max_photons = 4000, options.min_photons = 2000, options.gradients = mode;
     const RecordMaker maker(lit.photons, *lit.rays, options, 1);

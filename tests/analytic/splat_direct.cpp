@@ -2,7 +2,7 @@
 // tests/support/scenes.h).
 #include <gtest/gtest.h>
 
-#include "splat/shading.h"
+#include "cache/shading.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {

@@ -74,7 +74,7 @@ TEST(ThinWalls, DoNotLeak) {
   RecordOptions options = all_light(*lit.scene);
   options.accuracy = 0.3;
   Counters counters;
-  place_records(cache, lit.photons, *lit.rays, options, {.max_candidates = 20000}, 1, {}, true, counters);
+  place_at_photons(cache, lit.photons, *lit.rays, options, {.max_candidates = 20000}, 1, counters);
   ASSERT_GT(cache.records.size(), 10u);
   const SplatBuffer splats = splat_on_cpu(cache.records, 0.3, gbuffer, lit.scene->camera[0]);
   GlRenderer gl(*lit.scene);

@@ -32,11 +32,11 @@ void record(benchmark::State& state) {
   std::uint64_t made = 0;
   for (auto _ : state) {
     parallel_chunks(s.rows.size(), 16, [&](std::size_t begin, std::size_t end) {
-      RecordMaker::Scratch scratch;
+      const auto worker = maker.make_worker();
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t row = s.rows[i];
-        benchmark::DoNotOptimize(maker.make(s.lit.photons.position[row],
-                                            decode_octahedral(s.lit.photons.normal[row]), row, row, scratch));
+        benchmark::DoNotOptimize(maker.make(
+            {s.lit.photons.position[row], decode_octahedral(s.lit.photons.normal[row]), row, row}, *worker));
       }
     });
     made += s.rows.size();
@@ -51,8 +51,8 @@ void lookup(benchmark::State& state) {
   Stage500K& s = stage();
   IrradianceCache cache;
   Counters counters;
-  place_records(cache, s.lit.photons, *s.lit.rays, s.options, {.max_candidates = 20000}, 1, {}, true,
-                counters);
+  test::place_at_photons(cache, s.lit.photons, *s.lit.rays, s.options, {.max_candidates = 20000}, 1,
+                         counters);
   RecordTree tree(s.scene.bounds, cache.accuracy);
   for (const IrradianceRecord& r : cache.records) tree.insert(r);
   std::size_t i = 0;

@@ -14,8 +14,7 @@ IrradianceCache placed(const test::Lit& lit, const RecordOptions& options, std::
   IrradianceCache cache;
   cache.accuracy = options.accuracy;
   Counters counters;
-  place_records(cache, lit.photons, *lit.rays, options, {.max_candidates = candidates}, 1, {}, true,
-                counters);
+  test::place_at_photons(cache, lit.photons, *lit.rays, options, {.max_candidates = candidates}, 1, counters);
   return cache;
 }
 
@@ -87,7 +86,8 @@ class ByHand : public ::testing::Test {
     options.resolve(scene_.scene.bounds.diagonal_m());
     IrradianceCache cache;
     cache.accuracy = options.accuracy;
-    place_records(cache, map, rays_, options, {}, 1, points, points.empty(), counters_);
+    points.empty() ? test::place_at_photons(cache, map, rays_, options, {}, 1, counters_)
+                   : test::place_at_points(cache, map, rays_, options, {}, 1, points, counters_);
     expect_finite(cache);
     return cache;
   }
@@ -203,13 +203,13 @@ TEST(Rounds, PointsAreCoveredAndThenNothingIsAdded) {
   const std::vector<IrradianceRecord> before = cache.records;
   Counters counters;
   const PlacementReport first =
-      place_records(cache, lit.photons, *lit.rays, options, {.passes = 10}, 1, points, false, counters);
+      test::place_at_points(cache, lit.photons, *lit.rays, options, {.passes = 10}, 1, points, counters);
   EXPECT_GT(first.kept, 0u);
   EXPECT_EQ(first.uncovered, 0u);
   ASSERT_EQ(cache.records.size(), before.size() + first.kept);
   EXPECT_EQ(std::memcmp(cache.records.data(), before.data(), before.size() * sizeof(IrradianceRecord)), 0);
   const PlacementReport second =
-      place_records(cache, lit.photons, *lit.rays, options, {.passes = 10}, 1, points, false, counters);
+      test::place_at_points(cache, lit.photons, *lit.rays, options, {.passes = 10}, 1, points, counters);
   EXPECT_EQ(second.kept, 0u);
   EXPECT_EQ(second.uncovered, 0u);
 }

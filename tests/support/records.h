@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cache/placement.h"
+#include "cache/record_maker.h"
 #include "photon/trace.h"
 #include "support/golden_table.h"
 #include "support/scenes.h"
@@ -35,10 +36,29 @@ inline RecordOptions all_light(const Scene& scene) {
   return options;
 }
 
-inline IrradianceRecord record_at(const RecordMaker& maker, const Vec3& p, const Vec3& n,
+inline IrradianceRecord record_at(const Estimator& estimator, const Vec3& p, const Vec3& n,
                                   std::uint64_t item = 0) {
-  RecordMaker::Scratch scratch;
-  return maker.make(p, n, item, RecordMaker::kNoPhoton, scratch).record;
+  const auto worker = estimator.make_worker();
+  return estimator.make({p, n, item}, *worker).record;
+}
+
+/// From photons, where photons are.
+inline PlacementReport place_at_photons(IrradianceCache& cache, const PhotonMap& photons,
+                                        const RayScene& rays, const RecordOptions& resolved,
+                                        const PlacementOptions& placement, std::uint64_t seed,
+                                        Counters& counters) {
+  const RecordMaker maker(photons, rays, resolved, seed);
+  return place_records(cache, maker, rays, resolved, placement,
+                       photon_candidates(photons, resolved.paths, seed, placement.max_candidates), counters);
+}
+
+/// From photons, at given points.
+inline PlacementReport place_at_points(IrradianceCache& cache, const PhotonMap& photons, const RayScene& rays,
+                                       const RecordOptions& resolved, const PlacementOptions& placement,
+                                       std::uint64_t seed, std::span<const SurfaceSample> points,
+                                       Counters& counters) {
+  const RecordMaker maker(photons, rays, resolved, seed);
+  return place_records(cache, maker, rays, resolved, placement, point_candidates(points), counters);
 }
 
 }  // namespace phos::test

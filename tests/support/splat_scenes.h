@@ -28,7 +28,7 @@ inline IrradianceCache records_in_view(const Lit& lit, const GBuffer& gbuffer, Q
   for (std::size_t i = 0; i < gbuffer.hit.size(); ++i)
     if (gbuffer.covered(i)) visible.push_back({Vec3(gbuffer.position[i]), Vec3(gbuffer.normal[i])});
   Counters counters;
-  place_records(cache, lit.photons, *lit.rays, options, {}, 1, visible, false, counters);
+  place_at_points(cache, lit.photons, *lit.rays, options, {}, 1, visible, counters);
   return cache;
 }
 

@@ -75,6 +75,12 @@ class Shading {
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
 
+  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the cache, one sample
+  /// of each lamp, one ray of its gloss, its mirrors. `depth` counts reflections since the eye (or the
+  /// record).
+  Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
+               RandomStream& random, ShadingLog& log) const;
+
  private:
   /// Where a lamp lies: it lights nothing that looks away from all of it.
   struct Extent {
@@ -84,8 +90,6 @@ class Shading {
   };
   Extent extent_of(const Light& light) const;
   bool out_of_sight(const Extent& lamp, const SurfacePoint& point) const;
-  Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
-               RandomStream& random, ShadingLog& log) const;
   const RayScene& rays_;
   const Luminaires& lights_;
   const RecordTree& records_;

@@ -2,7 +2,7 @@
 // same, mirrors show what stands before them, and caches that hold direct light are not lit twice.
 #include <gtest/gtest.h>
 
-#include "splat/shading.h"
+#include "cache/shading.h"
 #include "support/one_material.h"
 #include "support/scenes.h"
 

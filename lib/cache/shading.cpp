@@ -1,4 +1,4 @@
-#include "splat/shading.h"
+#include "cache/shading.h"
 
 #include <algorithm>
 

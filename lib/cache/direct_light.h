@@ -1,0 +1,36 @@
+// Light straight from the lamps at a point.
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// One visible sample of a lamp.
+struct LampSample {
+  Vec3 direction{0};             ///< unit, towards the lamp
+  float distance_m = kInfinity;  ///< infinity: a directional light
+  Vec3 normal{0};     ///< of the lamp's surface, on the side that shines; minus direction for lamps without
+  Rgb irradiance{0};  ///< what it adds: cosine, density and number of samples included; they sum to E, lx
+  std::uint32_t light = 0;
+};
+
+/// The point at p that faces n (unit), lifted off surfaces by the rounding of positions in this scene.
+SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
+
+/// Samples of every lamp that can be seen from the receiver: `samples` low-discrepancy ones of each area
+/// light, one of each other. Replaces `out`.
+void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
+                  RandomStream& random, std::vector<LampSample>& out);
+
+struct DirectIrradiance {
+  Rgb irradiance{0};  ///< lx
+  Rgb stderr_lx{0};   ///< of the area lights' samples (as if they were independent: it errs on the high side)
+};
+DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
+                                   const SurfacePoint& receiver, int samples, RandomStream& random);
+
+}  // namespace phos

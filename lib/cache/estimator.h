@@ -1,0 +1,51 @@
+// What makes an irradiance record: the seam between placement and the ways of estimating irradiance.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "cache/irradiance_cache.h"
+#include "core/counters.h"
+
+namespace phos {
+
+inline constexpr std::uint32_t kNoPhoton = ~0u;
+
+/// A place where a record is wanted.
+struct RecordSite {
+  Vec3 position{0}, normal{0, 0, 1};  ///< m, on a surface; unit, on the side that is lit
+  std::uint64_t item = 0;             ///< numbers its random rays
+  std::uint32_t photon =
+      kNoPhoton;  ///< row of the photon that it sits on (estimates leave it out), or kNoPhoton
+  float least_radius_m = 0,
+        most_radius_m = kInfinity;  ///< this place's own bounds of the radius (pixel size)
+};
+
+/// A record before its neighbours and the bounds of the radius had their say.
+struct Made {
+  IrradianceRecord record;  ///< radius_m after gradient and edge limits: finite, positive, not clamped
+  /// Neighbours need not clamp it further, since records nearer to each other than their photons reach would
+  /// tell the same photons' tale.
+  float least_radius_m = 0;
+  float site_least_m = 0, site_most_m = kInfinity;  ///< of its RecordSite
+};
+
+/// One way of estimating irradiance. Const and usable from any thread, each with a worker of its own.
+class Estimator {
+ public:
+  /// Memory and counts of one thread.
+  class Worker {
+   public:
+    virtual ~Worker() = default;
+    Counters counters;  ///< numerical events so far
+  };
+  virtual ~Estimator() = default;
+  virtual std::unique_ptr<Worker> make_worker() const = 0;
+  /// The record at a site; `worker` is of this estimator. Depends on the site and the seed alone. Always
+  /// finite. Throws Error(numerical) where a value exceeds the range of numbers.
+  virtual Made make(const RecordSite& site, Worker& worker) const = 0;
+  /// One whose hands are tied to the thread that made it (OpenGL).
+  virtual bool one_thread() const { return false; }
+};
+
+}  // namespace phos

@@ -1,0 +1,71 @@
+// Irradiance records by rays over the hemisphere (final gathering).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cache/estimator.h"
+#include "cache/hemisphere.h"
+#include "cache/record_options.h"
+#include "cache/shading.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// What lights the places that rays find, besides the lamps.
+struct GatherSource {
+  const RecordTree* indirect = nullptr;  ///< cache of indirect light; null: none, rays show the first bounce
+  const Estimator* fallback =
+      nullptr;  ///< estimates indirect light where that cache has no record (counted); null: dark
+};
+
+/// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.
+class HitLight {
+ public:
+  HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+           const RecordOptions& resolved, std::uint64_t seed);
+  ~HitLight();
+
+  struct Worker;  ///< memory and counts of one thread
+  std::unique_ptr<Worker> make_worker() const;
+
+  /// Sets radiance, distance_m and hit_normal of h from what its rays hit (distance_m infinite: nothing), by
+  /// one sample of the lamps at each hit and `source`. Lamps' own emission is left out: a record's direct
+  /// light is computed apart. Random numbers depend on (seed, item, pass, ray).
+  void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
+             Hemisphere& h, Worker& worker) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// What a record's hemispheres (one or more passes, averaged) make of it: irradiance, standard error,
+/// distance, radius and gradients (A7: harmonic or least distance, then limited by the gradient). Shared by
+/// all estimators that sample hemispheres.
+Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const RecordOptions& resolved);
+
+/// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
+/// standard error is at most error x its value, or all of options.rays are spent (counted). With paths = all,
+/// direct light at the record is added from samples of the lamps.
+class GatherEstimator : public Estimator {
+ public:
+  GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                  const RecordOptions& resolved, std::uint64_t seed);
+  ~GatherEstimator() override;
+  std::unique_ptr<Worker> make_worker() const override;
+  Made make(const RecordSite& site, Worker& worker) const override;
+
+  /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
+  void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h,
+              Worker& worker) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos

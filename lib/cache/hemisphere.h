@@ -1,0 +1,54 @@
+// What a record's rays saw: a sampled hemisphere, and what follows from it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cache/gradients.h"
+#include "core/vector.h"
+
+namespace phos {
+
+/// Rays of one hemisphere, as columns. Stratified: rings x slices cells of equal projected solid angle, one
+/// ray in each, ray(j, k) = j * slices + k, sin^2(theta) in [j/rings, (j+1)/rings), phi in [k, k+1) 2
+/// pi/slices about frame.z from frame.x. Unstructured (a raster): rings = slices = 0, any directions.
+struct Hemisphere {
+  Frame frame;
+  int rings = 0, slices = 0;
+  std::vector<Vec3> direction;    ///< world, unit, above frame.z
+  std::vector<Rgb> radiance;      ///< cd/m2 arriving along it
+  std::vector<float> distance_m;  ///< infinity: it escaped
+  std::vector<Vec3> hit_normal;   ///< unit, on the side it hit; minus direction where there is none
+  std::vector<float>
+      projected_sr;  ///< projected solid angle that it stands for (cosine included); all sum to pi
+  std::size_t size() const { return direction.size(); }
+  bool stratified() const { return rings > 0; }
+  std::size_t at(int ring, int slice) const {
+    return static_cast<std::size_t>(ring * slices + (slice + slices) % slices);
+  }
+  void resize(std::size_t n) {
+    direction.resize(n), radiance.resize(n), distance_m.resize(n), hit_normal.resize(n),
+        projected_sr.resize(n);
+  }
+};
+
+/// Rings of a stratified hemisphere of about `rays` rays: slices = round(pi rings), cells are about square
+/// (Ward and Heckbert 1992).
+int rings_for(std::int64_t rays);
+
+/// E = sum of radiance x projected solid angle, lx; in double, in order.
+Rgb irradiance_of(const Hemisphere& h);
+/// Standard error of irradiance_of, lx, from differences between neighbouring strata (conservative: it holds
+/// the variation from cell to cell too); unstructured sets: 0.
+Rgb standard_error_of(const Hemisphere& h);
+/// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (A7), m; infinity if all miss.
+float harmonic_distance_m(const Hemisphere& h);
+/// Least distance over rays more than 10 degrees above the horizon (Tabellion and Lamorlette 2004), m.
+float least_distance_m(const Hemisphere& h);
+
+/// Gradients of irradiance_of. Rotation by ring means of the tangent (B1; unstructured: the analytic sum on 8
+/// rings). Translation by `mode`: hybrid, analytic, ward_heckbert, krivanek or none; an unstructured set
+/// allows analytic and none. Distances below `least_m` count as that much (a ray that starts at a crease).
+Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m);
+
+}  // namespace phos

@@ -1,0 +1,197 @@
+#include "cache/record_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+template <class E>
+using Names = std::vector<std::pair<std::string, E>>;
+
+const Names<Estimate> kEstimates{{"hull", Estimate::hull},
+                                 {"kernel", Estimate::kernel},
+                                 {"gather", Estimate::gather},
+                                 {"raster", Estimate::raster}};
+const Names<Quantity> kQuantities{{"indirect", Quantity::indirect}, {"all", Quantity::all}};
+const Names<GradientMode> kGradients{{"auto", GradientMode::automatic},
+                                     {"analytic", GradientMode::analytic},
+                                     {"hybrid", GradientMode::hybrid},
+                                     {"ward-heckbert", GradientMode::ward_heckbert},
+                                     {"krivanek", GradientMode::krivanek},
+                                     {"hemisphere", GradientMode::hemisphere},
+                                     {"positional", GradientMode::positional},
+                                     {"blend", GradientMode::blend},
+                                     {"none", GradientMode::none}};
+const Names<RadiusRule> kRadii{{"harmonic", RadiusRule::harmonic}, {"least", RadiusRule::least}};
+const Names<LeakTest> kLeakTests{{"none", LeakTest::none}, {"ray", LeakTest::ray}};
+const Names<Kernel> kKernels{
+    {"disc", Kernel::disc}, {"epanechnikov", Kernel::epanechnikov}, {"cone", Kernel::cone}};
+const Names<RasterBorder> kBorders{
+    {"none", RasterBorder::none}, {"coverage", RasterBorder::coverage}, {"stretch", RasterBorder::stretch}};
+
+template <class E>
+const std::string& name_in(const Names<E>& names, E value) {
+  const auto found =
+      std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.second == value; });
+  PHOS_CHECK(found != names.end(), "value ", static_cast<int>(value));
+  return found->first;
+}
+
+/// Takes over what an earlier run recorded, option by option.
+class Adoption {
+ public:
+  Adoption(const Options& given, const Container& earlier) : given_(given), earlier_(earlier) {}
+
+  void number(const char* name, double& value) { value = settle(name, value, &Json::as_number); }
+  void number(const char* name, std::optional<double>& value) {
+    if (find(name)) value = settle(name, value.value_or(0), &Json::as_number);
+  }
+  void integer(const char* name, std::int64_t& value) { value = settle(name, value, &Json::as_integer); }
+  template <class E>
+  void choice(const char* name, E& value, const Names<E>& names) {
+    const Json* was = find(name);
+    if (!was || !was->is_string()) return;
+    if (given_.given(name) && was->as_string() != name_in(names, value))
+      disagree(name, was->as_string(), name_in(names, value));
+    for (const auto& [text, e] : names) {
+      if (was->as_string() == text) value = e;
+    }
+  }
+
+ private:
+  const Json* find(const std::string& name) const {
+    const Json* was = earlier_.provenance().parameters.find(name);
+    return was && !was->is_null() ? was : nullptr;
+  }
+  template <class T>
+  T settle(const char* name, T value, T (Json::*as)() const) const {
+    const Json* was = find(name);
+    if (!was || !was->is_number()) return value;
+    const T earlier = (was->*as)();
+    if (given_.given(name) && value != earlier) disagree(name, was->dump(), Json(value).dump());
+    return earlier;
+  }
+  [[noreturn]] void disagree(const std::string& name, const std::string& was, const std::string& now) const {
+    throw Error(ExitCode::mismatch, earlier_.path(),
+                text("was made with --", name, " ", was, ", not ", now, "; leave --", name,
+                     " out to add with the same, or make a new file without --add-to"));
+  }
+  const Options& given_;
+  const Container& earlier_;
+};
+
+}  // namespace
+
+const char* name_of(GradientMode mode) { return name_in(kGradients, mode).c_str(); }
+
+void RecordOptions::resolve(float diagonal_m) {
+  const double size = diagonal_m > 0 && std::isfinite(diagonal_m) ? static_cast<double>(diagonal_m) : 1;
+  if (!min_radius_m) min_radius_m = std::min(size / 100, max_radius_m.value_or(HUGE_VAL));
+  if (!max_radius_m) max_radius_m = std::max(size / 4, *min_radius_m);
+  if (*min_radius_m > *max_radius_m) {
+    throw Error(
+        ExitCode::usage, "--min-radius",
+        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
+  }
+  using G = GradientMode;
+  const bool photons = estimate == Estimate::hull || estimate == Estimate::kernel;
+  const std::vector<G> allowed =
+      photons ? std::vector<G>{G::analytic, G::hemisphere, G::positional, G::blend, G::none}
+      : estimate == Estimate::gather
+          ? std::vector<G>{G::hybrid, G::analytic, G::ward_heckbert, G::krivanek, G::none}
+          : std::vector<G>{G::analytic, G::none};
+  if (gradients == G::automatic) gradients = allowed.front();
+  if (std::find(allowed.begin(), allowed.end(), gradients) != allowed.end()) return;
+  std::string names;
+  for (const G g : allowed) names += text(names.empty() ? "" : ", ", name_of(g));
+  throw Error(ExitCode::usage, "--gradients",
+              text(name_of(gradients), " cannot be had from --estimate ", name_in(kEstimates, estimate),
+                   "; it gives ", names));
+}
+
+void declare_options(Options& options, RecordOptions& r) {
+  options.section("Records");
+  options.choice<Estimate>(
+      "estimate", r.estimate, kEstimates,
+      "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+  options.number("accuracy", r.accuracy, "A",
+                 "error allowed in interpolation: a record serves points within A times its radius",
+                 {1e-3, 1, false});
+  options.number("min-radius", r.min_radius_m, "METRES", "smallest radius (default: scene diagonal / 100)",
+                 kPositive);
+  options.number("max-radius", r.max_radius_m, "METRES", "largest radius (default: scene diagonal / 4)",
+                 kPositive);
+  options.choice<Quantity>("paths", r.paths, kQuantities,
+                           "light that counts: indirect leaves out what comes straight from a lamp");
+  options.choice<GradientMode>(
+      "gradients", r.gradients, kGradients,
+      "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
+      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
+  options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
+                           "ray: a record serves a point only if the two can see each other");
+  options.section("Estimates from photons");
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
+  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
+                  {1, 64});
+  options.integer("near-photons", r.near_photons, "N",
+                  "photons of the first query, for the distance to surroundings", {8, 4096});
+  options.integer("min-photons", r.min_photons, "N",
+                  "photons that a zone should hold at least, as far as the surroundings allow; records are "
+                  "no closer to each other than half such a zone",
+                  {1, 1e6});
+  options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7});
+  options.integer("distance-rays", r.distance_rays, "N",
+                  "rays that look for dark surroundings; 0: photons alone", {0, 4096});
+  options.integer("probes", r.probes, "N", "short rays that look for the surface where a zone is in doubt",
+                  {16, 65536});
+  options.section("Estimates from rays");
+  options.integer("rays", r.rays, "N", "rays of a hemisphere, at most", {16, 1048576});
+  options.number("error", r.error, "E",
+                 "relative standard error at which a record has rays enough (default: all --rays are spent)",
+                 kPositive);
+  options.integer("gather-bounces", r.gather_bounces, "N",
+                  "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
+  options.choice<RadiusRule>("radius", r.radius, kRadii,
+                             "radius from the harmonic mean or the least distance");
+  options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
+                  {1, 65536});
+  options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
+                  {8, 1024});
+  options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
+                               "what stands for directions beyond the plane: nothing, the plane's own mean "
+                               "(coverage), or its border pixels (stretch)");
+}
+
+void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {
+  Adoption from(given, earlier);
+  from.choice("estimate", r.estimate, kEstimates);
+  from.number("accuracy", r.accuracy);
+  from.number("min-radius", r.min_radius_m);
+  from.number("max-radius", r.max_radius_m);
+  from.choice("paths", r.paths, kQuantities);
+  from.choice("gradients", r.gradients, kGradients);
+  from.choice("leak-test", r.leak_test, kLeakTests);
+  from.choice("kernel", r.kernel, kKernels);
+  from.integer("hemisphere-rings", r.hemisphere_rings);
+  from.integer("near-photons", r.near_photons);
+  from.integer("min-photons", r.min_photons);
+  from.integer("max-photons", r.max_photons);
+  from.integer("distance-rays", r.distance_rays);
+  from.integer("probes", r.probes);
+  from.integer("rays", r.rays);
+  from.number("error", r.error);
+  from.integer("gather-bounces", r.gather_bounces);
+  from.choice("radius", r.radius, kRadii);
+  from.integer("light-samples", r.light_samples);
+  from.integer("raster-side", r.raster_side);
+  from.choice("raster-border", r.raster_border, kBorders);
+}
+
+}  // namespace phos

@@ -1,0 +1,71 @@
+// How records are made: the options of every way of estimating irradiance.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cache/gradients.h"
+#include "core/options.h"
+#include "file/container.h"
+
+namespace phos {
+
+enum class Quantity {
+  indirect,  ///< all light but that straight from a lamp
+  all,
+};
+enum class Estimate {
+  hull,    ///< photons over the area of their convex hull (thesis chapter 6, FORMULAS C1, C2)
+  kernel,  ///< photons over a disc, or weighted by a kernel: the classical comparison (C4)
+  gather,  ///< stratified cosine-weighted rays, each lit where it lands
+  raster,  ///< the scene drawn on one plane over the place (thesis 4.4)
+};
+enum class Kernel { disc, epanechnikov, cone };
+enum class RadiusRule { harmonic, least };  ///< A7: harmonic mean, or least distance of the rays
+enum class LeakTest {
+  none,
+  ray,  ///< a record serves a point only if the two can see each other
+};
+enum class RasterBorder {
+  none,      ///< directions beyond the plane are dark
+  coverage,  ///< divided by the share of the hemisphere that the plane covers (Larsen and Christensen 2004)
+  stretch,   ///< border pixels stand for what lies beyond them (thesis 4.4.1)
+};
+
+struct RecordOptions {
+  Estimate estimate = Estimate::hull;
+  double accuracy = 0.2;                             ///< a: zone of influence = a x radius
+  std::optional<double> min_radius_m, max_radius_m;  ///< empty: resolve() sets them from the scene's size
+  Quantity paths = Quantity::indirect;
+  GradientMode gradients = GradientMode::automatic;
+  RadiusRule radius = RadiusRule::harmonic;  ///< of gather and raster
+  LeakTest leak_test = LeakTest::none;
+  // Photons.
+  Kernel kernel = Kernel::disc;
+  std::int64_t hemisphere_rings = 8;
+  std::int64_t near_photons = 128;                     ///< k of the first query
+  std::int64_t min_photons = 100, max_photons = 1000;  ///< aimed at in a zone
+  std::int64_t distance_rays = 32;                     ///< 0: distances from photons alone
+  std::int64_t probes = 128;
+  // Rays.
+  std::int64_t rays = 1024;     ///< of a hemisphere, at most
+  std::optional<double> error;  ///< relative standard error at which a hemisphere has rays enough; empty: all
+  std::int64_t gather_bounces =
+      -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
+  std::int64_t light_samples = 64;  ///< with paths = all: shadow rays to each area light
+  std::int64_t raster_side = 64;    ///< pixels of the plane, each way
+  RasterBorder raster_border = RasterBorder::stretch;
+
+  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size), and the
+  /// estimator's own gradients. Throws Error(usage) if the smaller radius exceeds the larger, or if the
+  /// estimator has no such gradients.
+  void resolve(float diagonal_m);
+};
+
+void declare_options(Options& options, RecordOptions& records);
+
+/// For adding to an earlier file: options that were not given take its values; one that was given and differs
+/// throws Error(mismatch) saying which.
+void adopt_options(RecordOptions& records, const Options& given, const Container& earlier);
+
+}  // namespace phos
