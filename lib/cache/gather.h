@@ -20,6 +20,8 @@ struct GatherSource {
   const RecordTree* indirect = nullptr;  ///< cache of indirect light; null: none, rays show the first bounce
   const Estimator* fallback =
       nullptr;  ///< estimates indirect light where that cache has no record (counted); null: dark
+  bool holds_direct =
+      false;  ///< the cache holds light straight from the lamps too: none is sampled where rays land
 };
 
 /// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.

@@ -32,6 +32,7 @@ const Names<RadiusRule> kRadii{{"harmonic", RadiusRule::harmonic}, {"least", Rad
 const Names<LeakTest> kLeakTests{{"none", LeakTest::none}, {"ray", LeakTest::ray}};
 const Names<Kernel> kKernels{
     {"disc", Kernel::disc}, {"epanechnikov", Kernel::epanechnikov}, {"cone", Kernel::cone}};
+const Names<GatherFrom> kSources{{"cache", GatherFrom::cache}, {"photons", GatherFrom::photons}};
 const Names<RasterBorder> kBorders{
     {"none", RasterBorder::none}, {"coverage", RasterBorder::coverage}, {"stretch", RasterBorder::stretch}};
 
@@ -158,6 +159,13 @@ void declare_options(Options& options, RecordOptions& r) {
                  kPositive);
   options.integer("gather-bounces", r.gather_bounces, "N",
                   "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
+  options.choice<GatherFrom>(
+      "gather-from", r.gather_from, kSources,
+      "indirect light where rays land: a coarse cache made from the photons first, or the "
+      "photons there (ten times the work); a cache among the inputs is read instead");
+  options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
+  options.integer("source-photons", r.source_photons, "N",
+                  "photons that a zone of the coarse cache should hold at least", {16, 1e6});
   options.choice<RadiusRule>("radius", r.radius, kRadii,
                              "radius from the harmonic mean or the least distance");
   options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
@@ -188,6 +196,9 @@ void adopt_options(RecordOptions& r, const Options& given, const Container& earl
   from.integer("rays", r.rays);
   from.number("error", r.error);
   from.integer("gather-bounces", r.gather_bounces);
+  from.choice("gather-from", r.gather_from, kSources);
+  from.number("source-accuracy", r.source_accuracy);
+  from.integer("source-photons", r.source_photons);
   from.choice("radius", r.radius, kRadii);
   from.integer("light-samples", r.light_samples);
   from.integer("raster-side", r.raster_side);

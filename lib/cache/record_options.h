@@ -26,6 +26,10 @@ enum class LeakTest {
   none,
   ray,  ///< a record serves a point only if the two can see each other
 };
+enum class GatherFrom {
+  cache,    ///< a coarse cache, made from the photons first (two-level caching)
+  photons,  ///< the photons about each hit: no coarse cache, ten times the work
+};
 enum class RasterBorder {
   none,      ///< directions beyond the plane are dark
   coverage,  ///< divided by the share of the hemisphere that the plane covers (Larsen and Christensen 2004)
@@ -52,8 +56,11 @@ struct RecordOptions {
   std::optional<double> error;  ///< relative standard error at which a hemisphere has rays enough; empty: all
   std::int64_t gather_bounces =
       -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
-  std::int64_t light_samples = 64;  ///< with paths = all: shadow rays to each area light
-  std::int64_t raster_side = 64;    ///< pixels of the plane, each way
+  GatherFrom gather_from = GatherFrom::cache;
+  double source_accuracy = 0.4;       ///< a of the coarse cache
+  std::int64_t source_photons = 300;  ///< that a zone of the coarse cache should hold at least
+  std::int64_t light_samples = 64;    ///< with paths = all: shadow rays to each area light
+  std::int64_t raster_side = 64;      ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;
 
   /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size), and the

@@ -1,0 +1,58 @@
+#include "cache/two_level.h"
+
+#include <algorithm>
+
+#include "cache/placement.h"
+#include "cache/record_maker.h"
+
+namespace phos {
+namespace {
+
+/// Photons tried as places: a coarse cache needs far fewer records than that.
+constexpr std::int64_t kCandidates = 50000;
+
+RecordOptions coarse_options(const RecordOptions& fine) {
+  RecordOptions coarse = fine;
+  coarse.estimate = Estimate::hull;
+  coarse.gradients = GradientMode::analytic;
+  coarse.leak_test = LeakTest::none;
+  coarse.accuracy = fine.source_accuracy;
+  coarse.min_photons = fine.source_photons;
+  coarse.max_photons = std::max(fine.max_photons, 4 * fine.source_photons);
+  coarse.paths = Quantity::indirect;
+  return coarse;
+}
+
+}  // namespace
+
+CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
+                         std::uint64_t seed, Counters& counters) {
+  const RecordOptions coarse = coarse_options(resolved);
+  photons_ = std::make_unique<RecordMaker>(photons, rays, coarse, seed);
+  if (resolved.gather_from == GatherFrom::photons) return;
+  IrradianceCache cache;
+  cache.accuracy = coarse.accuracy;
+  Counters own;
+  place_records(cache, *photons_, rays, coarse, {},
+                photon_candidates(photons, coarse.paths, seed, kCandidates), own);
+  counters.count("coarse records", cache.records.size());
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, cache.accuracy);
+  for (const IrradianceRecord& r : cache.records) tree_->insert(r);
+}
+
+CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
+                         const RecordOptions& resolved, std::uint64_t seed) {
+  if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, earlier.accuracy);
+  for (const IrradianceRecord& r : earlier.records) tree_->insert(r);
+  holds_direct_ = earlier.quantity == "all";
+}
+
+CoarseLevel::CoarseLevel() = default;
+CoarseLevel::~CoarseLevel() = default;
+CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
+
+GatherSource CoarseLevel::source() const { return {tree_.get(), photons_.get(), holds_direct_}; }
+std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
+
+}  // namespace phos

@@ -1,0 +1,42 @@
+// The coarse level of two-level caching: indirect light that gathered rays read where they land.
+#pragma once
+
+#include <memory>
+
+#include "cache/gather.h"
+#include "cache/irradiance_cache.h"
+#include "cache/record_options.h"
+#include "core/counters.h"
+#include "photon/photon_map.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// Holds what a GatherSource refers to. Rays average over many places, so that few, far-reaching records of
+/// many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same end); where
+/// there is none, the photons there are asked. Holds references to `rays` and `photons`.
+class CoarseLevel {
+ public:
+  /// From photons: records by hull at options.source_accuracy, placed at photons; none with
+  /// GatherFrom::photons, whose every ray asks the photons. View-independent: it depends on scene, photons,
+  /// options and seed alone.
+  CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
+              std::uint64_t seed, Counters& counters);
+  /// From an earlier cache; `photons` may be null: then there is no light where it has no record.
+  CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
+              const RecordOptions& resolved, std::uint64_t seed);
+  /// Nothing: rays show what lamps light directly.
+  CoarseLevel();
+  ~CoarseLevel();
+  CoarseLevel(CoarseLevel&&) noexcept;
+
+  GatherSource source() const;
+  std::size_t records() const;
+
+ private:
+  std::unique_ptr<RecordTree> tree_;
+  std::unique_ptr<Estimator> photons_;
+  bool holds_direct_ = false;
+};
+
+}  // namespace phos
