@@ -180,6 +180,7 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
     if (!(cos_light > 0)) return false;
     result.value = point.luminance;
+    result.normal = cosine > 0 ? point.normal : -point.normal;
     result.error_m = point.error_m;
     result.density = point.density * distance2_m2 / cos_light;
     return result.density > 0 && std::isfinite(result.density);

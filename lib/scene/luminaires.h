@@ -20,6 +20,7 @@ float spot_falloff(const Light& light, float cos_angle);
 struct Illumination {
   Vec3 direction{0};  ///< unit, from the point towards the light
   Vec3 position{0};   ///< of the sample on the light (unused for directional)
+  Vec3 normal{0};     ///< of an area light there, on the side seen from the point; 0 for others
   float distance_m = kInfinity;
   float error_m = 0;  ///< rounding error at the far end, for RayScene::visible
   Rgb value{0};       ///< area: luminance, cd/m2. Delta lights: illuminance on a surface facing it, lx

@@ -1,0 +1,87 @@
+#include "cache/direct_light.h"
+
+#include <algorithm>
+
+namespace phos {
+namespace {
+
+/// Point i of an additive (R2) sequence started at `shift`: low discrepancy in two dimensions.
+Vec2 r2_point(int i, const Vec2& shift) {
+  constexpr double kStep[2] = {0.7548776662466927, 0.5698402909980532};
+  Vec2 p;
+  for (int d = 0; d < 2; ++d) {
+    const double x = static_cast<double>(shift[d]) + i * kStep[d];
+    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
+  }
+  return p;
+}
+
+bool visible(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
+  if (std::isfinite(light.distance_m)) return rays.visible(from, light.position, light.error_m);
+  return !rays.occluded({from.leave(light.direction), light.direction});
+}
+
+}  // namespace
+
+SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
+  // The bound of scene/offset.h, for the largest coordinates and the longest edge that the scene can have.
+  constexpr float kRoundoff = 0x1p-24f;
+  float largest = max_component(glm::abs(p));
+  if (!scene.bounds.empty())
+    largest = std::max(
+        {largest, max_component(glm::abs(scene.bounds.lo)), max_component(glm::abs(scene.bounds.hi))});
+  SurfacePoint point;
+  point.position = p;
+  point.geometric_normal = point.smooth_normal = point.normal = n;
+  point.tangent = make_frame(n).x;
+  point.error_m = kRoundoff * (16 * largest + 32 * scene.bounds.diagonal_m());
+  return point;
+}
+
+void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
+                  RandomStream& random, std::vector<LampSample>& out) {
+  out.clear();
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const bool area = lights[i].kind == Light::Kind::area;
+    const int n = area ? std::max(samples, 1) : 1;
+    // Drawn for every light, so that one light's samples do not depend on what another's do.
+    const float shift = random.uniform();
+    const Vec2 shift2 = random.uniform2();
+    for (int k = 0; k < n; ++k) {
+      Illumination light;
+      const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
+      if (!lights.illuminate(i, receiver.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(k, shift2),
+                             light))
+        continue;
+      const float cosine = glm::dot(receiver.normal, light.direction);
+      if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
+      const Rgb irradiance = light.value * (cosine / (area ? light.density * static_cast<float>(n) : 1.f));
+      if (!(max_component(irradiance) > 0) || !visible(rays, receiver, light)) continue;
+      out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
+                     static_cast<std::uint32_t>(i)});
+    }
+  }
+}
+
+DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
+                                   const SurfacePoint& receiver, int samples, RandomStream& random) {
+  std::vector<LampSample> lamps;
+  sample_lamps(rays, lights, receiver, samples, random, lamps);
+  DVec3 sum(0), variance(0);
+  const double n = std::max(samples, 1);
+  for (std::size_t i = 0; i < lamps.size();) {
+    // The samples of one light follow each other; those that are dark or hidden count as zeros.
+    const std::uint32_t light = lamps[i].light;
+    DVec3 mean(0), squares(0);
+    for (; i < lamps.size() && lamps[i].light == light; ++i) {
+      const DVec3 part(lamps[i].irradiance);
+      mean += part, squares += part * part;
+    }
+    sum += mean;
+    if (n > 1 && lights[light].kind == Light::Kind::area)
+      variance += glm::max(n * squares - mean * mean, DVec3(0)) / (n - 1);
+  }
+  return {Rgb(sum), Rgb(glm::sqrt(variance))};
+}
+
+}  // namespace phos
