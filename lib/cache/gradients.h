@@ -52,9 +52,25 @@ struct Gradients {
   Vec3 translation[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx/m, tangent to the surface
 };
 
-/// Relative change of what photon i brings per metre of movement of the receiver, 1/m, tangent to `normal`
-/// (FORMULAS D2; the emitter's cosine is kept above 0.1).
-Vec3 photon_translation_term(const ZonePhotons& photons, std::size_t i, const Vec3& normal);
+/// Relative change of the light that arrives along unit `w` from a surface of unit normal `source_normal` per
+/// metre of movement of the receiver, 1/m, tangent to `normal` (FORMULAS B4, D2; the emitter's cosine is kept
+/// above 0.1). `inverse_distance` is in 1/m, 0 from infinitely far; -w stands for a normal that there is not.
+Vec3 translation_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal);
+
+/// Relative change of the light that arrives along unit `w` as the receiver turns, per radian, for use with
+/// (normal x new normal): the mean of tan(theta) over the ring of eight in which w lies, across w (B1), so
+/// that grazing light has bounded weight.
+Vec3 rotation_term(const Vec3& w, const Vec3& normal);
+
+/// T_j of B1: mean of tan(theta), cosine-weighted, over ring `ring` of `rings` of equal projected solid
+/// angle.
+double ring_tangent(int ring, int rings);
+
+/// translation_term of photon i.
+inline Vec3 photon_translation_term(const ZonePhotons& photons, std::size_t i, const Vec3& normal) {
+  return translation_term(photons.direction[i], photons.source_normal[i], photons.inverse_distance[i],
+                          normal);
+}
 
 /// Sums over the photons with used[i] != 0, divided by `area_m2`. Rotation: ring means of the tangent on 8
 /// rings (B1), so that grazing photons have bounded weight. Blind to dark occluders (D4).

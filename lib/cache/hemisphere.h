@@ -32,16 +32,20 @@ struct Hemisphere {
   }
 };
 
-/// Rings of a stratified hemisphere of about `rays` rays: slices = round(pi rings), cells are about square
-/// (Ward and Heckbert 1992).
+/// Slices to so many rings, round(pi rings): cells are about square (Ward and Heckbert 1992).
+int slices_for(int rings);
+/// Most rings (at least one) whose cells, rings x slices_for(rings), are no more than `rays`.
 int rings_for(std::int64_t rays);
 
 /// E = sum of radiance x projected solid angle, lx; in double, in order.
 Rgb irradiance_of(const Hemisphere& h);
-/// Standard error of irradiance_of, lx, from differences between neighbouring strata (conservative: it holds
-/// the variation from cell to cell too); unstructured sets: 0.
+/// Standard error of irradiance_of, lx, from differences between neighbouring strata that cancel what varies
+/// evenly from cell to cell (conservative: on the mean its square exceeds the variance by what is left, a
+/// half to the double of it at an edge of light). Light that no ray has found is not known of. Unstructured
+/// sets: 0.
 Rgb standard_error_of(const Hemisphere& h);
-/// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (A7), m; infinity if all miss.
+/// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (A7), m; infinity if all miss,
+/// 0 if a ray starts on what it hits.
 float harmonic_distance_m(const Hemisphere& h);
 /// Least distance over rays more than 10 degrees above the horizon (Tabellion and Lamorlette 2004), m.
 float least_distance_m(const Hemisphere& h);

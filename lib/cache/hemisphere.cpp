@@ -1,0 +1,67 @@
+#include "cache/hemisphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phos {
+namespace {
+
+constexpr float kSin10Degrees = 0.17364818f;
+
+DVec3 squared(const DVec3& v) { return v * v; }
+
+}  // namespace
+
+int slices_for(int rings) { return static_cast<int>(std::lround(std::numbers::pi * rings)); }
+
+int rings_for(std::int64_t rays) {
+  const auto cells = [](int rings) { return std::int64_t{rings} * slices_for(rings); };
+  const double wanted = std::sqrt(static_cast<double>(std::max<std::int64_t>(rays, 1)) / std::numbers::pi);
+  int rings = static_cast<int>(std::clamp(wanted, 1.0, 2e4)) + 1;
+  while (rings > 1 && cells(rings) > rays) --rings;
+  return rings;
+}
+
+Rgb irradiance_of(const Hemisphere& h) {
+  DVec3 sum(0);
+  for (std::size_t i = 0; i < h.size(); ++i)
+    sum += DVec3(h.radiance[i]) * static_cast<double>(h.projected_sr[i]);
+  return Rgb(sum);
+}
+
+Rgb standard_error_of(const Hemisphere& h) {
+  if (!h.stratified()) return Rgb(0);
+  const auto light = [&](int ring, int slice) {
+    const std::size_t i = h.at(ring, slice);
+    return DVec3(h.radiance[i]) * static_cast<double>(h.projected_sr[i]);
+  };
+  // Each difference has as its mean square the mean variance of the cells in it, and the square of what does
+  // not cancel of their means. Each cell counts once: in four blocks of 2 x 2, a quarter each; a cell of the
+  // first or last ring is in two of them, and in three differences along its ring.
+  DVec3 variance(0);
+  for (int k = 0; k < h.slices; ++k) {
+    for (int j = 0; j + 1 < h.rings; ++j)
+      variance += squared(light(j, k) - light(j, k + 1) - light(j + 1, k) + light(j + 1, k + 1)) / 4.0;
+    for (const int j : {0, h.rings - 1})
+      variance += squared(light(j, k - 1) - 2.0 * light(j, k) + light(j, k + 1)) / 12.0;
+  }
+  return Rgb(glm::sqrt(variance));
+}
+
+float harmonic_distance_m(const Hemisphere& h) {
+  double weights = 0, nearness = 0;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const auto weight = static_cast<double>(h.projected_sr[i]);
+    weights += weight, nearness += weight / static_cast<double>(h.distance_m[i]);
+  }
+  return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
+}
+
+float least_distance_m(const Hemisphere& h) {
+  float least = kInfinity;
+  for (std::size_t i = 0; i < h.size(); ++i)
+    if (glm::dot(h.direction[i], h.frame.z) > kSin10Degrees) least = std::min(least, h.distance_m[i]);
+  return least;
+}
+
+}  // namespace phos
