@@ -10,6 +10,7 @@ namespace phos {
 namespace {
 
 constexpr int kRotationRings = 8;
+constexpr double kFlat = 1e-10;  // determinant of second moments, in squares of their trace, that is no shape
 
 int ring_of(float cos_theta, int rings) {
   return std::clamp(static_cast<int>(static_cast<float>(rings) * (1 - cos_theta * cos_theta)), 0, rings - 1);
@@ -84,6 +85,68 @@ Gradients photon_gradients(const ZonePhotons& photons, std::span<const std::uint
   Gradients g;
   for (int c = 0; c < 3; ++c) {
     g.translation[c] = Vec3(translation[c] / area_m2), g.rotation[c] = Vec3(rotation[c] / area_m2);
+  }
+  return g;
+}
+
+ZoneShape disc_shape(double radius_m) {
+  const double r2 = radius_m * radius_m;
+  return {glm::dvec2(0), glm::dmat2(std::numbers::pi / 4 * r2 * r2)};
+}
+
+ZoneShape polygon_shape(std::span<const Vec2> points, std::span<const std::uint32_t> vertices) {
+  // Triangles from the first vertex; of a triangle with corners 0, a, b and area A: integral of x = A (a +
+  // b)/3, of x x^T = A/6 (a a^T + b b^T + (a b^T + b a^T)/2).
+  ZoneShape shape;
+  if (vertices.size() < 3) return shape;
+  const glm::dvec2 origin(points[vertices[0]]);
+  double area = 0;
+  glm::dvec2 first(0);
+  glm::dmat2 second(0);
+  for (std::size_t i = 2; i < vertices.size(); ++i) {
+    const glm::dvec2 a = glm::dvec2(points[vertices[i - 1]]) - origin,
+                     b = glm::dvec2(points[vertices[i]]) - origin;
+    const double half = (a.x * b.y - a.y * b.x) / 2;
+    area += half, first += half / 3 * (a + b);
+    second += half / 6 *
+              (glm::outerProduct(a, a) + glm::outerProduct(b, b) +
+               0.5 * (glm::outerProduct(a, b) + glm::outerProduct(b, a)));
+  }
+  if (area == 0) return shape;
+  const glm::dvec2 centroid = first / area;
+  shape.centroid_m = origin + centroid;
+  shape.second_moments_m4 = (second - area * glm::outerProduct(centroid, centroid)) * (area > 0 ? 1.0 : -1.0);
+  return shape;
+}
+
+ComparedGradients compare_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used,
+                                    double area_m2, const Frame& frame, const ZoneShape& shape) {
+  ComparedGradients g;
+  g.analytic = photon_gradients(photons, used, area_m2, frame);
+  g.positional = g.blend = g.analytic;
+  const glm::dmat2& m = shape.second_moments_m4;
+  const double spread = m[0][0] + m[1][1];
+  if (!(glm::determinant(m) > kFlat * spread * spread)) return g;
+  const glm::dmat2 inverse = glm::inverse(m);
+  glm::dmat2x3 rows(0);  // columns are axes of the frame, rows channels
+  glm::dvec2 difference(0);
+  double variance = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    if (!used[i]) continue;
+    const glm::dvec2 place = inverse * (glm::dvec2(photons.offset_m[i]) - shape.centroid_m);
+    const Vec3 step = photon_translation_term(photons, i, frame.z);
+    const glm::dvec2 shift = glm::dvec2(glm::dot(step, frame.x), glm::dot(step, frame.y)) / area_m2;
+    rows += glm::outerProduct(DVec3(photons.flux_lm[i]), place);
+    const auto flux = static_cast<double>(luminance(photons.flux_lm[i]));
+    difference += flux * (place - shift);
+    variance += flux * flux * (glm::dot(place, place) + glm::dot(shift, shift));
+  }
+  if (!(variance > 0)) return g;
+  g.z2 = glm::dot(difference, difference) / variance;
+  const auto part = static_cast<float>(std::max(0.0, 1 - 3 / g.z2));
+  for (int c = 0; c < 3; ++c) {
+    g.positional.translation[c] = frame.to_world(Vec3(rows[0][c], rows[1][c], 0));
+    g.blend.translation[c] = glm::mix(g.analytic.translation[c], g.positional.translation[c], part);
   }
   return g;
 }

@@ -77,6 +77,38 @@ inline Vec3 photon_translation_term(const ZonePhotons& photons, std::size_t i, c
 Gradients photon_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
                            const Frame& frame);
 
+/// Where the photons of a zone can have landed: on all of a flat shape, and nowhere else.
+struct ZoneShape {
+  glm::dvec2 centroid_m{0};         ///< from the zone's centre
+  glm::dmat2 second_moments_m4{0};  ///< integral of (x - centroid)(x - centroid)^T over its area
+};
+ZoneShape disc_shape(double radius_m);
+/// Exactly that of a polygon, `vertices` (rows of `points`) in order either way round: Hull::vertices.
+ZoneShape polygon_shape(std::span<const Vec2> points, std::span<const std::uint32_t> vertices);
+
+/// Above this z2 photons say that dark occluders, which the analytic gradient cannot see, make a gradient
+/// here: the record should reach less far (D4).
+inline constexpr double kOccludedZ2 = 12;
+
+struct ComparedGradients {
+  Gradients analytic;    ///< photon_gradients
+  Gradients positional;  ///< translation by where photons landed (D3); rotation as analytic
+  Gradients blend;       ///< moved from analytic to positional by max(0, 1 - 3 / z2) (D4)
+  double z2 = 0;  ///< squared difference of the two translations of luminance over its variance: 1 by chance
+};
+
+/// Gradients with and without occlusion, and whether they differ. `photons.offset_m` and `shape` have the
+/// same origin. `used` must be all photons that landed inside of `shape`, without those that decided its
+/// outline:
+///  - all of the zone lies on the surface and was counted (ZoneKind::full or few): disc_shape(zone's radius);
+///  - ZoneKind::hull: polygon_shape of the hull, `used` without the hull's vertices, as DensityScratch has
+///  it.
+/// Where part of the shape is not surface (area_m2 below the shape's area), positions tell of the border and
+/// not of light: do not use. Positional has standard error 2 E / (R sqrt(n)) per axis on a disc; a shape
+/// without extent in some direction, or no photon, gives positional = blend = analytic, z2 = 0.
+ComparedGradients compare_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used,
+                                    double area_m2, const Frame& frame, const ZoneShape& shape);
+
 /// The same from `rings` x round(pi rings) cells of equal projected solid angle. Empty cells are dark and
 /// infinitely far.
 Gradients hemisphere_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
