@@ -1,11 +1,12 @@
 // Where records are placed (thesis, algorithm 6): candidates are tried until a record covers each.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "cache/candidates.h"
 #include "cache/estimator.h"
 #include "cache/record_options.h"
 #include "core/options.h"
@@ -14,41 +15,79 @@
 
 namespace phos {
 
-struct SurfaceSample {
-  Vec3 position{0}, normal{0, 0, 1};
+enum class Place {
+  automatic,  ///< given points, or photons, or every surface: the first that there is
+  photons,    ///< where photons landed
+  given,      ///< given points that no record covers yet
+  every,      ///< every given point, covered or not
+  view,       ///< what a camera sees
+  surface,    ///< every surface of the scene, lit or not
 };
-
-/// Places that must be covered, in the order in which they are tried.
-struct Candidates {
-  std::size_t count = 0;
-  std::function<RecordSite(std::size_t)> site;  ///< of candidate i < count; may be called from any thread
-};
-
-/// Where the wanted photons landed, in an order that depends on the seed alone; `most` of them (0: all).
-Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uint64_t seed,
-                             std::int64_t most);
-/// Points in the order given. Holds a reference to them.
-Candidates point_candidates(std::span<const SurfaceSample> points);
 
 struct PlacementOptions {
   std::int64_t max_candidates = 0;  ///< photons tried; 0: all
   std::int64_t passes = 4;  ///< over the candidates; later ones cover what neighbour clamping uncovered
+  Place place = Place::automatic;
+  std::string camera;                                   ///< of view: "" = the scene's first
+  std::int64_t width = 0, height = 0;                   ///< of view, pixels; 0: as resolve_size() says
+  double min_radius_pixels = 0, max_radius_pixels = 0;  ///< of view; 0: no bound
+  std::string part;                                     ///< of every: "k/n", or empty: all
 };
+
+void declare_options(Options& options, PlacementOptions& placement);
+
+/// What placement may read besides the scene.
+struct PlacementSource {
+  const PhotonMap* photons = nullptr;
+  bool points_given = false;
+  std::span<const SurfaceSample> points;
+  std::uint64_t seed = 0;  ///< of the order in which photons are tried
+};
+
+/// Fills in place, and width and height of a view. Throws Error(usage) for what does not go together: photons
+/// or points that are not there, points that nobody reads, part without every, bounds the wrong way round.
+void resolve(PlacementOptions& placement, const Scene& scene, const PlacementSource& source);
 
 struct PlacementReport {
   std::uint64_t candidates = 0, made = 0, kept = 0, uncovered = 0;
   std::uint64_t passes = 0, clamped_to_neighbour = 0, clamped_to_least = 0;
   double making_s = 0;  ///< wall time spent in making records
+  // Of surface.
+  std::uint64_t sides = 0, sides_inside = 0;  ///< of triangles; those in solids, where nothing is placed
+  std::optional<double> uncovered_share;      ///< of the reachable area, by fresh points
 };
 
-void declare_options(Options& options, PlacementOptions& placement);
+/// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all
+/// but options.part, which is make_part()'s. Same records for any number of threads.
+PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+                      const RecordOptions& records, const PlacementOptions& placement,
+                      const PlacementSource& source, Counters& counters);
 
-/// Adds records to `cache` (whose own stay as they are, first and unchanged) until they cover the candidates.
-/// Candidates are made in parallel in batches of a size that depends on nothing but the batches before, and
-/// accepted one after another where nothing covers them yet. Same records for any number of threads.
+/// Adds records until they cover the candidates. They are made in parallel in batches of a size that depends
+/// on nothing but the batches before, and accepted one after another where nothing covers them yet.
 PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                               const RecordOptions& resolved, const PlacementOptions& placement,
                               const Candidates& candidates, Counters& counters);
+
+/// Adds a record at each point, covered or not.
+PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+                            const RecordOptions& resolved, std::span<const SurfaceSample> points,
+                            Counters& counters);
+
+/// Covers every surface that is not purely specular, from both sides, but for sides inside of solids.
+/// Triangles are cut in four until each piece lies within the reach of one record or is small beside it; a
+/// record is made at the middle of a piece that nothing covers. Repeated, since neighbours shrink each
+/// other's reach, until a pass finds less than kSurfaceShare of the area open, or `passes` are done.
+PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+                                  const RecordOptions& resolved, const PlacementOptions& placement,
+                                  Counters& counters);
+inline constexpr double kSurfaceShare = 1e-4;
+
+class Growth;
+class ParallelMaker;
+/// Ends a placement: final radii into the cache, figures into the report, events into the counters.
+void finish_placement(Growth& growth, const ParallelMaker& maker, IrradianceCache& cache,
+                      PlacementReport& report, Counters& counters);
 
 /// Points from CSV with a header naming x,y,z (m) and nx,ny,nz in any order among other columns; "x [m]" and
 /// "x_m" are read as x. '#' starts a comment line. Throws Error(bad_input) naming line and column.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <new>
 #include <span>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -232,24 +231,14 @@ void declare_options(Options& options, PhotonOptions& p) {
                "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);
 }
 
-PathRange path_range(const std::string& shard, std::int64_t paths) {
+ItemRange path_range(const std::string& shard, std::int64_t paths) {
   PHOS_CHECK(paths >= 0, "paths = ", paths);
-  const auto total = static_cast<std::uint64_t>(paths);
-  if (shard.empty()) return {0, total};
-  std::uint64_t part = 0, parts = 0;
-  char slash = 0, more = 0;
-  std::istringstream in(shard);
-  if (shard.find_first_not_of("0123456789/") != std::string::npos || !(in >> part >> slash >> parts) ||
-      slash != '/' || in >> more || part < 1 || part > parts || parts > (1u << 20))
-    throw Error(ExitCode::usage, "--shard",
-                text("\"", shard, "\" is not I/N with 1 <= I <= N <= 1048576 (for instance 2/4)"));
-  const std::uint64_t first = total * (part - 1) / parts;
-  return {first, total * part / parts - first};
+  return range_of(parse_share("--shard", shard), static_cast<std::uint64_t>(paths));
 }
 
 Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::uint64_t seed,
                       PhotonTotals& totals, Counters& counters, std::vector<Ray>* log) {
-  const PathRange range = path_range(options.shard, options.paths);
+  const ItemRange range = path_range(options.shard, options.paths);
   totals = {};
   totals.emitted = static_cast<std::uint64_t>(options.paths);
   totals.first_path = range.first, totals.paths = range.count;

@@ -7,6 +7,7 @@
 
 #include "core/counters.h"
 #include "core/options.h"
+#include "file/shards.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
@@ -20,12 +21,9 @@ struct PhotonOptions {
 };
 void declare_options(Options& options, PhotonOptions& photons);
 
-/// Path numbers [first, first + count) of a shard "i/n" of `paths` (all if empty): the whole is cut without
-/// gap or overlap. Throws Error(usage) unless 1 <= i <= n.
-struct PathRange {
-  std::uint64_t first = 0, count = 0;
-};
-PathRange path_range(const std::string& shard, std::int64_t paths);
+/// Numbers of the paths that a shard "i/n" of `paths` traces (all if empty). Throws Error(usage) unless
+/// 1 <= i <= n.
+ItemRange path_range(const std::string& shard, std::int64_t paths);
 
 /// Names of the events that trace_photons counts.
 inline constexpr const char* kEscapedEvent = "photon left the scene";

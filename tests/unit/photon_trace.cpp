@@ -69,7 +69,7 @@ TEST(Trace, ShardsAreThePartsOfTheWhole) {
 TEST(Trace, MoreShardsThanPaths) {
   std::uint64_t next = 0;
   for (int i = 1; i <= 7; ++i) {
-    const PathRange range = path_range(text(i, "/7"), 3);
+    const ItemRange range = path_range(text(i, "/7"), 3);
     EXPECT_EQ(range.first, next);
     next += range.count;
   }

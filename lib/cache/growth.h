@@ -1,0 +1,68 @@
+// The cache while it grows: radii that neighbours and bounds settle, and what is covered.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cache/estimator.h"
+#include "cache/irradiance_cache.h"
+#include "cache/neighbour_clamp.h"
+#include "cache/record_options.h"
+#include "core/counters.h"
+
+namespace phos {
+
+/// Bounds of every radius, m.
+struct RadiusBounds {
+  float least_m = 0, most_m = kInfinity;
+};
+
+/// Final radii of records in the order in which they come (FORMULAS A7): clamped to their neighbours as they
+/// were made, and only then to the bounds, so that a lower bound does not spread.
+class RadiusRules {
+ public:
+  RadiusRules(const Bounds& scene, const RadiusBounds& bounds) : bounds_(bounds), clamp_(scene) {}
+
+  /// A record that stays as it is and clamps those after it.
+  void keep(const IrradianceRecord& record);
+  /// A new record. Returns its radius by now; calls shrunk(place in order, radius) for others that lose some.
+  float add(const Made& made, const std::function<void(std::size_t, float)>& shrunk);
+  /// Appends the new records with their final radii. Where a lower bound is above the right radius, gradients
+  /// are reduced so that extrapolation stays bounded.
+  void finish(std::vector<IrradianceRecord>& records);
+
+  std::size_t size() const { return made_.size(); }
+  std::uint64_t clamped_to_neighbour() const { return clamped_to_neighbour_; }
+  std::uint64_t raised_to_least() const { return raised_to_least_; }  ///< known after finish()
+  void count_into(Counters& counters) const;                          ///< the same, as events
+
+ private:
+  float within_bounds(float radius_m, const Made& made) const;
+  RadiusBounds bounds_;
+  NeighbourClamp clamp_;
+  std::vector<Made> made_;  // radius before clamping
+  std::size_t kept_ = 0;
+  std::uint64_t clamped_to_neighbour_ = 0, raised_to_least_ = 0;
+};
+
+/// Bounds that resolved options set.
+RadiusBounds bounds_of(const RecordOptions& resolved);
+
+/// RadiusRules with a lookup of what the records so far cover.
+class Growth {
+ public:
+  /// Takes the cache's own records as they are. Holds a reference to rays.
+  Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved);
+
+  bool covered(const RecordSite& site) const { return tree_.covered(site.position, site.normal); }
+  void accept(const Made& made);
+  const RecordTree& tree() const { return tree_; }
+  RadiusRules& rules() { return rules_; }
+  std::size_t size() const { return rules_.size(); }
+
+ private:
+  RecordTree tree_;
+  RadiusRules rules_;
+};
+
+}  // namespace phos

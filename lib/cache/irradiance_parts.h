@@ -1,0 +1,48 @@
+// Parts of one run of records at given places, and their union: exactly the file of the whole run.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cache/estimator.h"
+#include "cache/irradiance_cache.h"
+#include "cache/placement.h"
+#include "cache/record_options.h"
+#include "core/counters.h"
+#include "file/container.h"
+
+namespace phos {
+
+/// A share of the records of `--place every`, as made: their neighbours have had no say in their radii yet.
+struct IrradiancePart {
+  std::string name;                          ///< "k/n"
+  std::uint64_t first = 0, total = 0;        ///< number of its first record, and of records of the whole run
+  std::vector<Made> made;                    ///< in order
+  Counters counters;                         ///< of making them
+  double accuracy = 0.2;                     ///< as in IrradianceCache
+  std::string scene_hash, quantity;          ///< as in IrradianceCache
+  float min_radius_m = 0, max_radius_m = 0;  ///< of the whole cache
+  Bounds scene_bounds;
+};
+
+/// Makes records [(k-1)N/n, kN/n) of N points. Throws Error(usage) for a part that is not "k/n", 1 <= k <= n.
+IrradiancePart make_part(const Estimator& estimator, const RayScene& rays, const RecordOptions& resolved,
+                         const std::string& part, std::span<const SurfaceSample> points);
+
+/// `provenance` is that of the run, whose counters hold no count of the part's own.
+void write_part(const std::string& path, const IrradiancePart& part, Provenance provenance);
+
+/// A whole run.
+struct MergedParts {
+  IrradianceCache cache;
+  Provenance provenance;
+};
+/// Throws Error(mismatch) for parts of different runs, a part given twice, or one that is missing (naming
+/// it); Error(bad_input) for damaged files and for files that are no parts.
+MergedParts read_parts(const std::vector<std::string>& paths);
+
+/// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
+std::string key_of_merged_parts(const std::vector<std::string>& paths);
+
+}  // namespace phos

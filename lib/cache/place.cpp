@@ -1,0 +1,103 @@
+// The modes of placement: options, what goes with what, and the choice.
+#include "cache/placement.h"
+#include "core/error.h"
+#include "file/shards.h"
+#include "scene/load.h"
+#include "scene/picture.h"
+
+namespace phos {
+namespace {
+
+constexpr std::int64_t kLongerSide = 1000;  // of a view, pixels: as phos-splat's
+
+View view_of(const PlacementOptions& p, const Scene& scene) {
+  return {find_camera(scene, p.camera), p.width, p.height, p.min_radius_pixels, p.max_radius_pixels};
+}
+
+}  // namespace
+
+void declare_options(Options& options, PlacementOptions& p) {
+  options.section("Placement");
+  options.choice<Place>(
+      "place", p.place,
+      {{"auto", Place::automatic},
+       {"photons", Place::photons},
+       {"given", Place::given},
+       {"every", Place::every},
+       {"view", Place::view},
+       {"surface", Place::surface}},
+      "where records are wanted: where photons landed, at those points of --at that are not "
+      "covered yet, at every point of --at, at what a camera sees, or on every surface; "
+      "auto: --at, else photons, else surface");
+  options.integer("max-candidates", p.max_candidates, "N", "photons tried as places for records; 0: all",
+                  {0, 1e12});
+  options.integer("passes", p.passes, "N", "passes over the candidates at most", {1, 100});
+  options.text("part", p.part, "K/N",
+               "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
+               Recorded::no);
+  options.text("camera", p.camera, "NAME", "with --place view: camera of the scene; the first if not given");
+  options.integer("width", p.width, "PIXELS",
+                  "with --place view: width; 0: from the height and the camera's aspect", {0, 65536});
+  options.integer("height", p.height, "PIXELS",
+                  "with --place view: height; 0: from the width; both 0: 1000 on the longer side",
+                  {0, 65536});
+  options.number("min-radius-pixels", p.min_radius_pixels, "PIXELS",
+                 "with --place view: smallest radius as seen there (1.5 is usual); 0: no such bound",
+                 kNotNegative);
+  options.number("max-radius-pixels", p.max_radius_pixels, "PIXELS",
+                 "with --place view: largest radius as seen there (10 to 20 is usual); 0: no such bound",
+                 kNotNegative);
+}
+
+void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& source) {
+  const auto refuse = [](const char* option, const std::string& message) {
+    throw Error(ExitCode::usage, option, message);
+  };
+  if (p.place == Place::automatic) {
+    p.place = source.points_given ? Place::given : source.photons ? Place::photons : Place::surface;
+  }
+  const bool at_points = p.place == Place::given || p.place == Place::every;
+  if (p.place == Place::photons && !source.photons)
+    refuse("--place", "photons needs photons among the inputs; give the output of phos-photons too");
+  if (at_points && !source.points_given)
+    refuse("--place", "given and every need points; give them with --at FILE");
+  if (!at_points && source.points_given)
+    refuse("--at", "is not read by this --place; use --place given or every, or leave --at out");
+  if (!p.part.empty() && p.place != Place::every) refuse("--part", "goes with --place every alone; add that");
+  parse_share("--part", p.part);
+  if (p.place != Place::view) {
+    if (p.min_radius_pixels > 0 || p.max_radius_pixels > 0)
+      refuse(
+          p.min_radius_pixels > 0 ? "--min-radius-pixels" : "--max-radius-pixels",
+          "goes with --place view alone, which knows pixels; give metres by --min-radius and --max-radius");
+    return;
+  }
+  if (p.max_radius_pixels > 0 && p.min_radius_pixels > p.max_radius_pixels)
+    refuse("--min-radius-pixels", "is more than --max-radius-pixels; give a smaller one");
+  resolve_size(find_camera(scene, p.camera), kLongerSide, p.width, p.height);
+}
+
+PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+                      const RecordOptions& records, const PlacementOptions& placement,
+                      const PlacementSource& source, Counters& counters) {
+  const auto by = [&](const Candidates& candidates) {
+    return place_records(cache, estimator, rays, records, placement, candidates, counters);
+  };
+  switch (placement.place) {
+    case Place::photons:
+      return by(photon_candidates(*source.photons, records.paths, source.seed, placement.max_candidates));
+    case Place::given:
+      return by(point_candidates(source.points));
+    case Place::every:
+      return place_every(cache, estimator, rays, records, source.points, counters);
+    case Place::view:
+      return by(view_candidates(rays, view_of(placement, rays.scene())));
+    case Place::surface:
+      return place_on_surfaces(cache, estimator, rays, records, placement, counters);
+    case Place::automatic:
+      break;
+  }
+  PHOS_CHECK(false, "resolve() first");
+}
+
+}  // namespace phos
