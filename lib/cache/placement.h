@@ -28,10 +28,10 @@ struct PlacementOptions {
   std::int64_t max_candidates = 0;  ///< photons tried; 0: all
   std::int64_t passes = 4;  ///< over the candidates; later ones cover what neighbour clamping uncovered
   Place place = Place::automatic;
-  std::string camera;                                   ///< of view: "" = the scene's first
+  std::string camera{};                                 ///< of view: "" = the scene's first
   std::int64_t width = 0, height = 0;                   ///< of view, pixels; 0: as resolve_size() says
   double min_radius_pixels = 0, max_radius_pixels = 0;  ///< of view; 0: no bound
-  std::string part;                                     ///< of every: "k/n", or empty: all
+  std::string part{};                                   ///< of every: "k/n", or empty: all
 };
 
 void declare_options(Options& options, PlacementOptions& placement);

@@ -7,6 +7,7 @@
 #include "cache/gradients.h"
 #include "core/options.h"
 #include "file/container.h"
+#include "photon/density.h"
 
 namespace phos {
 
@@ -20,7 +21,6 @@ enum class Estimate {
   gather,  ///< stratified cosine-weighted rays, each lit where it lands
   raster,  ///< the scene drawn on one plane over the place (thesis 4.4)
 };
-enum class Kernel { disc, epanechnikov, cone };
 enum class RadiusRule { harmonic, least };  ///< A7: harmonic mean, or least distance of the rays
 enum class LeakTest {
   none,

@@ -215,6 +215,7 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
     e.kind = kind;
     e.area_m2 = disc * c.zone;
     e.area_error = probe_error(c.zone_partial, c.zone, c.probes);
+    e.partial = c.zone_partial;
     e.centroid_m = c.zone_centroid;
     add_up(flux_lm, scratch.used, e);
     return e;
@@ -234,10 +235,34 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
     return e;
   }
   e.kind = ZoneKind::hull;
+  e.partial = c.hull_partial;
   for (const std::uint32_t v : hull.vertices) scratch.used[v] = 0;
   e.centroid_m = c.hull_partial ? c.hull_centroid : Vec2(hull.centroid);
   if (edge.h > 0 && c.cap_share >= 0.5) e.edge_m = static_cast<float>(edge.h) * radius_m;
   add_up(flux_lm, scratch.used, e);
+  return e;
+}
+
+double kernel_weight(Kernel kernel, double r) {
+  if (kernel == Kernel::epanechnikov) return 2 * (1 - r * r);
+  if (kernel == Kernel::cone) return 3 * (1 - r);
+  return 1;
+}
+
+ZoneEstimate kernel_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
+                               Kernel kernel, DensityScratch& scratch) {
+  PHOS_CHECK(offsets_m.size() == flux_lm.size() && radius_m > 0, offsets_m.size(), " radius ", radius_m);
+  const double radius = static_cast<double>(radius_m);
+  ZoneEstimate e{.kind = ZoneKind::kernel, .area_m2 = kPiD * radius * radius};
+  scratch.used.assign(offsets_m.size(), 1);
+  DVec3 sum(0), squares(0);
+  for (std::size_t i = 0; i < offsets_m.size(); ++i) {
+    const double r = std::min(1.0, glm::length(glm::dvec2(offsets_m[i])) / radius);
+    const DVec3 f = DVec3(flux_lm[i]) * kernel_weight(kernel, r);
+    sum += f, squares += f * f;
+  }
+  e.irradiance = Rgb(sum / e.area_m2);
+  e.stderr_lx = Rgb(glm::sqrt(squares) / e.area_m2);
   return e;
 }
 

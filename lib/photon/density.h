@@ -17,10 +17,19 @@ using OnSurface = std::function<bool(const Vec2& offset_m)>;
 
 /// FORMULAS C2: which estimator the photons of a zone called for.
 enum class ZoneKind : std::uint8_t {
-  few,   ///< too few photons, or all on a line: sum of flux over the surface in the zone
-  full,  ///< lit everywhere: the same (it has the smallest variance)
-  hull,  ///< a border, a shadow edge or a hole: photons strictly inside the hull, over the hull's area (C1)
-  dark,  ///< the centre lies in the dark beside a lit region: zero
+  few,     ///< too few photons, or all on a line: sum of flux over the surface in the zone
+  full,    ///< lit everywhere: the same (it has the smallest variance)
+  hull,    ///< a border, a shadow edge or a hole: photons strictly inside the hull, over the hull's area (C1)
+  dark,    ///< the centre lies in the dark beside a lit region: zero
+  kernel,  ///< kernel_irradiance
+};
+
+/// Weight of a photon by its distance r from the middle of a disc of radius R (FORMULAS C4). Each integrates
+/// to one over the disc.
+enum class Kernel {
+  disc,          ///< 1/(pi R2): all alike
+  epanechnikov,  ///< 2/(pi R2) (1 - r2/R2)
+  cone,          ///< 3/(pi R2) (1 - r/R)
 };
 
 struct DensityOptions {
@@ -42,6 +51,7 @@ struct ZoneEstimate {
   bool degenerate = false;   ///< enough photons, but no hull
   bool clustered = false;    ///< far from uniform where it is lit: a smaller zone is called for (C3)
   bool probed = false;
+  bool partial = false;  ///< part of the disc, or of the hull, is not surface
 };
 
 /// Memory kept from zone to zone. `used` tells which photons the estimate counted (others are hull vertices).
@@ -57,6 +67,18 @@ struct DensityScratch {
 ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
                              const OnSurface& on_surface, const DensityOptions& options,
                              DensityScratch& scratch);
+
+/// The classical estimate: flux under a kernel, over the whole disc of `radius_m` as if all of it were lit
+/// surface. That is wrong at borders and shadow edges (at a straight border half of the light is lost); it
+/// is here for comparison. Where `radius_m` is the distance of the k-th photon, that photon must not be
+/// among them: the k - 1 nearer ones give the (k - 1)/(pi r_k^2) that has no bias (C4). Error of Poisson
+/// photons.
+ZoneEstimate kernel_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
+                               Kernel kernel, DensityScratch& scratch);
+
+/// Weight of a kernel relative to that of the disc, at a distance of `r` radii (0 to 1): its mean over the
+/// disc is 1.
+double kernel_weight(Kernel kernel, double r);
 
 /// Fraction of a disc that lies beyond a chord at signed distance h (in radii) from the centre.
 double cap_fraction(double h);

@@ -1,0 +1,103 @@
+#include "cache/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "photon/density.h"
+
+namespace phos {
+namespace {
+
+// A zone short of photons grows to at most this many times a R: beyond, other light is mixed in.
+constexpr float kMostGrowth = 2.5f;
+constexpr std::size_t kLeastForDensity = 16;  // photons nearby that promise how many a zone will hold
+constexpr std::size_t kMostNearest = 512;
+
+}  // namespace
+
+float Surroundings::distance_m(const ZonePlace& place, std::uint64_t item, std::uint32_t left_out,
+                               NearPhotons& near) const {
+  const float by_rays = by_rays_m(place, item);
+  const float by_photons = by_photons_m(place, left_out, by_rays, near);
+  if (options_.distance_rays == 0) return by_photons;
+  return near.radii.empty() ? by_rays : 2 / (1 / by_photons + 1 / by_rays);
+}
+
+/// Harmonic mean over cosine-weighted rays, misses counting as infinitely far (A7). Photons never come from
+/// dark surfaces; rays see them.
+float Surroundings::by_rays_m(const ZonePlace& place, std::uint64_t item) const {
+  const auto n = static_cast<int>(options_.distance_rays);
+  if (n == 0) return kInfinity;
+  RandomStream random(seed_, Stage::record, item);
+  const double turn = 2 * std::numbers::pi * random.uniform_double();
+  const auto least = static_cast<float>(*options_.min_radius_m);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const double r2 = (i + 0.5) / n, r = std::sqrt(r2), t = turn + i * 2.399963229728653;
+    const Vec3 local(r * std::cos(t), r * std::sin(t), std::sqrt(1 - r2));
+    const Ray ray{place.p + 4 * place.rounding_m * place.frame.z, place.frame.to_world(local), 0, kInfinity};
+    Hit hit;
+    if (rays_.intersect(ray, hit)) sum += 1 / static_cast<double>(std::max(hit.distance_m, least));
+  }
+  return sum > 0 ? static_cast<float>(n / sum) : kInfinity;
+}
+
+/// The thesis' first query: the nearest photons tell how far the surroundings are.
+float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out, float limit_m,
+                                 NearPhotons& near) const {
+  near.clear();
+  const auto wanted = static_cast<std::size_t>(options_.near_photons);
+  for (std::size_t k = wanted; photons_.size() > 0; k *= 4) {
+    photons_.nearest(place.p, std::min(k, photons_.size()), near.rows, near.distance2);
+    near.clear();
+    const float reach = std::min(limit_m, near.distance2.empty() ? 0.f : std::sqrt(near.distance2.back()));
+    const float slab = slab_m(place, reach);
+    for (std::size_t i = 0; i < near.rows.size() && near.radii.size() < wanted; ++i) {
+      const std::uint32_t row = near.rows[i];
+      const float away = std::sqrt(near.distance2[i]);
+      if (away > limit_m) break;
+      if (row == left_out || !is_wanted(photons_, row, options_.paths) ||
+          std::fabs(glm::dot(photons_.position[row] - place.p, place.frame.z)) > slab)
+        continue;
+      if (glm::dot(decode_octahedral(photons_.normal[row]), place.frame.z) < kSameFacing) continue;
+      const Vec3 w = place.frame.to_local(decode_octahedral(photons_.direction[row]));
+      if (!(w.z > 0)) continue;
+      near.radii.push_back(away), near.directions.push_back(w);
+      near.weights.push_back(luminance(photons_.flux[row])), near.distances.push_back(photons_.distance[row]);
+    }
+    const bool exhausted = near.rows.size() >= photons_.size() || k * 4 > kMostNearest ||
+                           (!near.distance2.empty() && std::sqrt(near.distance2.back()) > limit_m);
+    if (exhausted || near.radii.size() >= std::min(wanted, kLeastForDensity)) break;
+  }
+  return mean_distance_m(near.directions, near.weights, near.distances);
+}
+
+float Surroundings::zone_radius_m(const ZonePlace& place, const NearPhotons& near, float distance_m) const {
+  const auto most = static_cast<float>(*options_.max_radius_m);
+  const float right = static_cast<float>(options_.accuracy) * std::min(distance_m, most);
+  float radius = right;
+  if (near.radii.size() >= kLeastForDensity) {
+    const std::size_t k = near.radii.size(), least = static_cast<std::size_t>(options_.min_photons);
+    const float last = std::max(near.radii.back(), place.rounding_m);
+    const auto holding = [&](double photons) {
+      return last * static_cast<float>(std::sqrt(photons / static_cast<double>(k)));
+    };
+    const float lower = k >= least && least > 0 ? near.radii[least - 1] : holding(static_cast<double>(least));
+    const float upper = holding(static_cast<double>(options_.max_photons));
+    radius = std::max(std::min(radius, upper), lower);
+  } else {
+    radius = most;
+  }
+  const auto least_right = static_cast<float>(options_.accuracy * *options_.min_radius_m);
+  radius = std::min({radius, kMostGrowth * std::max(right, 2 * least_right), most});
+  return std::max(radius, 64 * place.rounding_m);
+}
+
+float Surroundings::above_next_surface_m(const ZonePlace& place, float radius_m) const {
+  Hit hit;
+  const Ray ray{place.p, -place.frame.z, 4 * place.rounding_m, 0.02f * radius_m};
+  return ray.t_max_m > ray.t_min_m && rays_.intersect(ray, hit) ? 50 * hit.distance_m : radius_m;
+}
+
+}  // namespace phos

@@ -1,0 +1,51 @@
+// How far a place's surroundings are, and how wide its zone should be (FORMULAS A7, C6).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cache/photon_zone.h"
+
+namespace phos {
+
+/// The nearest photons of a place, and the memory to find them.
+struct NearPhotons {
+  std::vector<float> radii;  ///< m from the place, sorted
+  std::vector<Vec3> directions;
+  std::vector<float> weights, distances;
+  std::vector<std::uint32_t> rows;
+  std::vector<float> distance2;
+  void clear() { radii.clear(), directions.clear(), weights.clear(), distances.clear(); }
+};
+
+/// Const and usable from any thread.
+class Surroundings {
+ public:
+  Surroundings(const PhotonMap& photons, const RayScene& rays, const RecordOptions& resolved,
+               std::uint64_t seed)
+      : photons_(photons), rays_(rays), options_(resolved), seed_(seed) {}
+
+  /// Distance of the surroundings, m, by photons and rays; infinity if there are none. Photons know the lit
+  /// ones, rays the dark ones too: the harmonic mean of both, or the one there is.
+  float distance_m(const ZonePlace& place, std::uint64_t item, std::uint32_t left_out,
+                   NearPhotons& near) const;
+
+  /// The second query's radius: a x R, enlarged or reduced for the photons that `near`, of distance_m(),
+  /// promises.
+  float zone_radius_m(const ZonePlace& place, const NearPhotons& near, float distance_m) const;
+
+  /// A lookup on a parallel surface not far below must be able to tell that a record lies in front of it
+  /// (record_in_front allows 1 % of R): the radius that a surface below leaves of radius_m.
+  float above_next_surface_m(const ZonePlace& place, float radius_m) const;
+
+ private:
+  float by_rays_m(const ZonePlace& place, std::uint64_t item) const;
+  float by_photons_m(const ZonePlace& place, std::uint32_t left_out, float limit_m, NearPhotons& near) const;
+
+  const PhotonMap& photons_;
+  const RayScene& rays_;
+  RecordOptions options_;
+  std::uint64_t seed_;
+};
+
+}  // namespace phos
