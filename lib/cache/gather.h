@@ -31,7 +31,12 @@ class HitLight {
            const RecordOptions& resolved, std::uint64_t seed);
   ~HitLight();
 
-  struct Worker;  ///< memory and counts of one thread
+  /// Memory and counts of one thread.
+  struct Worker {
+    Counters counters;
+    std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
+    std::uint64_t without_record = 0;             // since counted
+  };
   std::unique_ptr<Worker> make_worker() const;
 
   /// Sets radiance, distance_m and hit_normal of h from what its rays hit (distance_m infinite: nothing), by

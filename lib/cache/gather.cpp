@@ -1,0 +1,166 @@
+#include "cache/gather.h"
+
+#include <algorithm>
+
+#include "cache/direct_light.h"
+#include "cache/record_of.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "core/sampling.h"
+
+namespace phos {
+namespace {
+
+constexpr std::int64_t kFirstPass = 64;  // rays; later passes have as many as all before them
+// Random streams number a pass and a ring in 16 bits.
+constexpr int kRingBits = 11;
+constexpr std::uint32_t kMostPasses = 1u << (16 - kRingBits);
+/// A ray that hits a surface of this cosine or more with the site's, before it has left the site's own
+/// rounding, has hit the site's own surface.
+constexpr float kOwnSurface = 0.5f;
+
+/// How far off its surfaces a parallel one lies below which records cannot tell the two apart
+/// (record_in_front allows a hundredth of the radius), in radii.
+constexpr float kNextSurface = 0.02f;
+
+}  // namespace
+
+struct GatherEstimator::Impl {
+  struct Worker;
+  const RayScene& rays;
+  const Luminaires& lights;
+  RecordOptions options;
+  std::uint64_t seed;
+  HitLight light;
+
+  Impl(const RayScene& r, const Luminaires& l, const GatherSource& source, const RecordOptions& resolved,
+       std::uint64_t own_seed)
+      : rays(r), lights(l), options(resolved), seed(own_seed), light(r, l, source, resolved, own_seed) {
+    PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");
+  }
+
+  void aim(const RecordSite& site, std::int64_t count, std::uint32_t pass, Hemisphere& h) const;
+  void clear_own_surface(const RecordSite& site, float lift_m, Hemisphere& h) const;
+  std::size_t sample_all(const GatherEstimator& self, const RecordSite& site, Worker& worker) const;
+  float above_next_surface_m(const RecordSite& site, float lift_m, float radius_m) const;
+};
+
+struct GatherEstimator::Impl::Worker : Estimator::Worker {
+  std::unique_ptr<HitLight::Worker> light;
+  std::vector<Hit> hits;
+  std::vector<Hemisphere> passes;
+  std::vector<LampSample> lamps;
+};
+
+/// Directions through the cells of equal projected solid angle, jittered within each.
+void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std::uint32_t pass,
+                                Hemisphere& h) const {
+  h.frame = make_frame(site.normal);
+  h.rings = rings_for(count), h.slices = slices_for(h.rings);
+  PHOS_CHECK(pass < kMostPasses && h.rings < 1 << kRingBits, "pass ", pass, ", ", h.rings, " rings");
+  const auto rings = static_cast<float>(h.rings), slices = static_cast<float>(h.slices);
+  h.resize(static_cast<std::size_t>(h.rings) * static_cast<std::size_t>(h.slices));
+  std::fill(h.projected_sr.begin(), h.projected_sr.end(), kPi / (rings * slices));
+  RandomStream random(seed, Stage::record, site.item);
+  std::size_t i = 0;
+  for (int ring = 0; ring < h.rings; ++ring) {
+    random.start_bounce(pass << kRingBits | static_cast<std::uint32_t>(ring));
+    for (int slice = 0; slice < h.slices; ++slice, ++i) {
+      const Vec2 u = random.uniform2();
+      const float sin2 = std::min((static_cast<float>(ring) + u.x) / rings, 1.f);
+      const float turns = (static_cast<float>(slice) + u.y) / slices;
+      h.direction[i] = h.frame.to_world(Vec3(std::sqrt(sin2) * cos_sin(turns), std::sqrt(1 - sin2)));
+    }
+  }
+}
+
+/// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.
+void GatherEstimator::Impl::clear_own_surface(const RecordSite& site, float lift_m, Hemisphere& h) const {
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const float height_m = -glm::dot(h.direction[i], h.hit_normal[i]) * h.distance_m[i];
+    if (height_m > 2 * lift_m || glm::dot(h.hit_normal[i], site.normal) < kOwnSurface) continue;
+    h.radiance[i] = Rgb(0), h.distance_m[i] = kInfinity, h.hit_normal[i] = -h.direction[i];
+  }
+}
+
+void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h,
+                             Estimator::Worker& worker) const {
+  auto& w = static_cast<Impl::Worker&>(worker);
+  impl_->aim(site, rays, pass, h);
+  const SurfacePoint from = receiver(impl_->rays.scene(), site.position, site.normal);
+  const Vec3 origin = from.leave(site.normal);
+  w.hits.assign(h.size(), Hit());
+  for (std::size_t i = 0; i < h.size(); ++i) impl_->rays.intersect({origin, h.direction[i]}, w.hits[i]);
+  impl_->light.shade(origin, w.hits, site.item, pass, h, *w.light);
+  impl_->clear_own_surface(site, from.error_m, h);
+}
+
+/// Hemispheres until they are rays enough; returns how many passes they are.
+std::size_t GatherEstimator::Impl::sample_all(const GatherEstimator& self, const RecordSite& site,
+                                              Worker& w) const {
+  const auto hemisphere = [&](std::size_t pass, std::int64_t count) {
+    if (w.passes.size() <= pass) w.passes.resize(pass + 1);
+    self.sample(site, count, static_cast<std::uint32_t>(pass), w.passes[pass], w);
+  };
+  if (!options.error) {
+    hemisphere(0, options.rays);
+    return 1;
+  }
+  double rays = 0, sum = 0, variance = 0;  // of luminance; sums over rays
+  for (std::size_t pass = 0;; ++pass) {
+    const std::int64_t left = options.rays - static_cast<std::int64_t>(rays);
+    hemisphere(pass, std::min(left, std::max(kFirstPass, static_cast<std::int64_t>(rays))));
+    const Hemisphere& h = w.passes[pass];
+    const auto n = static_cast<double>(h.size());
+    const double error = n * static_cast<double>(luminance(standard_error_of(h)));
+    rays += n, sum += n * static_cast<double>(luminance(irradiance_of(h))), variance += error * error;
+    const bool enough = std::sqrt(variance) <= *options.error * sum;
+    // Two passes at least: light that one of them missed has a second chance.
+    if (enough && pass > 0) return pass + 1;
+    if (static_cast<double>(options.rays) - rays < static_cast<double>(kFirstPass)) {
+      if (!enough) w.counters.count("records above the asked error");
+      return pass + 1;
+    }
+  }
+}
+
+/// A lookup on a parallel surface not far below must be able to tell that this record lies in front of it.
+float GatherEstimator::Impl::above_next_surface_m(const RecordSite& site, float lift_m,
+                                                  float radius_m) const {
+  Hit hit;
+  const Ray ray{site.position, -site.normal, 2 * lift_m, kNextSurface * radius_m};
+  return ray.t_max_m > ray.t_min_m && rays.intersect(ray, hit) ? hit.distance_m / kNextSurface : radius_m;
+}
+
+GatherEstimator::GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                                 const RecordOptions& resolved, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(rays, lights, source, resolved, seed)) {}
+GatherEstimator::~GatherEstimator() = default;
+
+std::unique_ptr<Estimator::Worker> GatherEstimator::make_worker() const {
+  auto worker = std::make_unique<Impl::Worker>();
+  worker->light = impl_->light.make_worker();
+  return worker;
+}
+
+Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
+  auto& w = static_cast<Impl::Worker&>(worker);
+  const RecordOptions& options = impl_->options;
+  const std::size_t passes = impl_->sample_all(*this, site, w);
+  PlaceLight light = light_of(std::span(w.passes).first(passes), options);
+  const SurfacePoint place = receiver(impl_->rays.scene(), site.position, site.normal);
+  if (options.paths == Quantity::all) {
+    RandomStream random(impl_->seed, Stage::direct_light, site.item);
+    const int samples = static_cast<int>(options.light_samples);
+    sample_lamps(impl_->rays, impl_->lights, place, samples, random, w.lamps);
+    add_lamps(w.lamps, samples, impl_->lights, site.normal, options, light);
+  }
+  Made made = record_of(site, light, options);
+  float& radius_m = made.record.radius_m;
+  radius_m = std::min(radius_m, impl_->above_next_surface_m(site, place.error_m, radius_m));
+  w.counters.merge(w.light->counters);
+  w.light->counters = Counters();
+  return made;
+}
+
+}  // namespace phos

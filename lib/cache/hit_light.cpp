@@ -1,0 +1,288 @@
+// Light from where rays land.
+#include <algorithm>
+#include <array>
+
+#include "cache/gather.h"
+#include "cache/lamp_choice.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "scene/bsdf.h"
+#include "scene/texture.h"
+
+namespace phos {
+namespace {
+
+constexpr const char* kWithoutRecord = "gathered places without a record";
+// Walks over gloss and mirrors end by Russian roulette from this reflection on.
+constexpr std::uint32_t kRouletteFrom = 2;
+constexpr float kMostSurvival = 0.999f;
+constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
+// A glossy lobe is followed with at least this probability, even where mirrors reflect more.
+constexpr float kLeastGloss = 0.25f;
+
+/// Numbers a ray for random streams of its own (Steele et al. 2014, SplitMix64).
+std::uint64_t ray_key(std::uint64_t item, std::uint32_t pass, std::size_t ray) {
+  std::uint64_t z = item + 0x9e3779b97f4a7c15u * (std::uint64_t{pass} << 32 | ray | 1u << 31);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+/// Point k of an additive sequence of three dimensions (R3), each shifted: low discrepancy over the rays of a
+/// hemisphere, so that together they see all of the lamps evenly.
+class LampSequence {
+ public:
+  explicit LampSequence(RandomStream random) : shift_{random.bits(), random.bits(), random.bits()} {}
+  std::array<float, 3> operator[](std::size_t k) const {
+    constexpr std::uint32_t kStep[3] = {0xd1b54a32u, 0xabc98388u,
+                                        0x8cb92ba7u};  // 2^32 / 1.2207440846^(d + 1)
+    std::array<float, 3> u;
+    for (unsigned d = 0; d < 3; ++d)
+      u[d] = static_cast<float>((shift_[d] + static_cast<std::uint32_t>(k) * kStep[d]) >> 8) * 0x1p-24f;
+    return u;
+  }
+
+ private:
+  std::uint32_t shift_[3];
+};
+
+bool positive(const Rgb& c) { return max_component(c) > 0; }
+
+}  // namespace
+
+struct HitLight::Impl {
+  const RayScene& rays;
+  const Scene& scene;
+  const Luminaires& lights;
+  GatherSource source;
+  std::uint64_t seed;
+  std::int64_t bounces;
+  LampChoice lamps;
+  std::vector<std::uint8_t> diffuse;  // per material: it has no other lobe
+
+  Impl(const RayScene& r, const Luminaires& l, const GatherSource& s, const RecordOptions& options,
+       std::uint64_t own_seed)
+      : rays(r),
+        scene(r.scene()),
+        lights(l),
+        source(s),
+        seed(own_seed),
+        bounces(options.gather_bounces),
+        lamps(r.scene(), l) {
+    for (const Material& m : scene.material) {
+      const bool lobeless = (m.model == Model::phong || m.model == Model::ward) && !positive(m.ks);
+      diffuse.push_back(m.model == Model::lambert || lobeless);
+    }
+  }
+
+  bool reads_cache(std::int64_t bounces_left) const {
+    return bounces_left != 1 && (source.indirect || source.fallback);
+  }
+  bool visible(const SurfacePoint& point, const Illumination& light) const;
+  Rgb direct_lx(const SurfacePoint& point, const std::array<float, 3>& u) const;
+  Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
+  Rgb reflectance(const SurfacePoint& point) const;
+  Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
+                   Worker& worker) const;
+  Rgb from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Worker& worker) const;
+
+  struct Step;
+  bool choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const;
+  Rgb from_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool lambert_too,
+                float gloss_probability, RandomStream& random) const;
+};
+
+bool HitLight::Impl::visible(const SurfacePoint& point, const Illumination& light) const {
+  if (std::isfinite(light.distance_m)) return rays.visible(point, light.position, light.error_m);
+  return !rays.occluded({point.leave(light.direction), light.direction});
+}
+
+/// One sample of the light straight from the lamps.
+Rgb HitLight::Impl::direct_lx(const SurfacePoint& point, const std::array<float, 3>& u) const {
+  if (lights.size() == 0) return Rgb(0);
+  const LampChoice::Choice lamp = lamps.choose(point, u[0]);
+  Illumination light;
+  if (!lights.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, light)) return Rgb(0);
+  const float cosine = glm::dot(point.normal, light.direction);
+  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) return Rgb(0);
+  if (!visible(point, light)) return Rgb(0);
+  const float density = light.density > 0 ? light.density * lamp.probability : lamp.probability;
+  return light.value * (cosine / density);
+}
+
+Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
+  if (source.indirect) {
+    const Interpolated cached = source.indirect->interpolate(point.position, point.smooth_normal);
+    if (cached.weight > 0) return cached.irradiance;
+    ++worker.without_record;
+  }
+  if (!source.fallback) return Rgb(0);
+  if (!worker.fallback) worker.fallback = source.fallback->make_worker();
+  const RecordSite site{point.position, point.smooth_normal, item};
+  return source.fallback->make(site, *worker.fallback).record.irradiance;
+}
+
+/// Of a material that is diffuse alone.
+Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
+  const Material& material = scene.material[point.material];
+  const Rgb rho = material.kd * Rgb(point.colour);
+  if (!material.base_colour.used()) return rho;
+  return rho * Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
+}
+
+Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
+                                 Worker& worker) const {
+  const Rgb rho = reflectance(point);
+  if (!positive(rho)) return Rgb(0);
+  const bool cached = reads_cache(bounces);
+  Rgb lux(0);
+  if (!(cached && source.holds_direct)) lux += direct_lx(point, u);
+  if (cached) lux += cached_lx(point, item, worker);
+  return rho * lux / kPi;
+}
+
+/// The next ray of a walk over gloss, mirrors and glass.
+struct HitLight::Impl::Step {
+  Vec3 direction{0};
+  Rgb weight{0};
+  float density = 0;            // per sr, the choice of the lobe included; 0: mirror or glass
+  float gloss_probability = 0;  // with which the glossy lobes are followed
+  bool taken = false;
+};
+
+/// Chooses among the glossy lobes together and each mirror or refraction. False: there is none of them.
+bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const {
+  BsdfSample branch[2];
+  const int branches = bsdf.specular_branches(wo, branch);
+  float share[2] = {0, 0}, sum = 0;
+  for (int b = 0; b < branches; ++b) sum += share[b] = luminance(branch[b].weight);
+  float gloss = 0;
+  if (bsdf.has_gloss()) gloss = std::max(kLeastGloss, 1 - sum - luminance(bsdf.diffuse_reflectance()));
+  sum += gloss;
+  if (!(sum > 0)) return false;
+  step.gloss_probability = gloss / sum;
+  const float u = random.uniform();
+  const Vec2 u2 = random.uniform2();
+  BsdfSample sample;
+  if (u * sum < gloss) {
+    if (!bsdf.sample_gloss(wo, u2, sample)) return true;
+    step.direction = sample.direction;
+    step.weight = sample.weight / step.gloss_probability;
+    step.density = sample.density * step.gloss_probability;
+  } else {
+    const int b = branches == 2 && u * sum - gloss >= share[0] ? 1 : 0;
+    if (!(share[b] > 0)) return true;
+    step.direction = branch[b].direction;
+    step.weight = branch[b].weight * (sum / share[b]);
+  }
+  step.taken = true;
+  return true;
+}
+
+/// One sample of light straight from the lamps, scattered towards wo; the glossy lobes' share of an area
+/// light is weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
+Rgb HitLight::Impl::from_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool lambert_too,
+                              float gloss_probability, RandomStream& random) const {
+  if (lights.size() == 0) return Rgb(0);
+  const LampChoice::Choice lamp = lamps.choose(point, random.uniform());
+  Illumination light;
+  if (!lights.illuminate(lamp.light, point.position, lamp.rest, random.uniform2(), light)) return Rgb(0);
+  const Rgb glossy = bsdf.evaluate_gloss(wo, light.direction);
+  Rgb f = lambert_too ? bsdf.evaluate(wo, light.direction) : glossy;
+  const float cosine = glm::dot(point.normal, light.direction);
+  if (f == Rgb(0) || !(cosine > 0) || !visible(point, light)) return Rgb(0);
+  float density = lamp.probability;
+  if (light.density > 0) {
+    density *= light.density;
+    const float other = gloss_probability * bsdf.density_gloss(wo, light.direction);
+    f -= glossy * (other / (density + other));
+  }
+  return f * light.value * (cosine / density);
+}
+
+/// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
+/// Every light is counted once: unbiased but for the cache.
+Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Worker& worker) const {
+  RandomStream random(seed, Stage::specular, item);
+  Rgb sum(0), throughput(1);
+  std::int64_t left = bounces;
+  for (std::uint32_t reflection = 0;; ++reflection) {
+    random.start_bounce(reflection);
+    const Bsdf bsdf(scene, point);
+    Step step;
+    choose_step(bsdf, wo, random, step);
+    const bool cached = reads_cache(left) && bsdf.has_diffuse();
+    if (cached)
+      sum += throughput * bsdf.diffuse_reflectance() * (cached_lx(point, item + reflection, worker) / kPi);
+    const bool lambert_too = bsdf.has_diffuse() && !(cached && source.holds_direct);
+    if (lambert_too || bsdf.has_gloss())
+      sum += throughput * from_lamp(point, bsdf, wo, lambert_too, step.gloss_probability, random);
+    if (!step.taken) break;
+
+    throughput *= step.weight;
+    if (reflection + 1 >= kRouletteFrom) {
+      const float survival = std::min(kMostSurvival, max_component(glm::abs(throughput)));
+      if (!(random.uniform() < survival)) break;
+      throughput /= survival;
+    }
+    SurfacePoint next;
+    if (!trace(rays, {point.leave(step.direction), step.direction}, next)) break;
+    const Rgb emitted = emitted_luminance(scene, next);
+    const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
+    if (lamp >= 0) {
+      float weight = 1;
+      if (step.density > 0) {
+        const auto i = static_cast<std::size_t>(lamp);
+        const float cos_light = std::fabs(glm::dot(next.geometric_normal, step.direction));
+        const float other =
+            lamps.probability(point, i) * lights.density(i, next.triangle, next.distance_m, cos_light);
+        weight = step.density / (step.density + other);
+      }
+      sum += throughput * emitted * weight;
+    }
+    if (left == 1) break;
+    if (left > 0) --left;
+    if (reflection == kMostReflections) {
+      worker.counters.count("gathered paths cut");
+      break;
+    }
+    point = next, wo = -step.direction;
+  }
+  return sum;
+}
+
+HitLight::HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                   const RecordOptions& resolved, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(rays, lights, source, resolved, seed)) {}
+HitLight::~HitLight() = default;
+
+std::unique_ptr<HitLight::Worker> HitLight::make_worker() const { return std::make_unique<Worker>(); }
+
+void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
+                     Hemisphere& h, Worker& worker) const {
+  PHOS_CHECK(hits.size() == h.size() && pass < 0xffff, hits.size(), " hits of ", h.size(), " rays, pass ",
+             pass);
+  RandomStream random(impl_->seed, Stage::direct_light, item);
+  random.start_bounce(1 + pass);
+  const LampSequence lamp_points(random);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    h.distance_m[i] = hits[i].distance_m;
+    h.radiance[i] = Rgb(0);
+    h.hit_normal[i] = -h.direction[i];
+    if (!std::isfinite(hits[i].distance_m)) continue;
+    const SurfacePoint point = impl_->rays.surface({origin, h.direction[i]}, hits[i]);
+    h.hit_normal[i] = point.geometric_normal;
+    if (impl_->bounces == 0) continue;
+    const std::uint64_t key = ray_key(item, pass, i);
+    h.radiance[i] = impl_->diffuse[point.material] ? impl_->from_diffuse(point, lamp_points[i], key, worker)
+                                                   : impl_->from_any(point, -h.direction[i], key, worker);
+  }
+  if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
+  worker.without_record = 0;
+  if (worker.fallback) {
+    worker.counters.merge(worker.fallback->counters);
+    worker.fallback->counters = Counters();
+  }
+}
+
+}  // namespace phos

@@ -1,0 +1,135 @@
+#include "cache/record_of.h"
+
+#include <algorithm>
+
+#include "cache/gather.h"
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+/// Channels dimmer than this part of the brightest have no say in the radius.
+constexpr float kChannelCounts = 0.01f;
+/// Samples of lamps hold the cosines that divide them here: only rounding is kept out.
+constexpr float kLeastCosine = 1e-6f;
+
+bool finite_gradients(const Gradients& g) {
+  bool finite = true;
+  for (int c = 0; c < 3; ++c) finite = finite && is_finite(g.rotation[c]) && is_finite(g.translation[c]);
+  return finite;
+}
+
+void add(Gradients& sum, const Gradients& g, float weight) {
+  for (int c = 0; c < 3; ++c) {
+    sum.rotation[c] += weight * g.rotation[c], sum.translation[c] += weight * g.translation[c];
+  }
+}
+
+}  // namespace
+
+PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& resolved) {
+  double rays = 0;
+  bool stratified = true;
+  for (const Hemisphere& h : passes) {
+    rays += static_cast<double>(h.size());
+    stratified = stratified && h.stratified();
+  }
+  // The radius asks for them even where the record is to have none.
+  GradientMode mode = resolved.gradients;
+  if (mode == GradientMode::none) mode = stratified ? GradientMode::hybrid : GradientMode::analytic;
+  PlaceLight light;
+  DVec3 sum(0), variance(0);
+  double nearness = 0;
+  float least_m = kInfinity;
+  for (const Hemisphere& h : passes) {
+    const double weight = static_cast<double>(h.size()) / rays;
+    const DVec3 error = weight * DVec3(standard_error_of(h));
+    sum += weight * DVec3(irradiance_of(h));
+    variance += error * error;
+    nearness += weight / static_cast<double>(harmonic_distance_m(h));
+    least_m = std::min(least_m, least_distance_m(h));
+    add(light.gradients, ray_gradients(h, mode, static_cast<float>(*resolved.min_radius_m)),
+        static_cast<float>(weight));
+  }
+  light.irradiance = Rgb(sum);
+  light.stderr_lx = Rgb(glm::sqrt(variance));
+  light.distance_m = resolved.radius == RadiusRule::least ? least_m : static_cast<float>(1 / nearness);
+  return light;
+}
+
+void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires& lights, const Vec3& n,
+               const RecordOptions& resolved, PlaceLight& light) {
+  const auto least_m = static_cast<float>(*resolved.min_radius_m);
+  const double count = std::max(samples, 1);
+  Gradients gradients;
+  DVec3 sum(0), variance(0);
+  double brightness_per_m = 0;
+  float nearest_m = kInfinity;
+  for (std::size_t i = 0; i < lamps.size();) {
+    // The samples of one light follow each other; those that are dark or hidden count as zeros.
+    const std::uint32_t own = lamps[i].light;
+    const bool area = lights[own].kind == Light::Kind::area;
+    DVec3 mean(0), squares(0);
+    for (; i < lamps.size() && lamps[i].light == own; ++i) {
+      const LampSample& lamp = lamps[i];
+      const DVec3 part(lamp.irradiance);
+      mean += part, squares += part * part;
+      brightness_per_m +=
+          static_cast<double>(luminance(lamp.irradiance)) / static_cast<double>(lamp.distance_m);
+      nearest_m = std::min(nearest_m, lamp.distance_m);
+      const Vec3& w = lamp.direction;
+      Vec3 change = 3.f * w;
+      if (area) change = lamp.normal / std::max(kLeastCosine, -glm::dot(lamp.normal, w)) + 4.f * w;
+      const Vec3 translation = (change - glm::dot(change, n) * n) / std::max(lamp.distance_m, least_m);
+      const Vec3 rotation = glm::cross(n, w) / std::max(kLeastCosine, glm::dot(n, w));
+      for (int c = 0; c < 3; ++c) {
+        gradients.rotation[c] += lamp.irradiance[c] * rotation;
+        gradients.translation[c] += lamp.irradiance[c] * translation;
+      }
+    }
+    sum += mean;
+    if (area && count > 1) variance += glm::max(count * squares - mean * mean, DVec3(0)) / (count - 1);
+  }
+  const double around = static_cast<double>(luminance(light.irradiance));
+  const double straight = static_cast<double>(luminance(Rgb(sum)));
+  if (resolved.radius == RadiusRule::least) {
+    light.distance_m = std::min(light.distance_m, nearest_m);
+  } else if (straight > 0) {
+    const double per_m = around / static_cast<double>(light.distance_m) + brightness_per_m;
+    light.distance_m = static_cast<float>((around + straight) / per_m);
+  }
+  light.irradiance += Rgb(sum);
+  light.stderr_lx = Rgb(glm::sqrt(DVec3(light.stderr_lx) * DVec3(light.stderr_lx) + variance));
+  add(light.gradients, gradients, 1);
+}
+
+Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved) {
+  const Vec3& p = site.position;
+  if (!is_finite(light.irradiance) || !is_finite(light.stderr_lx) || !finite_gradients(light.gradients)) {
+    throw Error(ExitCode::numerical, "",
+                text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
+                     ") m exceeds the range of numbers; give the lights or the scene other units"));
+  }
+  IrradianceRecord record;
+  record.position = p, record.normal = site.normal;
+  record.irradiance = light.irradiance, record.stderr_lx = light.stderr_lx;
+  record.distance_m = light.distance_m;
+  float radius_m = std::min(light.distance_m, static_cast<float>(*resolved.max_radius_m));
+  const float brightest = max_component(light.irradiance);
+  for (int c = 0; c < 3; ++c) {
+    const float slope = glm::length(light.gradients.translation[c]);
+    if (light.irradiance[c] > kChannelCounts * brightest && slope * radius_m > light.irradiance[c])
+      radius_m = light.irradiance[c] / slope;
+    if (resolved.gradients == GradientMode::none) continue;
+    record.rotation_gradient[c] = light.gradients.rotation[c];
+    record.translation_gradient[c] = light.gradients.translation[c];
+  }
+  record.radius_m = std::max(radius_m, std::numeric_limits<float>::min());
+  return {record, 0, site.least_radius_m, site.most_radius_m};
+}
+
+Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const RecordOptions& resolved) {
+  return record_of(site, light_of(passes, resolved), resolved);
+}
+
+}  // namespace phos
