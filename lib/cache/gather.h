@@ -31,9 +31,16 @@ class HitLight {
            const RecordOptions& resolved, std::uint64_t seed);
   ~HitLight();
 
+  /// Light of a lamp's sample that arrives unless something is in the way.
+  struct ShadowRay {
+    Ray ray;
+    Rgb radiance{0};        ///< cd/m2, reflected
+    std::uint32_t hit = 0;  ///< which of the hits reflects it
+  };
   /// Memory and counts of one thread.
   struct Worker {
     Counters counters;
+    std::vector<ShadowRay> shadow;                ///< of the last shade()'s diffuse hits
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
     std::uint64_t without_record = 0;             // since counted
   };

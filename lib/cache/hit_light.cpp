@@ -3,7 +3,7 @@
 #include <array>
 
 #include "cache/gather.h"
-#include "cache/lamp_choice.h"
+#include "cache/lamp_sampler.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "scene/bsdf.h"
@@ -57,7 +57,7 @@ struct HitLight::Impl {
   GatherSource source;
   std::uint64_t seed;
   std::int64_t bounces;
-  LampChoice lamps;
+  LampSampler lamps;
   std::vector<std::uint8_t> diffuse;  // per material: it has no other lobe
 
   Impl(const RayScene& r, const Luminaires& l, const GatherSource& s, const RecordOptions& options,
@@ -68,7 +68,7 @@ struct HitLight::Impl {
         source(s),
         seed(own_seed),
         bounces(options.gather_bounces),
-        lamps(r.scene(), l) {
+        lamps(r, l) {
     for (const Material& m : scene.material) {
       const bool lobeless = (m.model == Model::phong || m.model == Model::ward) && !positive(m.ks);
       diffuse.push_back(m.model == Model::lambert || lobeless);
@@ -78,37 +78,18 @@ struct HitLight::Impl {
   bool reads_cache(std::int64_t bounces_left) const {
     return bounces_left != 1 && (source.indirect || source.fallback);
   }
-  bool visible(const SurfacePoint& point, const Illumination& light) const;
-  Rgb direct_lx(const SurfacePoint& point, const std::array<float, 3>& u) const;
+  bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
   Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
-                   Worker& worker) const;
+                   std::uint32_t hit, Worker& worker) const;
   Rgb from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Worker& worker) const;
 
   struct Step;
   bool choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const;
-  Rgb from_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool lambert_too,
-                float gloss_probability, RandomStream& random) const;
+  Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
+                    RandomStream& random) const;
 };
-
-bool HitLight::Impl::visible(const SurfacePoint& point, const Illumination& light) const {
-  if (std::isfinite(light.distance_m)) return rays.visible(point, light.position, light.error_m);
-  return !rays.occluded({point.leave(light.direction), light.direction});
-}
-
-/// One sample of the light straight from the lamps.
-Rgb HitLight::Impl::direct_lx(const SurfacePoint& point, const std::array<float, 3>& u) const {
-  if (lights.size() == 0) return Rgb(0);
-  const LampChoice::Choice lamp = lamps.choose(point, u[0]);
-  Illumination light;
-  if (!lights.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, light)) return Rgb(0);
-  const float cosine = glm::dot(point.normal, light.direction);
-  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) return Rgb(0);
-  if (!visible(point, light)) return Rgb(0);
-  const float density = light.density > 0 ? light.density * lamp.probability : lamp.probability;
-  return light.value * (cosine / density);
-}
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
@@ -130,15 +111,24 @@ Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
   return rho * Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
 }
 
+/// Light straight from a lamp that something may hide is left in worker.shadow instead.
 Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
-                                 Worker& worker) const {
-  const Rgb rho = reflectance(point);
-  if (!positive(rho)) return Rgb(0);
+                                 std::uint32_t hit, Worker& worker) const {
+  const Rgb f = reflectance(point) / kPi;
+  if (!positive(f)) return Rgb(0);
+  Rgb sum(0);
   const bool cached = reads_cache(bounces);
-  Rgb lux(0);
-  if (!(cached && source.holds_direct)) lux += direct_lx(point, u);
-  if (cached) lux += cached_lx(point, item, worker);
-  return rho * lux / kPi;
+  if (!(cached && source.holds_direct)) {
+    const ArrivingLight light = lamps.sample(point, u);
+    if (positive(light.lux)) {
+      if (light.certain)
+        sum += f * light.lux;
+      else
+        worker.shadow.push_back({light.ray, f * light.lux, hit});
+    }
+  }
+  if (cached) sum += f * cached_lx(point, item, worker);
+  return sum;
 }
 
 /// The next ray of a walk over gloss, mirrors and glass.
@@ -179,24 +169,20 @@ bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream&
   return true;
 }
 
-/// One sample of light straight from the lamps, scattered towards wo; the glossy lobes' share of an area
-/// light is weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
-Rgb HitLight::Impl::from_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool lambert_too,
-                              float gloss_probability, RandomStream& random) const {
+/// One sample of light straight from the lamps, through the glossy lobes towards wo; that of an area light is
+/// weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
+Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                                  float gloss_probability, RandomStream& random) const {
   if (lights.size() == 0) return Rgb(0);
-  const LampChoice::Choice lamp = lamps.choose(point, random.uniform());
+  const LampSampler::Choice lamp = lamps.choose(point, random.uniform());
   Illumination light;
   if (!lights.illuminate(lamp.light, point.position, lamp.rest, random.uniform2(), light)) return Rgb(0);
-  const Rgb glossy = bsdf.evaluate_gloss(wo, light.direction);
-  Rgb f = lambert_too ? bsdf.evaluate(wo, light.direction) : glossy;
+  const Rgb f = bsdf.evaluate_gloss(wo, light.direction);
   const float cosine = glm::dot(point.normal, light.direction);
-  if (f == Rgb(0) || !(cosine > 0) || !visible(point, light)) return Rgb(0);
+  if (f == Rgb(0) || !(cosine > 0) || rays.occluded(shadow_ray(point, light))) return Rgb(0);
   float density = lamp.probability;
-  if (light.density > 0) {
-    density *= light.density;
-    const float other = gloss_probability * bsdf.density_gloss(wo, light.direction);
-    f -= glossy * (other / (density + other));
-  }
+  if (light.density > 0)
+    density = density * light.density + gloss_probability * bsdf.density_gloss(wo, light.direction);
   return f * light.value * (cosine / density);
 }
 
@@ -211,12 +197,17 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Wo
     const Bsdf bsdf(scene, point);
     Step step;
     choose_step(bsdf, wo, random, step);
-    const bool cached = reads_cache(left) && bsdf.has_diffuse();
-    if (cached)
-      sum += throughput * bsdf.diffuse_reflectance() * (cached_lx(point, item + reflection, worker) / kPi);
-    const bool lambert_too = bsdf.has_diffuse() && !(cached && source.holds_direct);
-    if (lambert_too || bsdf.has_gloss())
-      sum += throughput * from_lamp(point, bsdf, wo, lambert_too, step.gloss_probability, random);
+    if (bsdf.has_diffuse()) {
+      const Rgb f = throughput * bsdf.diffuse_reflectance() / kPi;
+      const bool cached = reads_cache(left);
+      if (cached) sum += f * cached_lx(point, item + reflection, worker);
+      if (!(cached && source.holds_direct)) {
+        const ArrivingLight light =
+            lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()});
+        if (positive(light.lux) && arrives(light)) sum += f * light.lux;
+      }
+    }
+    if (bsdf.has_gloss()) sum += throughput * gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
     if (!step.taken) break;
 
     throughput *= step.weight;
@@ -265,6 +256,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   RandomStream random(impl_->seed, Stage::direct_light, item);
   random.start_bounce(1 + pass);
   const LampSequence lamp_points(random);
+  worker.shadow.clear();
   for (std::size_t i = 0; i < hits.size(); ++i) {
     h.distance_m[i] = hits[i].distance_m;
     h.radiance[i] = Rgb(0);
@@ -274,8 +266,13 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     h.hit_normal[i] = point.geometric_normal;
     if (impl_->bounces == 0) continue;
     const std::uint64_t key = ray_key(item, pass, i);
-    h.radiance[i] = impl_->diffuse[point.material] ? impl_->from_diffuse(point, lamp_points[i], key, worker)
-                                                   : impl_->from_any(point, -h.direction[i], key, worker);
+    h.radiance[i] =
+        impl_->diffuse[point.material]
+            ? impl_->from_diffuse(point, lamp_points[i], key, static_cast<std::uint32_t>(i), worker)
+            : impl_->from_any(point, -h.direction[i], key, worker);
+  }
+  for (const ShadowRay& s : worker.shadow) {
+    if (!impl_->rays.occluded(s.ray)) h.radiance[s.hit] += s.radiance;
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
   worker.without_record = 0;

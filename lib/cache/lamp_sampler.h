@@ -1,19 +1,27 @@
-// Which lamp a place where a ray landed looks at.
+// Light straight from the lamps where rays land: one sample of one lamp.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "scene/luminaires.h"
+#include "scene/rays.h"
 
 namespace phos {
 
+/// A sample of the light that a diffuse point receives from the lamps.
+struct ArrivingLight {
+  Rgb lux{0};            ///< cosine, density and the choice of the lamp included; 0: none
+  Ray ray;               ///< it arrives unless something is in the way of this one
+  bool certain = false;  ///< it is known to arrive: no need to look
+};
+
 /// Chooses one lamp for a point, with a probability about in proportion to the light that it would bring if
 /// nothing stood between; in proportion to power where there are many. A lamp that could light the point is
-/// never left out.
-class LampChoice {
+/// never left out. Const, usable from any thread; holds references.
+class LampSampler {
  public:
-  LampChoice(const Scene& scene, const Luminaires& lights);
+  LampSampler(const RayScene& rays, const Luminaires& lights);
 
   struct Choice {
     std::size_t light = 0;
@@ -24,6 +32,11 @@ class LampChoice {
   Choice choose(const SurfacePoint& point, float u) const;
   /// Probability with which choose() takes that light.
   float probability(const SurfacePoint& point, std::size_t light) const;
+
+  /// One sample, from three numbers in [0, 1). Unbiased, of bounded variance for area lights however near:
+  /// close to one, some samples are cosine-weighted rays that may find it (balance heuristic, Veach 1997
+  /// ch. 9).
+  ArrivingLight sample(const SurfacePoint& point, const std::array<float, 3>& u) const;
 
  private:
   /// Up to so many lamps are compared at the point itself.
@@ -40,10 +53,19 @@ class LampChoice {
   static Lamp lamp_of(const Scene& scene, const Light& light);
   static float promise_lx(const Lamp& lamp, const SurfacePoint& point);
   float promises(const SurfacePoint& point, Promises& each) const;
+  float ray_share(const SurfacePoint& point) const;
+  ArrivingLight by_ray(const SurfacePoint& point, const Vec2& u, float ray_share) const;
 
-  std::vector<Lamp> lamp_;    // empty where there is one only, or too many
+  const RayScene& rays_;
+  const Luminaires& lights_;
+  std::vector<Lamp> lamp_;    // empty where there are too many
   std::vector<float> share_;  // of power
   std::vector<double> cdf_;
+  bool area_ = false;  // any is an area light
 };
+
+/// The ray that must be free for a light's sample to reach a point. Empty (t_max_m = 0) where the two are too
+/// close to each other for anything to stand between.
+Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
 
 }  // namespace phos

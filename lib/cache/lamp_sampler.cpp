@@ -1,6 +1,8 @@
-#include "cache/lamp_choice.h"
+#include "cache/lamp_sampler.h"
 
 #include <algorithm>
+
+#include "core/sampling.h"
 
 namespace phos {
 namespace {
@@ -8,21 +10,26 @@ namespace {
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
 constexpr double kMinimumShare = 0.1;
 constexpr float kBelowOne = 0x1.fffffep-1f;
+/// An area light is near from this distance to its centre on, in radii of the sphere about it.
+constexpr float kNear = 2;
+/// Share of rays near a lamp; and where there are too many lamps to tell.
+constexpr float kRaysNear = 0.5f, kRaysAmongMany = 0.125f;
 
 }  // namespace
 
-LampChoice::LampChoice(const Scene& scene, const Luminaires& lights) {
+LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {
   if (lights.size() == 0) return;
   double sum = 0;
   for (const double share : lights.power_shares(kMinimumShare)) {
     share_.push_back(static_cast<float>(share));
     cdf_.push_back(sum += share);
   }
-  if (lights.size() == 1 || lights.size() > kMostCompared) return;
-  for (std::size_t i = 0; i < lights.size(); ++i) lamp_.push_back(lamp_of(scene, lights[i]));
+  for (std::size_t i = 0; i < lights.size(); ++i) area_ = area_ || lights[i].kind == Light::Kind::area;
+  if (lights.size() > kMostCompared) return;
+  for (std::size_t i = 0; i < lights.size(); ++i) lamp_.push_back(lamp_of(rays.scene(), lights[i]));
 }
 
-LampChoice::Lamp LampChoice::lamp_of(const Scene& scene, const Light& light) {
+LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   Lamp lamp;
   lamp.kind = light.kind;
   lamp.centre = light.position, lamp.front = light.direction;
@@ -53,7 +60,7 @@ LampChoice::Lamp LampChoice::lamp_of(const Scene& scene, const Light& light) {
 
 /// Illuminance at the point from a lamp that nothing hides, roughly for an area light; 0 only where it brings
 /// none.
-float LampChoice::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
+float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
   if (lamp.kind == Light::Kind::directional) {
     const bool above = glm::dot(lamp.front, point.geometric_normal) < 0;
     return above ? std::max(0.f, -glm::dot(lamp.front, point.normal)) * lamp.strength : 0.f;
@@ -76,13 +83,13 @@ float LampChoice::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
   return lamp.strength * cone * height / (d * d2);
 }
 
-float LampChoice::promises(const SurfacePoint& point, Promises& each) const {
+float LampSampler::promises(const SurfacePoint& point, Promises& each) const {
   float sum = 0;
   for (std::size_t i = 0; i < lamp_.size(); ++i) sum += each[i] = promise_lx(lamp_[i], point);
   return sum;
 }
 
-LampChoice::Choice LampChoice::choose(const SurfacePoint& point, float u) const {
+LampSampler::Choice LampSampler::choose(const SurfacePoint& point, float u) const {
   if (share_.size() == 1) return {0, 1, u};
   Promises each;
   const float sum = promises(point, each);
@@ -105,11 +112,70 @@ LampChoice::Choice LampChoice::choose(const SurfacePoint& point, float u) const 
   return {i, share_[i], std::clamp(rest, 0.f, kBelowOne)};
 }
 
-float LampChoice::probability(const SurfacePoint& point, std::size_t light) const {
+float LampSampler::probability(const SurfacePoint& point, std::size_t light) const {
   if (share_.size() == 1) return 1;
   Promises each;
   const float sum = promises(point, each);
   return sum > 0 && std::isfinite(sum) ? each[light] / sum : share_[light];
+}
+
+/// Close to an area light, points on it are a poor choice: their density per sr varies without bound.
+float LampSampler::ray_share(const SurfacePoint& point) const {
+  if (!area_) return 0;
+  if (lamp_.empty()) return kRaysAmongMany;
+  for (const Lamp& lamp : lamp_) {
+    const Vec3 way = lamp.centre - point.position;
+    const float reach = kNear * lamp.radius_m;
+    if (glm::dot(way, way) < reach * reach && promise_lx(lamp, point) > 0) return kRaysNear;
+  }
+  return 0;
+}
+
+ArrivingLight LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_share) const {
+  ArrivingLight light;
+  const Vec3 local = sample_cosine_hemisphere(u);
+  const Vec3 direction = make_frame(point.normal).to_world(local);
+  if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return light;
+  SurfacePoint found;
+  if (!trace(rays_, {point.leave(direction), direction}, found)) return light;
+  const Rgb luminance = emitted_luminance(rays_.scene(), found);
+  const std::int32_t lamp = max_component(luminance) > 0 ? lights_.light_of(found.triangle) : -1;
+  if (lamp < 0) return light;
+  const auto i = static_cast<std::size_t>(lamp);
+  const float cos_light = std::fabs(glm::dot(found.geometric_normal, direction));
+  const float by_lamp =
+      probability(point, i) * lights_.density(i, found.triangle, found.distance_m, cos_light);
+  light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
+  light.certain = true;
+  return light;
+}
+
+ArrivingLight LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& u) const {
+  ArrivingLight light;
+  if (lights_.size() == 0) return light;
+  const float rays = ray_share(point);
+  if (u[0] < rays) return by_ray(point, {u[1], u[2]}, rays);
+  const Choice lamp = choose(point, std::min((u[0] - rays) / (1 - rays), kBelowOne));
+  Illumination arriving;
+  if (!lights_.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, arriving)) return light;
+  const float cosine = glm::dot(point.normal, arriving.direction);
+  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, arriving.direction) > 0)) return light;
+  float density = (1 - rays) * lamp.probability;
+  if (arriving.density > 0) density = density * arriving.density + rays * cosine / kPi;
+  light.lux = arriving.value * (cosine / density);
+  light.ray = shadow_ray(point, arriving);
+  light.certain = !(light.ray.t_max_m > 0);
+  return light;
+}
+
+Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {
+  const Vec3 origin = point.leave(light.direction);
+  if (!std::isfinite(light.distance_m)) return {origin, light.direction};
+  const Vec3 way = light.position - origin;
+  const float distance = std::sqrt(glm::dot(way, way));
+  if (!(distance > 0)) return {origin, light.direction, 0, 0};
+  // Ends short of the lamp by its rounding and by that of the origin.
+  return {origin, way / distance, 0, distance - std::max(light.error_m, point.error_m)};
 }
 
 }  // namespace phos
