@@ -273,6 +273,34 @@ TEST(ZoneShape, SecondMomentsOfPolygonsAreExact) {
   EXPECT_NEAR(d.second_moments_m4[1][1], std::numbers::pi * 4, 1e-12);
 }
 
+/// Lengths times s, light times p: translation times p/s, z2 as it was.
+TEST(ZoneShape, ComparisonDoesNotDependOnUnits) {
+  const test::PhotonSource source(test::gradient_scene("rect_occluded"), 0.4);
+  ZonePhotons zone;
+  RandomStream random = numbers(50);
+  source.draw(2000, 2000, random, zone);
+  const std::vector<std::uint8_t> used(zone.size(), 1);
+  const ComparedGradients g = compare_gradients(zone, used, source.area_m2(), Frame(), disc_shape(0.4));
+  EXPECT_GT(g.z2, 4);
+  for (const double length : {1e-6, 1e6}) {
+    for (const double power : {1e-12, 1e12}) {
+      ZonePhotons other = zone;
+      for (Vec2& x : other.offset_m) x *= static_cast<float>(length);
+      for (float& r : other.inverse_distance) r /= static_cast<float>(length);
+      for (Rgb& flux : other.flux_lm) flux *= static_cast<float>(power * length * length);
+      const ComparedGradients o = compare_gradients(other, used, source.area_m2() * length * length, Frame(),
+                                                    disc_shape(0.4 * length));
+      EXPECT_NEAR(o.z2, g.z2, 1e-4 * g.z2) << length << " " << power;
+      const auto back = static_cast<float>(length / power);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_LT(glm::length(o.positional.translation[c] * back - g.positional.translation[c]), 1e-4f);
+        EXPECT_LT(glm::length(o.blend.translation[c] * back - g.blend.translation[c]), 1e-4f);
+        EXPECT_LT(glm::length(o.analytic.translation[c] * back - g.analytic.translation[c]), 1e-5f);
+      }
+    }
+  }
+}
+
 /// No shape, no photon, all on a line: the analytic gradient, and no verdict.
 TEST(ZoneShape, WithoutExtentComparesNothing) {
   const std::vector<Vec2> line{{0, 0}, {1, 1}, {3, 3}};
