@@ -45,6 +45,23 @@ Hemisphere bin(const ZonePhotons& photons, std::span<const std::uint8_t> used, d
   return h;
 }
 
+/// Sums of analytic terms, photon by photon.
+struct AnalyticSums {
+  glm::dmat3 rotation{0}, translation{0};
+  void add(const Rgb& flux_lm, const Vec3& step, const Vec3& turn) {
+    for (int c = 0; c < 3; ++c) {
+      translation[c] += double(flux_lm[c]) * DVec3(step), rotation[c] += double(flux_lm[c]) * DVec3(turn);
+    }
+  }
+  Gradients over(double area_m2) const {
+    Gradients g;
+    for (int c = 0; c < 3; ++c) {
+      g.translation[c] = Vec3(translation[c] / area_m2), g.rotation[c] = Vec3(rotation[c] / area_m2);
+    }
+    return g;
+  }
+};
+
 }  // namespace
 
 double ring_tangent(int ring, int rings) {
@@ -74,19 +91,13 @@ Vec3 rotation_term(const Vec3& w, const Vec3& normal) {
 
 Gradients photon_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
                            const Frame& frame) {
-  glm::dmat3 rotation(0), translation(0);
+  AnalyticSums sums;
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!used[i]) continue;
-    const DVec3 flux(photons.flux_lm[i]);
-    const DVec3 step(photon_translation_term(photons, i, frame.z));
-    const DVec3 turn(rotation_term(photons.direction[i], frame.z));
-    for (int c = 0; c < 3; ++c) translation[c] += flux[c] * step, rotation[c] += flux[c] * turn;
+    sums.add(photons.flux_lm[i], photon_translation_term(photons, i, frame.z),
+             rotation_term(photons.direction[i], frame.z));
   }
-  Gradients g;
-  for (int c = 0; c < 3; ++c) {
-    g.translation[c] = Vec3(translation[c] / area_m2), g.rotation[c] = Vec3(rotation[c] / area_m2);
-  }
-  return g;
+  return sums.over(area_m2);
 }
 
 ZoneShape disc_shape(double radius_m) {
@@ -121,26 +132,31 @@ ZoneShape polygon_shape(std::span<const Vec2> points, std::span<const std::uint3
 
 ComparedGradients compare_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used,
                                     double area_m2, const Frame& frame, const ZoneShape& shape) {
-  ComparedGradients g;
-  g.analytic = photon_gradients(photons, used, area_m2, frame);
-  g.positional = g.blend = g.analytic;
   const glm::dmat2& m = shape.second_moments_m4;
   const double spread = m[0][0] + m[1][1];
-  if (!(glm::determinant(m) > kFlat * spread * spread)) return g;
+  if (!(glm::determinant(m) > kFlat * spread * spread)) {
+    const Gradients analytic = photon_gradients(photons, used, area_m2, frame);
+    return {analytic, analytic, analytic};
+  }
   const glm::dmat2 inverse = glm::inverse(m);
+  AnalyticSums sums;
   glm::dmat2x3 rows(0);  // columns are axes of the frame, rows channels
   glm::dvec2 difference(0);
   double variance = 0;
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!used[i]) continue;
-    const glm::dvec2 place = inverse * (glm::dvec2(photons.offset_m[i]) - shape.centroid_m);
     const Vec3 step = photon_translation_term(photons, i, frame.z);
+    sums.add(photons.flux_lm[i], step, rotation_term(photons.direction[i], frame.z));
+    const glm::dvec2 place = inverse * (glm::dvec2(photons.offset_m[i]) - shape.centroid_m);
     const glm::dvec2 shift = glm::dvec2(glm::dot(step, frame.x), glm::dot(step, frame.y)) / area_m2;
     rows += glm::outerProduct(DVec3(photons.flux_lm[i]), place);
     const auto flux = static_cast<double>(luminance(photons.flux_lm[i]));
     difference += flux * (place - shift);
     variance += flux * flux * (glm::dot(place, place) + glm::dot(shift, shift));
   }
+  ComparedGradients g;
+  g.analytic = sums.over(area_m2);
+  g.positional = g.blend = g.analytic;
   if (!(variance > 0)) return g;
   g.z2 = glm::dot(difference, difference) / variance;
   const auto part = static_cast<float>(std::max(0.0, 1 - 3 / g.z2));
