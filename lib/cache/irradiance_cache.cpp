@@ -2,19 +2,16 @@
 
 #include <algorithm>
 
+#include "cache/direct_light.h"
+#include "cache/record_index.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace phos {
 namespace {
 
 std::span<const float> flat(const std::vector<Vec3>& v) {
   return {reinterpret_cast<const float*>(v.data()), 3 * v.size()};
-}
-
-[[noreturn]] void reject(const Container& file, std::size_t row, const std::string& what) {
-  throw Error(ExitCode::bad_input, file.path(),
-              text("record ", row, " has ", what,
-                   "; the file is damaged or was made by a faulty program: make it again"));
 }
 
 bool row_is_finite(const IrradianceRecord& r) {
@@ -26,11 +23,13 @@ bool row_is_finite(const IrradianceRecord& r) {
   return finite && std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
 }
 
-void check_row(const Container& file, std::size_t row, const IrradianceRecord& r) {
-  if (!row_is_finite(r)) reject(file, row, "a value that is not finite");
-  if (!(r.radius_m > 0) || !(r.distance_m >= 0)) reject(file, row, "a radius that is not positive");
-  if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) reject(file, row, "a normal that is not of unit length");
-  if (glm::any(glm::lessThan(r.irradiance, Vec3(0)))) reject(file, row, "negative irradiance");
+/// nullptr: nothing.
+const char* what_is_wrong(const IrradianceRecord& r) {
+  if (!row_is_finite(r)) return "a value that is not finite";
+  if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
+  if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) return "a normal that is not of unit length";
+  if (glm::any(glm::lessThan(r.irradiance, Vec3(0)))) return "negative irradiance";
+  return nullptr;
 }
 
 }  // namespace
@@ -38,6 +37,35 @@ void check_row(const Container& file, std::size_t row, const IrradianceRecord& r
 bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (!(glm::dot(n, r.normal) > 0)) return true;
   return glm::dot(p - r.position, n + r.normal) * 0.5f < -kFrontTolerance * r.radius_m;
+}
+
+namespace {
+
+bool clear_between(const RayScene& rays, const Vec3& from, const Vec3& to) {
+  const Vec3 direction = normalized_or_zero(to - from);
+  return direction == Vec3(0) || !rays.occluded({from, direction, 0, glm::dot(to - from, direction)});
+}
+
+/// p raised along n by `most_m`, but no more than halfway to what is above it.
+Vec3 raised(const RayScene& rays, const Vec3& p, const Vec3& n, float most_m) {
+  Hit hit;
+  if (rays.intersect({p, n, 0, 2 * most_m}, hit)) most_m = 0.5f * hit.distance_m;
+  return p + most_m * n;
+}
+
+}  // namespace
+
+bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+  const float apart_m = glm::length(p - r.position), turn = glm::length(n - r.normal);
+  // Two pieces of length d/2 at an angle t: the ridge is d tan(t/2) / 2 above the chord, and a raised end
+  // gains cos(t/2) of its lift.
+  const float ridge_m = apart_m * turn / (2 * std::max(1 + glm::dot(n, r.normal), 1.f));
+  const float lift_m = receiver(rays.scene(), p, n).error_m + ridge_m;
+  const Vec3 from = p + lift_m * n, to = r.position + lift_m * r.normal;
+  if (clear_between(rays, from, to)) return true;
+  // Smooth normals hide how rough the facets are: a second look from higher up.
+  const float more_m = kRoughness * apart_m;
+  return clear_between(rays, raised(rays, from, n, more_m), raised(rays, to, r.normal, more_m));
 }
 
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
@@ -51,7 +79,8 @@ Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   return e;
 }
 
-void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance) {
+void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
+                      std::span<const float> least_radius_m) {
   const std::size_t n = cache.records.size();
   std::vector<Vec3> position(n), normal(n), irradiance(n), error(n), rotation(3 * n), translation(3 * n);
   std::vector<float> distance(n), radius(n);
@@ -73,6 +102,13 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   file.add<float>("radius", radius, {n}, "m");
   file.add<float>("rotation_gradient", flat(rotation), {n, 3, 3}, "lx/rad");
   file.add<float>("translation_gradient", flat(translation), {n, 3, 3}, "lx/m");
+  RecordIndex index;
+  if (provenance.extra.find("part")) {
+    file.add<float>("least_radius", least_radius_m, {n}, "m");
+  } else if (n >= kIndexedRecords) {
+    index = index_records(cache.records, cache.accuracy);
+    add_index(file, index);
+  }
   provenance.kind = "irradiance";
   provenance.scene_hash = cache.scene_hash;
   provenance.extra["accuracy"] = cache.accuracy;
@@ -81,28 +117,31 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   file.write(path, provenance);
 }
 
-IrradianceCache read_irradiance(const Container& file) {
+RecordColumns::RecordColumns(const Container& file, bool part) : file_(file) {
   if (file.provenance().kind != "irradiance") {
     throw Error(
         ExitCode::bad_input, file.path(),
         text("holds ", file.provenance().kind, ", not irradiance; give the output of phos-irradiance"));
   }
+  if (const Json* name = file.provenance().extra.find("part"); name && !part) {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("is part ", name->is_string() ? name->as_string() : "?",
+                     " of a run; join all its parts first: phos-merge PART... -o ALL.irradiance"));
+  }
   file.verify();
-  const auto position = file.vectors("position");
-  const std::uint64_t n = position.size();
+  const std::uint64_t n = file.vectors("position").size();
   const auto column = [&](const char* name, const Shape& shape) {
     return file.values<float>(name, shape).data();
   };
-  const float* normal = column("normal", {n, 3});
-  const float* irradiance = column("irradiance", {n, 3});
-  const float* error = column("stderr", {n, 3});
-  const float* distance = column("distance", {n});
-  const float* radius = column("radius", {n});
-  const float* rotation = column("rotation_gradient", {n, 3, 3});
-  const float* translation = column("translation_gradient", {n, 3, 3});
-
-  IrradianceCache cache;
-  cache.scene_hash = file.provenance().scene_hash;
+  size_ = n;
+  position_ = column("position", {n, 3});
+  normal_ = column("normal", {n, 3});
+  irradiance_ = column("irradiance", {n, 3});
+  stderr_ = column("stderr", {n, 3});
+  distance_ = column("distance", {n});
+  radius_ = column("radius", {n});
+  rotation_ = column("rotation_gradient", {n, 3, 3});
+  translation_ = column("translation_gradient", {n, 3, 3});
   const Json *accuracy = file.provenance().extra.find("accuracy"),
              *quantity = file.provenance().extra.find("quantity");
   if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !quantity ||
@@ -110,23 +149,43 @@ IrradianceCache read_irradiance(const Container& file) {
     throw Error(ExitCode::bad_input, file.path(),
                 "its header does not say accuracy and quantity; make the file again");
   }
-  cache.accuracy = accuracy->as_number();
-  cache.quantity = quantity->as_string();
-  cache.records.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto vector = [i](const float* v, std::size_t rows = 1, std::size_t row = 0) {
-      const float* x = v + 3 * (rows * i + row);
-      return Vec3(x[0], x[1], x[2]);
-    };
-    IrradianceRecord& r = cache.records[i];
-    r.position = position[i], r.normal = vector(normal);
-    r.irradiance = vector(irradiance), r.stderr_lx = vector(error);
-    r.distance_m = distance[i], r.radius_m = radius[i];
-    for (std::size_t c = 0; c < 3; ++c) {
-      r.rotation_gradient[c] = vector(rotation, 3, c), r.translation_gradient[c] = vector(translation, 3, c);
-    }
-    check_row(file, i, r);
+  accuracy_ = accuracy->as_number();
+  quantity_ = quantity->as_string();
+  // In chunks, the first bad row wins: the same message for any number of threads.
+  const auto first_bad = parallel_reduce<std::size_t>(
+      n, 1 << 14, n,
+      [&](std::size_t begin, std::size_t end) {
+        while (begin < end && what_is_wrong((*this)[begin]) == nullptr) ++begin;
+        return begin < end ? begin : n;
+      },
+      [](std::size_t& least, std::size_t part) { least = std::min(least, part); });
+  if (first_bad < n) {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("record ", first_bad, " has ", what_is_wrong((*this)[first_bad]),
+                     "; the file is damaged or was made by a faulty program: make it again"));
   }
+}
+
+IrradianceRecord RecordColumns::operator[](std::size_t i) const {
+  IrradianceRecord r;
+  r.position = position(i), r.normal = normal(i);
+  r.irradiance = vector(irradiance_, i), r.stderr_lx = vector(stderr_, i);
+  r.distance_m = distance_[i], r.radius_m = radius_[i];
+  for (std::size_t c = 0; c < 3; ++c) {
+    r.rotation_gradient[c] = vector(rotation_, 3 * i + c);
+    r.translation_gradient[c] = vector(translation_, 3 * i + c);
+  }
+  return r;
+}
+
+IrradianceCache read_irradiance(const Container& file) {
+  const RecordColumns columns(file);
+  IrradianceCache cache;
+  cache.scene_hash = file.provenance().scene_hash;
+  cache.accuracy = columns.accuracy();
+  cache.quantity = columns.quantity();
+  cache.records.reserve(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) cache.records.push_back(columns[i]);
   return cache;
 }
 

@@ -34,9 +34,36 @@ struct IrradianceCache {
   std::string quantity = "indirect";
 };
 
-void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance);
+/// The file also holds an index (record_index.h) where there are many records.
+/// Of a part of a run (irradiance_parts.h) it holds the least radii that neighbours leave instead.
+void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
+                      std::span<const float> least_radius_m = {});
 /// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named).
 IrradianceCache read_irradiance(const Container& file);
+
+/// The records of a file, read where they lie. Copies share the mapping.
+class RecordColumns {
+ public:
+  /// Throws Error(bad_input) like read_irradiance, for a part of a run (irradiance_parts.h) too unless it is
+  /// `part` that is wanted.
+  explicit RecordColumns(const Container& file, bool part = false);
+  std::size_t size() const { return size_; }
+  double accuracy() const { return accuracy_; }
+  const std::string& quantity() const { return quantity_; }
+  const Container& file() const { return file_; }
+  Vec3 position(std::size_t i) const { return vector(position_, i); }
+  Vec3 normal(std::size_t i) const { return vector(normal_, i); }
+  float radius_m(std::size_t i) const { return radius_[i]; }
+  IrradianceRecord operator[](std::size_t i) const;
+
+ private:
+  static Vec3 vector(const float* v, std::size_t i) { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }
+  Container file_;
+  std::size_t size_ = 0;
+  double accuracy_ = 0;
+  std::string quantity_;
+  const float *position_, *normal_, *irradiance_, *stderr_, *distance_, *radius_, *rotation_, *translation_;
+};
 
 /// The least weight that counts: below it a record is not valid, and a point without others is a miss.
 inline constexpr float kLeastWeight = 1e-6f;
@@ -52,6 +79,14 @@ inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& 
 /// FORMULAS A6: is the record in front of p's surface (so that it must not light p)? Also true unless dot(n,
 /// n_i) > 0.
 bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
+/// What rises above a straight line over a surface by less than this share of its length is unevenness of the
+/// surface (facets under smooth normals), no wall.
+inline constexpr float kRoughness = 0.125f;
+/// Can the record and a point p that faces n see each other? Both ends are raised along their normals by the
+/// rounding of positions and by the height of the ridge between two flat pieces with these normals that meet
+/// halfway; if that is not clear, by kRoughness of their distance, but no more than halfway to what is above
+/// them, so that neither flat nor gently curved surfaces stand in their own way, and thin walls do.
+bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// A5 without clamping below: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]. lx
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 
@@ -59,10 +94,33 @@ Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// lookup.
 inline float record_weight(float eps, float accuracy) { return eps < accuracy ? 1.f - eps / accuracy : 0.f; }
 
+/// The weight of a record at p, n; 0 beyond its reach.
+inline float weight_at(const Vec3& record_position, const Vec3& record_normal, float radius_m, float accuracy,
+                       const Vec3& p, const Vec3& n) {
+  const Vec3 d = p - record_position;
+  const float reach = accuracy * radius_m;
+  if (!(glm::dot(d, d) < reach * reach)) return 0;
+  const float eps =
+      glm::length(d) / radius_m + glm::length(n - record_normal) * 0.70710678f;  // record_error()
+  return record_weight(eps, accuracy);
+}
+
+struct RecordIndex;
+
 struct Interpolated {
   Rgb irradiance{0};  ///< lx
   Rgb stderr_lx{0};
   float weight = 0;  ///< sum of weights; 0: a miss
+
+  /// Adds what a valid record says of the point p that faces n; until finish(), the sums are not divided.
+  void add(const IrradianceRecord& r, float w, const Vec3& p, const Vec3& n) {
+    irradiance += w * extrapolate(r, p, n);
+    stderr_lx += w * r.stderr_lx;
+    weight += w;
+  }
+  void finish() {
+    if (weight > 0) irradiance /= weight, stderr_lx /= weight;
+  }
 };
 
 /// Lookup structure over records: point queries in any order and from any thread; records may be added
@@ -81,7 +139,11 @@ class RecordTree {
   std::span<const IrradianceRecord> records() const;
   /// Is any record valid at p, n? (A3 with w_min = 0.)
   bool covered(const Vec3& p, const Vec3& n) const;
+  /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
+  void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// The same cells as columns.
+  RecordIndex index() const;
 
  private:
   struct Impl;

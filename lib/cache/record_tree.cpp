@@ -4,12 +4,12 @@
 #include <array>
 
 #include "cache/irradiance_cache.h"
+#include "cache/record_index.h"
 #include "core/error.h"
 
 namespace phos {
 namespace {
 
-constexpr int kDeepest = 40;
 constexpr std::uint32_t kNone = ~0u;
 
 /// What a lookup needs of a record before it is known to be valid, side by side.
@@ -30,21 +30,13 @@ struct Cell {
 
 struct RecordTree::Impl {
   float accuracy;
+  const RayScene* leak_test;
   DVec3 lo;
   double side_m;
   std::vector<IrradianceRecord> records;
   std::vector<Cell> cells{1};
   std::vector<float> hung_radius_m;  // per record: the radius by which its cells were chosen
   std::size_t misplaced = 0;         // records that shrank to less than half of it
-
-  /// Octant of a point, and the corner of that octant. Points outside of the root fall into its border cells:
-  /// insertion and lookup clamp alike, so nothing is missed.
-  static unsigned octant(const DVec3& p, const DVec3& middle) {
-    return (p.x >= middle.x ? 1u : 0u) | (p.y >= middle.y ? 2u : 0u) | (p.z >= middle.z ? 4u : 0u);
-  }
-  static DVec3 corner(const DVec3& corner_lo, double half, unsigned o) {
-    return corner_lo + half * DVec3(o & 1u ? 1 : 0, o & 2u ? 1 : 0, o & 4u ? 1 : 0);
-  }
 
   /// Box of a record's zone; half_m is half its side.
   struct Box {
@@ -56,17 +48,17 @@ struct RecordTree::Impl {
   template <class Use>
   void each_cell(std::uint32_t cell, const DVec3& cell_lo, double side, const Box& box, int depth,
                  const Use& use) {
-    if (side < 4 * box.half_m || depth == kDeepest) return use(cells[cell]);
+    if (side < 4 * box.half_m || depth == kDeepestCell) return use(cells[cell]);
     const double half = side / 2;
     const DVec3 middle = cell_lo + half;
-    const unsigned from = octant(box.lo, middle), to = octant(box.hi, middle);
+    const unsigned from = octant_of(box.lo, middle), to = octant_of(box.hi, middle);
     for (unsigned o = 0; o < 8; ++o) {
       if ((o & from) != from || (o & ~to) != 0) continue;  // not between the two on every axis
       if (cells[cell].child[o] == kNone) {
         cells[cell].child[o] = static_cast<std::uint32_t>(cells.size());
         cells.emplace_back();
       }
-      each_cell(cells[cell].child[o], corner(cell_lo, half, o), half, box, depth + 1, use);
+      each_cell(cells[cell].child[o], corner_of(cell_lo, half, o), half, box, depth + 1, use);
     }
   }
 
@@ -95,7 +87,7 @@ struct RecordTree::Impl {
     for (std::uint32_t i = 0; i < records.size(); ++i) hang(i);
   }
 
-  /// visit(record index, weight) for each record valid at p until it returns false.
+  /// visit(record, weight) for each record valid at p until it returns false.
   template <class Visit>
   void visit_valid(const Vec3& p, const Vec3& n, const Visit& visit) const {
     std::uint32_t cell = 0;
@@ -104,26 +96,24 @@ struct RecordTree::Impl {
     const DVec3 point(p);
     while (cell != kNone) {
       for (const Entry& e : cells[cell].entries) {
-        const Vec3 d = p - e.position;
-        const float reach = accuracy * e.radius_m;
-        if (!(glm::dot(d, d) < reach * reach)) continue;
-        const float eps =
-            glm::length(d) / e.radius_m + glm::length(n - e.normal) * 0.70710678f;  // record_error()
-        const float w = record_weight(eps, accuracy);
-        if (w > kLeastWeight && !record_in_front(records[e.record], p, n) && !visit(e.record, w)) return;
+        const float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
+        if (!(w > kLeastWeight) || record_in_front(records[e.record], p, n)) continue;
+        if (leak_test && !record_in_sight(*leak_test, records[e.record], p, n)) continue;
+        if (!visit(records[e.record], w)) return;
       }
       side /= 2;
-      const unsigned o = octant(point, cell_lo + side);
-      cell_lo = corner(cell_lo, side, o);
+      const unsigned o = octant_of(point, cell_lo + side);
+      cell_lo = corner_of(cell_lo, side, o);
       cell = cells[cell].child[o];
     }
   }
 };
 
-RecordTree::RecordTree(const Bounds& bounds, double accuracy, const RayScene* /*leak_test*/)
+RecordTree::RecordTree(const Bounds& bounds, double accuracy, const RayScene* leak_test)
     : impl_(std::make_unique<Impl>()) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   impl_->accuracy = static_cast<float>(accuracy);
+  impl_->leak_test = leak_test;
   const DVec3 centre = bounds.empty() ? DVec3(0) : DVec3(bounds.centre());
   const double side = std::max(static_cast<double>(max_component(bounds.size())), 1e-30);
   impl_->side_m = side;
@@ -157,23 +147,51 @@ std::span<const IrradianceRecord> RecordTree::records() const { return impl_->re
 
 bool RecordTree::covered(const Vec3& p, const Vec3& n) const {
   bool found = false;
-  impl_->visit_valid(p, n, [&](std::uint32_t, float) {
+  impl_->visit_valid(p, n, [&](const IrradianceRecord&, float) {
     found = true;
     return false;
   });
   return found;
 }
 
-Interpolated RecordTree::interpolate(const Vec3& p, const Vec3& n) const {
-  Interpolated sum;
-  impl_->visit_valid(p, n, [&](std::uint32_t i, float w) {
-    const IrradianceRecord& r = impl_->records[i];
-    sum.irradiance += w * extrapolate(r, p, n);
-    sum.stderr_lx += w * r.stderr_lx;
-    sum.weight += w;
+void RecordTree::valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const {
+  found.clear();
+  impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float) {
+    found.push_back(&r);
     return true;
   });
-  if (sum.weight > 0) sum.irradiance /= sum.weight, sum.stderr_lx /= sum.weight;
+}
+
+RecordIndex RecordTree::index() const {
+  RecordIndex index;
+  index.box = {impl_->lo.x, impl_->lo.y, impl_->lo.z, impl_->side_m};
+  // Breadth first: the children of a cell follow each other.
+  std::vector<std::uint32_t> order{0};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Cell& cell = impl_->cells[order[i]];
+    index.cell.push_back(static_cast<std::uint32_t>(order.size()));
+    index.cell.push_back(static_cast<std::uint32_t>(index.entry.size()));
+    unsigned mask = 0;
+    for (unsigned o = 0; o < 8; ++o) {
+      if (cell.child[o] == kNone) continue;
+      mask |= 1u << o;
+      order.push_back(cell.child[o]);
+    }
+    index.children.push_back(static_cast<std::uint8_t>(mask));
+    for (const Entry& e : cell.entries) index.entry.push_back(e.record);
+  }
+  index.cell.push_back(static_cast<std::uint32_t>(order.size()));
+  index.cell.push_back(static_cast<std::uint32_t>(index.entry.size()));
+  return index;
+}
+
+Interpolated RecordTree::interpolate(const Vec3& p, const Vec3& n) const {
+  Interpolated sum;
+  impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
+    sum.add(r, w, p, n);
+    return true;
+  });
+  sum.finish();
   return sum;
 }
 
