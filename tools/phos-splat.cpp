@@ -20,6 +20,7 @@ void put_stats(Tool& tool, const Rendering& rendering) {
   tool.stat("renderer", rendering.renderer);
   tool.stat("cache lookups", rendering.looked_up);
   tool.stat("cache misses", rendering.missed);
+  if (rendering.edge_pixels > 0) tool.stat("edge pixels", rendering.edge_pixels);
   tool.counters().merge(rendering.counters);
 }
 
@@ -29,6 +30,20 @@ void warn_of_misses(const Tool& tool, const Rendering& rendering) {
   tool.warn(text(shortest(std::ceil(1e4 * share) / 100),
                  " % of the visible points have no record (dark there); write them with --misses, fill them "
                  "with phos-irradiance --at, or raise --accuracy"));
+}
+
+void tell_of_records(Tool& tool, const RenderOptions& render, const Rendering& rendering) {
+  if (render.overlay == Overlay::none) return;
+  const DrawnRecords& drawn = rendering.drawn;
+  tool.stat("overlay.records", drawn.count);
+  tool.stat("overlay.least", drawn.least);
+  tool.stat("overlay.most", drawn.most);
+  const bool radius = render.overlay_colour == OverlayColour::radius;
+  const auto value = [&](double v) {
+    return radius ? shortest(static_cast<float>(v)) + " m" : shortest(static_cast<float>(100 * v)) + " %";
+  };
+  tool.say(text(drawn.count, " records drawn; ", radius ? "radius" : "standard error", " from ",
+                value(drawn.least), " (blue) to ", value(drawn.most), " (red), logarithmic"));
 }
 
 void require_finite(const Image& image) {
@@ -66,6 +81,11 @@ int main(int argc, char** argv) {
                "write the visible points without a record here (CSV), for phos-irradiance --at");
   options.flag("allow-mismatch", allow_mismatch, "accept a cache of another version of the scene (recorded)");
   options.example("phos-splat room.glb room.irradiance -o room.exr", "the first camera, 1000 pixels wide");
+  options.example(
+      "phos-splat room.glb room.irradiance --pixel-samples 1 --edge-samples 8 --layers beauty -o room.exr",
+      "a quick one: few samples but at edges, and nothing but the picture");
+  options.example("phos-splat room.glb room.irradiance --overlay records -o records.exr",
+                  "where the records are, and what each lights");
   options.example("phos-splat room.glb room.irradiance --camera desk --misses m.csv -o desk.exr",
                   "another camera from the same cache, and the points it lacks");
 
@@ -107,6 +127,7 @@ int main(int argc, char** argv) {
     }();
     Rendering rendering = render_scene(rays, cache, render);
     put_stats(tool, rendering);
+    tell_of_records(tool, render, rendering);
     require_finite(rendering.image);
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");

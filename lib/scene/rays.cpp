@@ -218,6 +218,37 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
+void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  constexpr std::size_t kPacket = 16;
+  PHOS_CHECK(rays.size() == hits.size(), rays.size(), " rays, ", hits.size(), " hits");
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    alignas(64) int valid[kPacket] = {};
+    alignas(64) RTCRayHit16 packet;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Ray& ray = rays[first + i];
+      valid[i] = -1;
+      packet.ray.org_x[i] = ray.origin.x, packet.ray.org_y[i] = ray.origin.y;
+      packet.ray.org_z[i] = ray.origin.z;
+      packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y;
+      packet.ray.dir_z[i] = ray.direction.z;
+      packet.ray.tnear[i] = ray.t_min_m, packet.ray.tfar[i] = ray.t_max_m;
+      packet.ray.time[i] = 0, packet.ray.mask[i] = 0xffffffffu;
+      packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
+      packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid, impl_->tree, &context, &packet);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits[first + i] = {packet.ray.tfar[i], impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]),
+                         packet.hit.u[i], packet.hit.v[i]};
+    }
+  }
+}
+
 bool RayScene::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

@@ -1,5 +1,7 @@
 #include "splat/gbuffer.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "scene/bsdf.h"
@@ -34,13 +36,29 @@ void set_pixel(GBuffer& g, std::size_t i, const Scene& scene, const Hit& hit, co
 GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height,
                       const Vec2& subpixel) {
   GBuffer g = empty_gbuffer(width, height);
-  parallel_for(static_cast<std::size_t>(height), 4, [&](std::size_t y) {
-    for (int x = 0; x < width; ++x) {
-      const Ray ray = pixel_ray(camera, width, height, x, static_cast<int>(y), subpixel);
-      Hit hit;
-      if (!rays.intersect(ray, hit)) continue;
-      const std::size_t i = y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      set_pixel(g, i, rays.scene(), hit, rays.surface(ray, hit));
+  // Blocks of 4 x 4: rays of a packet run side by side.
+  constexpr int kBlock = 4;
+  const auto blocks = static_cast<std::size_t>((height + kBlock - 1) / kBlock);
+  parallel_for(blocks, 1, [&](std::size_t block) {
+    const int y0 = static_cast<int>(block) * kBlock, y1 = std::min(y0 + kBlock, height);
+    std::vector<Ray> ray;
+    std::vector<Hit> hit;
+    std::vector<std::size_t> pixel;
+    for (int x0 = 0; x0 < width; x0 += kBlock) {
+      ray.clear(), pixel.clear();
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < std::min(x0 + kBlock, width); ++x) {
+          ray.push_back(pixel_ray(camera, width, height, x, y, subpixel));
+          pixel.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(x));
+        }
+      }
+      hit.assign(ray.size(), Hit());
+      rays.intersect(ray, hit);
+      for (std::size_t i = 0; i < ray.size(); ++i) {
+        if (std::isfinite(hit[i].distance_m))
+          set_pixel(g, pixel[i], rays.scene(), hit[i], rays.surface(ray[i], hit[i]));
+      }
     }
   });
   return g;

@@ -7,13 +7,12 @@
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
 #include "splat/gbuffer_pixel.h"
+#include "splat/gl_raster.h"
 #include "splat/gl_renderer.h"
 #include "splat/projection.h"
 
 namespace phos {
 namespace {
-
-constexpr std::uint32_t kNoTriangle = ~0u;
 
 GlView camera_view(const Scene& scene, const Camera& camera, int width, int height, const Vec2& subpixel) {
   const Projection projection(camera, width, height);
@@ -39,28 +38,6 @@ GlView camera_view(const Scene& scene, const Camera& camera, int width, int heig
   return view;
 }
 
-/// Where the ray meets the triangle's plane, as weights of its second and third vertex; moved onto the
-/// triangle where the ray passes beside it (by less than the rasteriser's rounding).
-Hit hit_triangle(const Scene& scene, const Ray& ray, std::uint32_t triangle) {
-  const auto& corner = scene.triangle[triangle].v;
-  const DVec3 origin(ray.origin), direction(ray.direction), a(scene.position[corner[0]]);
-  const DVec3 e1 = DVec3(scene.position[corner[1]]) - a, e2 = DVec3(scene.position[corner[2]]) - a;
-  const DVec3 across = glm::cross(direction, e2), from = origin - a, side = glm::cross(from, e1);
-  const double determinant = glm::dot(e1, across);
-  double u = 1.0 / 3, v = 1.0 / 3;
-  if (determinant != 0) {
-    u = glm::dot(from, across) / determinant, v = glm::dot(direction, side) / determinant;
-    if (!std::isfinite(u) || !std::isfinite(v)) u = v = 1.0 / 3;
-    u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
-    if (u + v > 1) u /= u + v, v = 1 - u;
-  }
-  Hit hit;
-  hit.triangle = triangle;
-  hit.u = static_cast<float>(u), hit.v = static_cast<float>(v);
-  hit.distance_m = static_cast<float>(std::max(0.0, glm::dot(a + u * e1 + v * e2 - origin, direction)));
-  return hit;
-}
-
 /// As RayScene::surface.
 SurfacePoint surface_at(const Scene& scene, const Reads& reads, const Ray& ray, const Hit& hit) {
   const auto& corner = scene.triangle[hit.triangle].v;
@@ -83,24 +60,59 @@ SurfacePoint surface_at(const Scene& scene, const Reads& reads, const Ray& ray, 
 
 }  // namespace
 
-GBuffer GlRenderer::rasterise(const Camera& camera, int width, int height, const Vec2& subpixel) {
-  impl_->context.make_current();
-  const Gl& gl = impl_->context.gl();
-  const GlRasterTarget& target = impl_->raster_target(width, height);
+GlRasterTarget make_raster_target(const GlContext& context, int width, int height) {
+  require_size(context, width, height);
+  const Gl& gl = context.gl();
+  GlRasterTarget target;
+  target.triangle = make_texture(gl, GL_R32UI, width, height);
+  target.depth = make_texture(gl, GL_DEPTH_COMPONENT32F, width, height);
+  target.framebuffer = make_framebuffer(gl, {target.triangle.id()}, target.depth.id());
+  target.width = width, target.height = height;
+  return target;
+}
+
+void draw_triangles(const Gl& gl, const GlMesh& mesh, const GlView& view, const GlRasterTarget& target,
+                    std::vector<std::uint32_t>& triangle) {
   const float far = 0;
   gl.DepthMask(GL_TRUE);
   gl.ClearNamedFramebufferuiv(target.framebuffer.id(), GL_COLOR, 0, &kNoTriangle);
   gl.ClearNamedFramebufferfv(target.framebuffer.id(), GL_DEPTH, 0, &far);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer.id());
-  gl.Viewport(0, 0, width, height);
-  impl_->mesh.draw(camera_view(impl_->scene, camera, width, height, subpixel));
-
-  GBuffer g = empty_gbuffer(width, height);
-  std::vector<std::uint32_t> triangle(g.hit.size());
+  gl.Viewport(0, 0, target.width, target.height);
+  mesh.draw(view);
+  triangle.resize(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
   gl.GetTextureImage(target.triangle.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
                      static_cast<GLsizei>(triangle.size() * sizeof(triangle[0])), triangle.data());
+}
+
+Hit hit_triangle(const Scene& scene, const Ray& ray, std::uint32_t triangle) {
+  const auto& corner = scene.triangle[triangle].v;
+  const DVec3 origin(ray.origin), direction(ray.direction), a(scene.position[corner[0]]);
+  const DVec3 e1 = DVec3(scene.position[corner[1]]) - a, e2 = DVec3(scene.position[corner[2]]) - a;
+  const DVec3 across = glm::cross(direction, e2), from = origin - a, side = glm::cross(from, e1);
+  const double determinant = glm::dot(e1, across);
+  double u = 1.0 / 3, v = 1.0 / 3;
+  if (determinant != 0) {
+    u = glm::dot(from, across) / determinant, v = glm::dot(direction, side) / determinant;
+    if (!std::isfinite(u) || !std::isfinite(v)) u = v = 1.0 / 3;
+    u = std::clamp(u, 0.0, 1.0), v = std::clamp(v, 0.0, 1.0);
+    if (u + v > 1) u /= u + v, v = 1 - u;
+  }
+  Hit hit;
+  hit.triangle = triangle;
+  hit.u = static_cast<float>(u), hit.v = static_cast<float>(v);
+  hit.distance_m = static_cast<float>(std::max(0.0, glm::dot(a + u * e1 + v * e2 - origin, direction)));
+  return hit;
+}
+
+GBuffer GlRenderer::rasterise(const Camera& camera, int width, int height, const Vec2& subpixel) {
+  impl_->context.make_current();
+  std::vector<std::uint32_t> triangle;
+  draw_triangles(impl_->context.gl(), impl_->mesh, camera_view(impl_->scene, camera, width, height, subpixel),
+                 impl_->raster_target(width, height), triangle);
   impl_->context.check("rasterising");
 
+  GBuffer g = empty_gbuffer(width, height);
   const Scene& scene = impl_->scene;
   std::vector<Reads> reads;
   for (const Material& material : scene.material) reads.push_back(reads_of(scene, material));

@@ -11,7 +11,7 @@ GlRenderer::~GlRenderer() = default;
 
 const char* GlRenderer::description() const { return impl_->context.description().c_str(); }
 
-void GlRenderer::Impl::require_size(int width, int height) const {
+void require_size(const GlContext& context, int width, int height) {
   const int largest = context.largest_texture();
   PHOS_CHECK(width > 0 && height > 0, width, " x ", height);
   if (width > largest || height > largest) {
@@ -22,19 +22,13 @@ void GlRenderer::Impl::require_size(int width, int height) const {
 }
 
 GlRasterTarget& GlRenderer::Impl::raster_target(int width, int height) {
-  require_size(width, height);
-  if (raster.width == width && raster.height == height) return raster;
-  const Gl& gl = context.gl();
-  raster = {};
-  raster.triangle = make_texture(gl, GL_R32UI, width, height);
-  raster.depth = make_texture(gl, GL_DEPTH_COMPONENT32F, width, height);
-  raster.framebuffer = make_framebuffer(gl, {raster.triangle.id()}, raster.depth.id());
-  raster.width = width, raster.height = height;
+  if (raster.width != width || raster.height != height)
+    raster = GlRasterTarget(), raster = make_raster_target(context, width, height);
   return raster;
 }
 
 GlPictureTarget& GlRenderer::Impl::picture_target(const GBuffer& g) {
-  require_size(g.width, g.height);
+  require_size(context, g.width, g.height);
   const Gl& gl = context.gl();
   if (picture.width != g.width || picture.height != g.height) {
     picture = {};

@@ -2,15 +2,12 @@
 #pragma once
 
 #include "splat/gl_mesh.h"
+#include "splat/gl_raster.h"
 #include "splat/splatter.h"
 
 namespace phos {
 
 /// Textures of one picture size, and what draws into them. Made when a size is first asked for.
-struct GlRasterTarget {
-  int width = 0, height = 0;
-  GlObject triangle, depth, framebuffer;
-};
 struct GlPictureTarget {
   int width = 0, height = 0;
   GlObject position, normal, facet;    // of the G-buffer
@@ -21,8 +18,6 @@ struct GlRenderer::Impl {
   explicit Impl(const Scene& s) : scene(s), mesh(context.gl(), s) {}
   ~Impl() { context.make_current(); }
 
-  /// Throws Error(usage) if a side is more than OpenGL can draw.
-  void require_size(int width, int height) const;
   GlRasterTarget& raster_target(int width, int height);
   /// With the G-buffer's positions and normals uploaded.
   GlPictureTarget& picture_target(const GBuffer& gbuffer);

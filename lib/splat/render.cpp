@@ -10,6 +10,8 @@
 #include "core/progress.h"
 #include "file/atomic_file.h"
 #include "scene/load.h"
+#include "splat/edges.h"
+#include "splat/pixel_shader.h"
 #include "splat/splatter.h"
 
 namespace phos {
@@ -17,31 +19,7 @@ namespace phos {
 namespace {
 
 constexpr double kMaxPixels = 268435456.;  // 2^28
-
-/// Sums over pixel samples; one entry per pixel.
-struct Layers {
-  explicit Layers(std::size_t n)
-      : direct(n),
-        indirect(n),
-        glossy(n),
-        specular(n),
-        emission(n),
-        albedo(n),
-        normal(n),
-        position(n),
-        noise(n),
-        sampled(n),
-        sampled_square(n),
-        indirect_error(n),
-        illuminance(n),
-        weight(n),
-        depth(n) {}
-  std::vector<Rgb> direct, indirect, glossy, specular, emission, albedo, normal, position;
-  std::vector<Rgb> noise;  ///< variance of direct light and gloss, summed over pixel samples
-  std::vector<Rgb> sampled, sampled_square;  ///< the two as each pixel sample saw them
-  std::vector<Rgb> indirect_error;  ///< summed as if fully correlated between samples (they share records)
-  std::vector<float> illuminance, weight, depth;
-};
+constexpr std::size_t kChunk = 1024;
 
 /// Offsets inside the pixel: the centre for one sample, else the additive R2 sequence about it.
 Vec2 subpixel(int sample, int samples) {
@@ -67,188 +45,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What shading some pixels leaves besides the layers.
-struct ChunkResult {
-  ShadingLog log;
-  std::uint64_t looked_up = 0, missed = 0;
-  void join(const ChunkResult& other) {
-    looked_up += other.looked_up, missed += other.missed;
-    log.counters.merge(other.log.counters);
-    log.misses.insert(log.misses.end(), other.log.misses.begin(), other.log.misses.end());
-  }
-};
-
-/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
-int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples) {
-  return static_cast<int>((of_pixel + pixel_samples - 1) / pixel_samples);
-}
-
-/// One sample of every pixel, from G-buffer to layers.
-class SamplePass {
- public:
-  SamplePass(const RayScene& rays, const Camera& camera, const Shading& shading, const RecordTree& records,
-             const RenderOptions& options, bool cached_direct, const GBuffer& gbuffer,
-             const SplatBuffer& splats, const std::vector<Rgb>& shadow_mapped, int sample, Layers& layers)
-      : rays_(rays),
-        camera_(camera),
-        shading_(shading),
-        records_(records),
-        options_(options),
-        cached_direct_(cached_direct),
-        gbuffer_(gbuffer),
-        splats_(splats),
-        shadow_mapped_(shadow_mapped),
-        sample_(sample),
-        layers_(layers) {}
-
-  void shade(std::size_t i, ChunkResult& result) const {
-    if (!gbuffer_.covered(i)) return;
-    const int x = static_cast<int>(i % static_cast<std::size_t>(gbuffer_.width));
-    const int y = static_cast<int>(i / static_cast<std::size_t>(gbuffer_.width));
-    const Ray ray = pixel_ray(camera_, gbuffer_.width, gbuffer_.height, x, y,
-                              subpixel(sample_, static_cast<int>(options_.pixel_samples)));
-    const SurfacePoint point = rays_.surface(ray, gbuffer_.hit[i]);
-    const Bsdf bsdf(rays_.scene(), point);
-    const Vec3 wo = -ray.direction;
-    // What the samples of a pixel share, and each one's own.
-    RandomStream sequence(options_.seed, Stage::direct_light, i);
-    RandomStream random(
-        options_.seed, Stage::specular,
-        i * static_cast<std::uint64_t>(options_.pixel_samples) + static_cast<std::uint64_t>(sample_));
-    layers_.emission[i] += emitted_luminance(rays_.scene(), point);
-    layers_.albedo[i] += bsdf.diffuse_reflectance();
-    if (bsdf.has_diffuse()) {
-      ++result.looked_up;
-      if (!from_cache(i, point, bsdf)) {
-        ++result.missed;
-        result.log.misses.push_back({point.position, point.smooth_normal});
-      }
-    }
-    Rgb sampled = from_lights(i, point, bsdf, wo, sequence);
-    if (bsdf.has_gloss()) sampled += from_gloss(i, point, bsdf, wo, sequence, random, result.log);
-    layers_.sampled[i] += sampled;
-    layers_.sampled_square[i] += sampled * sampled;
-    layers_.specular[i] += shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
-    if (sample_ == 0) {
-      layers_.normal[i] = point.smooth_normal;
-      layers_.position[i] = point.position;
-      layers_.depth[i] = gbuffer_.hit[i].distance_m;
-    }
-  }
-
- private:
-  bool from_cache(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf) const {
-    Vec4 light = splats_.light[i], error = splats_.error[i];
-    if (!(light.w > 0)) {
-      // On the rim of a record rounding decides, and the lookup that places records has the last word: else
-      // the loop over misses would ask for the same point for ever.
-      const Interpolated found = records_.interpolate(point.position, point.smooth_normal);
-      light = Vec4(found.irradiance * found.weight, found.weight);
-      error = Vec4(found.stderr_lx * found.weight, 0);
-    }
-    layers_.weight[i] += light.w;
-    if (!(light.w > 0)) return false;
-    const Rgb irradiance = Rgb(light) / light.w;
-    const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
-    layers_.indirect[i] += irradiance * reflected;
-    layers_.indirect_error[i] += Rgb(error) / light.w * reflected;
-    layers_.illuminance[i] += luminance(irradiance);
-    return true;
-  }
-
-  /// This pixel sample's part of what is asked for the whole pixel.
-  SampleRange range(std::int64_t of_pixel) const {
-    const int n = samples_of_each(of_pixel, options_.pixel_samples);
-    return {sample_ * n, n, static_cast<int>(options_.pixel_samples) * n};
-  }
-
-  /// Returns what is subject to noise.
-  Rgb from_lights(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                  RandomStream& sequence) const {
-    const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
-    if (options_.direct == DirectBy::shadow_map && diffuse) {
-      layers_.direct[i] += shadow_mapped_[i] * bsdf.diffuse_reflectance() / kPi;
-      layers_.illuminance[i] += luminance(shadow_mapped_[i]);
-    }
-    if (options_.direct != DirectBy::traced || !(diffuse || bsdf.has_gloss())) return Rgb(0);
-    const DirectLight light = shading_.direct(point, bsdf, wo, range(options_.light_samples),
-                                              range(options_.gloss_samples).count, sequence);
-    layers_.direct[i] += light.radiance;
-    layers_.noise[i] += light.variance;
-    if (!cached_direct_) layers_.illuminance[i] += luminance(light.illuminance);
-    return light.radiance;
-  }
-
-  Rgb from_gloss(std::size_t i, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                 RandomStream& sequence, RandomStream& random, ShadingLog& log) const {
-    // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
-    const int light_samples = options_.direct == DirectBy::traced ? range(options_.light_samples).count : 0;
-    const GlossLight light = shading_.gloss(point, bsdf, wo, range(options_.gloss_samples), light_samples, 0,
-                                            sequence, random, log);
-    layers_.glossy[i] += light.radiance;
-    layers_.noise[i] += light.variance;
-    if (options_.direct == DirectBy::none) return light.radiance;
-    layers_.direct[i] += light.from_lamps;
-    return light.radiance + light.from_lamps;
-  }
-
-  const RayScene& rays_;
-  const Camera& camera_;
-  const Shading& shading_;
-  const RecordTree& records_;
-  const RenderOptions& options_;
-  bool cached_direct_;
-  const GBuffer& gbuffer_;
-  const SplatBuffer& splats_;
-  const std::vector<Rgb>& shadow_mapped_;
-  int sample_;
-  Layers& layers_;
-};
-
-void average(std::vector<Rgb>& sums, float samples) {
-  for (Rgb& v : sums) v /= samples;
-}
-
-/// `single`: each pixel sample sent one ray only, so that the noise shows in the spread of the samples alone.
-Image make_image(Layers& layers, int width, int height, int samples, bool single) {
-  Image image(width, height);
-  const auto n = static_cast<float>(samples);
-  std::vector<Rgb> beauty(image.pixels()), error(image.pixels());
-  for (auto* sums : {&layers.direct, &layers.indirect, &layers.glossy, &layers.specular, &layers.emission,
-                     &layers.albedo, &layers.indirect_error})
-    average(*sums, n);
-  for (std::size_t i = 0; i < beauty.size(); ++i) {
-    beauty[i] =
-        layers.direct[i] + layers.indirect[i] + layers.glossy[i] + layers.specular[i] + layers.emission[i];
-    Rgb variance = layers.noise[i] / (n * n);
-    if (single && samples > 1) {
-      const Rgb mean = layers.sampled[i] / n;
-      variance = glm::max(layers.sampled_square[i] / n - mean * mean, Rgb(0)) / (n - 1);
-    }
-    error[i] = glm::sqrt(variance + layers.indirect_error[i] * layers.indirect_error[i]);
-  }
-  image.set_rgb("", beauty);
-  image.set_rgb("direct", layers.direct);
-  image.set_rgb("indirect", layers.indirect);
-  image.set_rgb("emission", layers.emission);
-  image.set_rgb("albedo", layers.albedo);
-  image.set_rgb("stderr", error);
-  const auto some = [](const std::vector<Rgb>& v) {
-    return std::any_of(v.begin(), v.end(), [](const Rgb& c) { return c != Rgb(0); });
-  };
-  if (some(layers.glossy)) image.set_rgb("glossy", layers.glossy);
-  if (some(layers.specular)) image.set_rgb("specular", layers.specular);
-  for (std::size_t i = 0; i < beauty.size(); ++i) {
-    image.channel("illuminance.Y")[i] = layers.illuminance[i] / n;
-    image.channel("weight.Y")[i] = layers.weight[i] / n;
-    image.channel("Z")[i] = layers.depth[i];
-    for (int c = 0; c < 3; ++c) {
-      const std::string axis(1, "XYZ"[c]);
-      image.channel("normal." + axis)[i] = layers.normal[i][c];
-      image.channel("position." + axis)[i] = layers.position[i][c];
-    }
-  }
-  return image;
+/// The records at each visible point by lookups, with a ray to each: what splatting gives, without leaks.
+SplatBuffer look_up(const RecordTree& records, const GBuffer& g) {
+  SplatBuffer buffer;
+  buffer.light.assign(g.position.size(), Vec4(0)), buffer.error.assign(g.position.size(), Vec4(0));
+  parallel_for(g.position.size(), kChunk, [&](std::size_t i) {
+    if (!g.covered(i)) return;
+    const Interpolated found = records.interpolate(Vec3(g.position[i]), Vec3(g.normal[i]));
+    buffer.light[i] = Vec4(found.irradiance * found.weight, found.weight);
+    buffer.error[i] = Vec4(found.stderr_lx * found.weight, found.weight > 0 ? 1 : 0);
+  });
+  return buffer;
 }
 
 /// Puts misses in a pseudo-random order, so that the first few already cover the picture, and keeps at most
@@ -276,6 +83,20 @@ void declare_options(Options& options, RenderOptions& r) {
                   {0, 65536});
   options.integer("pixel-samples", r.pixel_samples, "N", "samples per pixel, averaged (anti-aliasing)",
                   {1, 4096});
+  options.integer("edge-samples", r.edge_samples, "N",
+                  "more samples of the pixels in which surfaces meet (anti-aliasing where it shows, at a "
+                  "fraction of --pixel-samples' time)",
+                  {0, 4096});
+  options.list("layers", r.layers, "all|LAYER,...",
+               "layers to write: " + LayerSet::names() + " (fewer are faster)");
+  options.choice<Overlay>("overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
+                          "draw the visible records into the beauty: a dot at each, and the outline of the "
+                          "zone it lights; other layers stay as they are");
+  options.choice<OverlayColour>(
+      "overlay-colour", r.overlay_colour,
+      {{"radius", OverlayColour::radius}, {"stderr", OverlayColour::stderr_}},
+      "what the records' colours tell: radius, or standard error over irradiance (logarithmic, blue is "
+      "least)");
   options.section("Light from the cache");
   options.number("accuracy", r.accuracy, "A",
                  "how far a record reaches: error allowed between records (smaller: fewer, closer records "
@@ -284,6 +105,10 @@ void declare_options(Options& options, RenderOptions& r) {
                  kPositive);
   options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
                           "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
+  options.choice<LeakTest>(
+      "leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
+      "ray: a record lights a point only if the two can see each other (records are looked up, a ray for "
+      "each, instead of drawn)");
   options.integer("max-misses", r.max_misses, "N", "at most this many points go into --misses", kNotNegative,
                   Recorded::no);
   options.section("Direct light, gloss, mirrors and glass");
@@ -315,74 +140,187 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
     throw Error(ExitCode::usage, "--width",
                 text(r.width, " x ", r.height, " pixels are too many; at most 2^28"));
   if (!r.accuracy) r.accuracy = cache.accuracy;
+  const LayerSet layers(r.layers);
+  if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
+    throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
+  if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
+    throw Error(ExitCode::usage, "--edge-samples", "sends rays for direct light too; give --direct traced");
 }
 
-Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options) {
-  const Camera& camera = find_camera(rays.scene(), options.camera);
-  const int width = static_cast<int>(options.width);
-  const int height = static_cast<int>(options.height);
-  const int samples = static_cast<int>(options.pixel_samples);
-  Rendering result;
+namespace {
 
-  const Luminaires lights(rays.scene());
-  RecordTree records(rays.scene().bounds, *options.accuracy);
-  for (const IrradianceRecord& r : cache.records) records.insert(r);
-  ShadingOptions shading_options;
-  shading_options.specular_depth = static_cast<int>(options.specular_depth);
-  shading_options.cached_direct = cache.quantity == "all";
-  shading_options.reflect_direct = options.direct != DirectBy::none;
-  const Shading shading(rays, lights, records, shading_options);
-
-  std::unique_ptr<GlRenderer> gl;
-  if (options.splat == SplatBy::gl || options.direct == DirectBy::shadow_map)
-    gl = std::make_unique<GlRenderer>(rays.scene());
-  result.renderer = gl ? gl->description() : "cpu";
-
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  Layers layers(pixels);
-  Progress progress("rendering", pixels * static_cast<std::uint64_t>(samples), "pixel samples");
-  ChunkResult total;
-  for (int s = 0; s < samples; ++s) {
-    GBuffer gbuffer;
-    SplatBuffer splats;
-    std::vector<Rgb> shadow_mapped;
-    {
-      const Stopwatch watch(result.seconds, "visible surface");
-      gbuffer = options.splat == SplatBy::gl
-                    ? gl->rasterise(camera, width, height, subpixel(s, samples))
-                    : trace_gbuffer(rays, camera, width, height, subpixel(s, samples));
-    }
-    {
-      const Stopwatch watch(result.seconds, "splat");
-      splats = options.splat == SplatBy::gl ? gl->splat(cache.records, *options.accuracy, gbuffer, camera)
-                                            : splat_on_cpu(cache.records, *options.accuracy, gbuffer, camera);
-    }
-    if (options.direct == DirectBy::shadow_map) {
-      const Stopwatch watch(result.seconds, "shadow maps");
-      shadow_mapped = gl->direct_illuminance(gbuffer, static_cast<int>(options.light_samples),
-                                             static_cast<int>(options.shadow_map_size));
-    }
-    const Stopwatch watch(result.seconds, "shading");
-    const SamplePass pass(rays, camera, shading, records, options, shading_options.cached_direct, gbuffer,
-                          splats, shadow_mapped, s, layers);
-    const ChunkResult shaded = parallel_reduce(
-        pixels, 1024, ChunkResult{},
-        [&](std::size_t begin, std::size_t end) {
-          ChunkResult chunk;
-          for (std::size_t i = begin; i < end; ++i) pass.shade(i, chunk);
-          progress.advance(end - begin);
-          return chunk;
-        },
-        [](ChunkResult& total, ChunkResult& chunk) { total.join(chunk); });
-    total.join(shaded);
+/// A picture in the making: its samples pass by pass, then more of them at edges.
+class Painter {
+ public:
+  Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options, Rendering& result)
+      : rays_(rays),
+        cache_(cache),
+        options_(options),
+        result_(result),
+        camera_(find_camera(rays.scene(), options.camera)),
+        width_(static_cast<int>(options.width)),
+        height_(static_cast<int>(options.height)),
+        samples_(static_cast<int>(options.pixel_samples)),
+        lights_(rays.scene()),
+        records_(tree()),
+        shading_(rays, lights_, records_, shading_options()),
+        shader_(rays, shading_, records_, options, cached_direct()),
+        layers_(width_, height_, LayerSet(options.layers)),
+        count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+               static_cast<std::uint16_t>(samples_)),
+        progress_("rendering", count_.size() * static_cast<std::uint64_t>(samples_), "pixel samples") {
+    if (by_gl() || options.direct == DirectBy::shadow_map) gl_ = std::make_unique<GlRenderer>(rays.scene());
+    result.renderer = gl_ ? gl_->description() : "cpu";
   }
-  result.looked_up = total.looked_up, result.missed = total.missed;
-  result.counters = total.log.counters;
-  result.misses = std::move(total.log.misses);
-  spread(result.misses, options.seed, static_cast<std::size_t>(options.max_misses));
-  const bool single = samples_of_each(options.light_samples, samples) == 1 ||
-                      samples_of_each(options.gloss_samples, samples) == 1;
-  result.image = make_image(layers, width, height, samples, single);
+
+  void make() {
+    for (int s = 0; s < samples_; ++s) {
+      const GBuffer gbuffer = see(s);
+      if (s == 0 && options_.edge_samples > 0) find_edges(gbuffer);
+      const SplatBuffer splats = light_from_cache(gbuffer);
+      shade(s, gbuffer, splats, shadow_mapped(gbuffer));
+    }
+    if (!edges_.empty()) shade_edges();
+    finish();
+  }
+
+ private:
+  bool by_gl() const { return options_.splat == SplatBy::gl; }
+  bool cached_direct() const { return cache_.quantity == "all"; }
+
+  RecordTree tree() const {
+    RecordTree records(rays_.scene().bounds, *options_.accuracy,
+                       options_.leak_test == LeakTest::ray ? &rays_ : nullptr);
+    for (const IrradianceRecord& r : cache_.records) records.insert(r);
+    return records;
+  }
+
+  ShadingOptions shading_options() const {
+    ShadingOptions shading;
+    shading.specular_depth = static_cast<int>(options_.specular_depth);
+    shading.cached_direct = cached_direct();
+    shading.reflect_direct = options_.direct != DirectBy::none;
+    return shading;
+  }
+
+  GBuffer see(int s) {
+    const Stopwatch watch(result_.seconds, "visible surface");
+    const Vec2 where = subpixel(s, samples_);
+    return by_gl() ? gl_->rasterise(camera_, width_, height_, where)
+                   : trace_gbuffer(rays_, camera_, width_, height_, where);
+  }
+
+  SplatBuffer light_from_cache(const GBuffer& gbuffer) {
+    if (options_.leak_test == LeakTest::ray) {
+      const Stopwatch watch(result_.seconds, "lookups with leak test");
+      return look_up(records_, gbuffer);
+    }
+    const Stopwatch watch(result_.seconds, "splat");
+    return by_gl() ? gl_->splat(cache_.records, *options_.accuracy, gbuffer, camera_)
+                   : splat_on_cpu(cache_.records, *options_.accuracy, gbuffer, camera_);
+  }
+
+  /// Empty if direct light is had another way.
+  std::vector<Rgb> shadow_mapped(const GBuffer& gbuffer) {
+    if (options_.direct != DirectBy::shadow_map) return {};
+    const Stopwatch watch(result_.seconds, "shadow maps");
+    return gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
+                                   static_cast<int>(options_.shadow_map_size));
+  }
+
+  void find_edges(const GBuffer& gbuffer) {
+    const Stopwatch watch(result_.seconds, "edges");
+    edges_ = edge_pixels(gbuffer);
+    for (const std::uint32_t i : edges_) count_[i] = most_samples();
+  }
+  std::uint16_t most_samples() const {
+    return static_cast<std::uint16_t>(options_.pixel_samples + options_.edge_samples);
+  }
+
+  Ray ray_of(std::size_t pixel, const Vec2& where) const {
+    const auto width = static_cast<std::size_t>(width_);
+    return pixel_ray(camera_, width_, height_, static_cast<int>(pixel % width),
+                     static_cast<int>(pixel / width), where);
+  }
+
+  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const std::vector<Rgb>& mapped) {
+    const Stopwatch watch(result_.seconds, "shading");
+    const Vec2 where = subpixel(s, samples_);
+    run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
+      if (!gbuffer.covered(i)) return;
+      const Ray ray = ray_of(i, where);
+      const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
+      layers_.add(i, shader_.shade({i, s, count_[i]}, ray, point, {splats.light[i], splats.error[i]},
+                                   mapped.empty() ? Rgb(0) : mapped[i], result));
+      if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
+    });
+  }
+
+  /// The cache is looked up here: splatting pays for whole pictures only.
+  void shade_edges() {
+    const Stopwatch watch(result_.seconds, "edges");
+    run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
+      const std::size_t i = edges_[e];
+      for (int s = samples_; s < most_samples(); ++s) {
+        const Ray ray = ray_of(i, subpixel(s, most_samples()));
+        SurfacePoint point;
+        if (trace(rays_, ray, point))
+          layers_.add(i, shader_.shade({i, s, most_samples()}, ray, point, {}, Rgb(0), result));
+      }
+    });
+  }
+
+  /// body(i, result) for i < n; results are joined in order.
+  template <class Body>
+  void run(std::size_t n, std::size_t chunk, const Body& body) {
+    total_ = parallel_reduce(
+        n, chunk, std::move(total_),
+        [&](std::size_t begin, std::size_t end) {
+          ShadingResult result;
+          for (std::size_t i = begin; i < end; ++i) body(i, result);
+          progress_.advance(end - begin);
+          return result;
+        },
+        [](ShadingResult& total, ShadingResult& part) { total.join(part); });
+  }
+
+  void finish() {
+    result_.looked_up = total_.looked_up, result_.missed = total_.missed;
+    result_.edge_pixels = edges_.size();
+    result_.counters = total_.log.counters;
+    result_.misses = std::move(total_.log.misses);
+    spread(result_.misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
+    const bool single = samples_of_each(options_.light_samples, samples_) == 1 ||
+                        samples_of_each(options_.gloss_samples, samples_) == 1;
+    result_.image = layers_.image(count_, single);
+  }
+
+  const RayScene& rays_;
+  const IrradianceCache& cache_;
+  const RenderOptions& options_;
+  Rendering& result_;
+  const Camera& camera_;
+  int width_, height_, samples_;
+  Luminaires lights_;
+  RecordTree records_;
+  Shading shading_;
+  PixelShader shader_;
+  std::unique_ptr<GlRenderer> gl_;
+  Layers layers_;
+  std::vector<std::uint16_t> count_;  // samples of each pixel
+  std::vector<std::uint32_t> edges_;
+  ShadingResult total_;
+  Progress progress_;
+};
+
+}  // namespace
+
+Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options) {
+  Rendering result;
+  Painter(rays, cache, options, result).make();
+  if (options.overlay == Overlay::records)
+    result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
+                                find_camera(rays.scene(), options.camera), options.overlay_colour);
   return result;
 }
 

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "cache/irradiance_cache.h"
+#include "cache/record_options.h"
 #include "cache/shading.h"
 #include "core/counters.h"
 #include "core/json.h"
 #include "core/options.h"
 #include "image/image.h"
 #include "scene/rays.h"
+#include "splat/overlay.h"
 
 namespace phos {
 
@@ -25,8 +27,13 @@ struct RenderOptions {
   std::int64_t width = 0,
                height = 0;  ///< 0 = from the other and the camera's aspect (both 0: 1000 on the longer side)
   std::int64_t pixel_samples = 4;
+  std::int64_t edge_samples = 0;  ///< more of them for pixels in which surfaces meet
+  std::vector<std::string> layers{"all"};
+  Overlay overlay = Overlay::none;
+  OverlayColour overlay_colour = OverlayColour::radius;
   std::optional<double> accuracy;  ///< a; empty = what the cache was placed with
   SplatBy splat = SplatBy::gl;
+  LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
   std::int64_t shadow_map_size = 1024;
@@ -35,13 +42,16 @@ struct RenderOptions {
   std::uint64_t seed = 0;
 };
 void declare_options(Options& options, RenderOptions& render);
-/// Fills width, height and accuracy in. Throws Error(usage) for a picture of more than 2^28 pixels.
+/// Fills width, height and accuracy in. Throws Error(usage) for a picture of more than 2^28 pixels, or for
+/// options that exclude each other.
 void resolve(RenderOptions& render, const Camera& camera, const IrradianceCache& cache);
 
 struct Rendering {
   Image image;               ///< layers of DESIGN "Files"
   std::vector<Miss> misses;  ///< visible points without a valid record, in an order that spreads them
   std::uint64_t missed = 0, looked_up = 0;  ///< of all points that read the cache
+  std::uint64_t edge_pixels = 0;            ///< that had edge_samples more
+  DrawnRecords drawn;                       ///< over the beauty
   Counters counters;
   Json seconds = Json::Object{};  ///< per part
   std::string renderer;           ///< of the splatter

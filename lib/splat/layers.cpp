@@ -1,0 +1,141 @@
+#include "splat/layers.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace phos {
+namespace {
+
+constexpr std::array<const char*, 13> kNames{"beauty",   "direct",   "indirect", "glossy",      "specular",
+                                             "emission", "stderr",   "albedo",   "illuminance", "weight",
+                                             "normal",   "position", "Z"};
+
+constexpr std::size_t kChunk = 1 << 14;
+
+template <class T>
+void add_to(std::vector<T>& sums, std::size_t i, const T& value) {
+  if (!sums.empty()) sums[i] += value;
+}
+
+bool black(std::span<const Rgb> values) {
+  return std::all_of(values.begin(), values.end(), [](const Rgb& v) { return v == Rgb(0); });
+}
+
+}  // namespace
+
+LayerSet::LayerSet(std::span<const std::string> layers) {
+  for (const std::string& name : layers) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    if (name == "all")
+      all_ = true, bits_ = (1u << kNames.size()) - 1;
+    else if (found != kNames.end())
+      bits_ |= 1u << (found - kNames.begin());
+    else
+      throw Error(ExitCode::usage, "--layers",
+                  text("there is no layer \"", name, "\"; give all, or some of ", names()));
+  }
+  if (bits_ == 0) throw Error(ExitCode::usage, "--layers", "names no layer; give all, or some of " + names());
+}
+
+std::string LayerSet::names() {
+  std::string all;
+  for (const char* name : kNames) all += (all.empty() ? "" : ", ") + std::string(name);
+  return all;
+}
+
+Layers::Layers(int width, int height, const LayerSet& wanted)
+    : width_(width), height_(height), wanted_(wanted) {
+  const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const auto make = [&](Layer layer, auto&... sums) {
+    if (wanted.has(layer)) (sums.resize(n), ...);
+  };
+  make(Layer::beauty, beauty_);
+  make(Layer::direct, direct_);
+  make(Layer::indirect, indirect_);
+  make(Layer::glossy, glossy_);
+  make(Layer::specular, specular_);
+  make(Layer::emission, emission_);
+  make(Layer::stderr_, variance_, noisy_, noisy_square_, indirect_error_);
+  make(Layer::albedo, albedo_);
+  make(Layer::illuminance, illuminance_);
+  make(Layer::weight, weight_);
+  make(Layer::normal, normal_);
+  make(Layer::position, position_);
+  make(Layer::depth, depth_);
+}
+
+void Layers::add(std::size_t i, const PixelSample& s) {
+  add_to(beauty_, i, s.beauty());
+  add_to(direct_, i, s.direct);
+  add_to(indirect_, i, s.indirect);
+  add_to(glossy_, i, s.glossy);
+  add_to(specular_, i, s.specular);
+  add_to(emission_, i, s.emission);
+  add_to(albedo_, i, s.albedo);
+  add_to(variance_, i, s.variance);
+  add_to(noisy_, i, s.noisy);
+  add_to(noisy_square_, i, s.noisy * s.noisy);
+  add_to(indirect_error_, i, s.indirect_error);
+  add_to(illuminance_, i, s.illuminance_lx);
+  add_to(weight_, i, s.weight);
+}
+
+void Layers::set_surface(std::size_t i, const Vec3& position, const Vec3& normal, float depth_m) {
+  add_to(position_, i, position);
+  add_to(normal_, i, normal);
+  add_to(depth_, i, depth_m);
+}
+
+Rgb Layers::standard_error(std::size_t i, float n, bool single) const {
+  Rgb variance = variance_[i] / (n * n);
+  if (single && n > 1) {
+    const Rgb mean = noisy_[i] / n;
+    variance = glm::max(noisy_square_[i] / n - mean * mean, Rgb(0)) / (n - 1);
+  }
+  const Rgb shared = indirect_error_[i] / n;
+  return glm::sqrt(variance + shared * shared);
+}
+
+Image Layers::image(std::span<const std::uint16_t> samples, bool single) const {
+  Image image(width_, height_);
+  const std::size_t pixels = samples.size();
+  std::vector<Rgb> values(pixels);
+  const auto put = [&](const char* name, const auto& value) {
+    parallel_for(pixels, kChunk, [&](std::size_t i) { values[i] = value(i); });
+    image.set_rgb(name, values);
+  };
+  const auto put_mean = [&](const char* name, const std::vector<Rgb>& sums, bool even_if_black) {
+    if (sums.empty() || (!even_if_black && black(sums))) return;
+    put(name, [&](std::size_t i) { return sums[i] / static_cast<float>(samples[i]); });
+  };
+  put_mean("", beauty_, true);
+  put_mean("direct", direct_, true);
+  put_mean("indirect", indirect_, true);
+  put_mean("emission", emission_, true);
+  put_mean("albedo", albedo_, true);
+  put_mean("glossy", glossy_, !wanted_.all());
+  put_mean("specular", specular_, !wanted_.all());
+  if (!variance_.empty())
+    put("stderr", [&](std::size_t i) { return standard_error(i, static_cast<float>(samples[i]), single); });
+  const auto put_channel = [&](const std::string& name, bool wanted, const auto& value) {
+    if (!wanted) return;
+    const std::span<float> channel = image.channel(name);
+    parallel_for(pixels, kChunk, [&](std::size_t i) { channel[i] = value(i); });
+  };
+  put_channel("illuminance.Y", !illuminance_.empty(),
+              [&](std::size_t i) { return illuminance_[i] / static_cast<float>(samples[i]); });
+  put_channel("weight.Y", !weight_.empty(),
+              [&](std::size_t i) { return weight_[i] / static_cast<float>(samples[i]); });
+  put_channel("Z", !depth_.empty(), [&](std::size_t i) { return depth_[i]; });
+  for (int c = 0; c < 3; ++c) {
+    const std::string axis(1, "XYZ"[c]);
+    put_channel("normal." + axis, !normal_.empty(), [&](std::size_t i) { return normal_[i][c]; });
+    put_channel("position." + axis, !position_.empty(), [&](std::size_t i) { return position_[i][c]; });
+  }
+  return image;
+}
+
+}  // namespace phos

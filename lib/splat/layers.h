@@ -1,0 +1,79 @@
+// The layers of a picture, as sums over the samples of each pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "image/image.h"
+
+namespace phos {
+
+enum class Layer : std::uint8_t {
+  beauty,
+  direct,
+  indirect,
+  glossy,
+  specular,
+  emission,
+  stderr_,
+  albedo,
+  illuminance,
+  weight,
+  normal,
+  position,
+  depth,
+};
+
+/// Some of the layers.
+class LayerSet {
+ public:
+  /// Names as in the file ("beauty", "direct", ..., "Z"), or "all". Throws Error(usage) for others, or none.
+  explicit LayerSet(std::span<const std::string> names);
+  bool has(Layer layer) const { return (bits_ >> static_cast<unsigned>(layer) & 1u) != 0; }
+  /// Asked for by "all": layers that would be black are left out of the file then.
+  bool all() const { return all_; }
+  /// "beauty, direct, ..."
+  static std::string names();
+
+ private:
+  std::uint32_t bits_ = 0;
+  bool all_ = false;
+};
+
+/// What one sample of a pixel sees. cd/m2 towards the camera where nothing else is said.
+struct PixelSample {
+  Rgb direct{0}, indirect{0}, glossy{0}, specular{0}, emission{0};
+  Rgb albedo{0};
+  Rgb variance{0};        ///< of direct light and gloss, by their rays
+  Rgb noisy{0};           ///< the part of direct light and gloss that is subject to noise
+  Rgb indirect_error{0};  ///< of the records' part; samples share records, so that it does not average out
+  float illuminance_lx = 0, weight = 0;
+  Rgb beauty() const { return direct + indirect + glossy + specular + emission; }
+};
+
+/// Sums of what is asked for alone.
+class Layers {
+ public:
+  Layers(int width, int height, const LayerSet& wanted);
+
+  void add(std::size_t pixel, const PixelSample& sample);
+  /// What does not average: seen through the pixel's first sample.
+  void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
+  /// Divided by samples[pixel]. `single`: each sample sent one ray of a kind only, so that the noise shows in
+  /// the spread of a pixel's samples alone.
+  Image image(std::span<const std::uint16_t> samples, bool single) const;
+
+ private:
+  Rgb standard_error(std::size_t pixel, float samples, bool single) const;
+  int width_, height_;
+  LayerSet wanted_;
+  // One entry per pixel; empty where not asked for.
+  std::vector<Rgb> beauty_, direct_, indirect_, glossy_, specular_, emission_, albedo_, normal_, position_;
+  std::vector<Rgb> variance_, noisy_, noisy_square_, indirect_error_;
+  std::vector<float> illuminance_, weight_, depth_;
+};
+
+}  // namespace phos

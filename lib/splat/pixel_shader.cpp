@@ -1,0 +1,103 @@
+#include "splat/pixel_shader.h"
+
+namespace phos {
+
+int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples) {
+  return static_cast<int>((of_pixel + pixel_samples - 1) / pixel_samples);
+}
+
+void ShadingResult::join(const ShadingResult& other) {
+  looked_up += other.looked_up, missed += other.missed;
+  log.counters.merge(other.log.counters);
+  log.misses.insert(log.misses.end(), other.log.misses.begin(), other.log.misses.end());
+}
+
+PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RecordTree& records,
+                         const RenderOptions& options, bool cached_direct)
+    : rays_(rays), shading_(shading), records_(records), options_(options), cached_direct_(cached_direct) {}
+
+PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
+                               const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const {
+  PixelSample light;
+  const Bsdf bsdf(rays_.scene(), point);
+  const Vec3 wo = -ray.direction;
+  // What the samples of a pixel share, and each one's own.
+  RandomStream sequence(options_.seed, Stage::direct_light, sample.pixel);
+  const auto most = static_cast<std::uint64_t>(options_.pixel_samples + options_.edge_samples);
+  RandomStream random(options_.seed, Stage::specular,
+                      sample.pixel * most + static_cast<std::uint64_t>(sample.index));
+  light.emission = emitted_luminance(rays_.scene(), point);
+  light.albedo = bsdf.diffuse_reflectance();
+  if (bsdf.has_diffuse()) {
+    ++result.looked_up;
+    if (!from_cache(point, bsdf, splat, light)) {
+      ++result.missed;
+      result.log.misses.push_back({point.position, point.smooth_normal});
+    }
+  }
+  from_lights(sample, point, bsdf, wo, shadow_mapped, sequence, light);
+  if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, sequence, random, light, result.log);
+  light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
+  return light;
+}
+
+bool PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
+                             PixelSample& light) const {
+  Vec4 sum = splat.light, error = splat.error;
+  if (!(sum.w > 0)) {
+    // On the rim of a record rounding decides, and the lookup that places records has the last word: else
+    // the loop over misses would ask for the same point for ever.
+    const Interpolated found = records_.interpolate(point.position, point.smooth_normal);
+    sum = Vec4(found.irradiance * found.weight, found.weight);
+    error = Vec4(found.stderr_lx * found.weight, 0);
+  }
+  light.weight = sum.w;
+  if (!(sum.w > 0)) return false;
+  const Rgb irradiance = Rgb(sum) / sum.w;
+  const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
+  light.indirect = irradiance * reflected;
+  light.indirect_error = Rgb(error) / sum.w * reflected;
+  light.illuminance_lx += luminance(irradiance);
+  return true;
+}
+
+/// This sample's part of what is asked for the whole pixel.
+SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixel) const {
+  const int n = samples_of_each(of_pixel, options_.pixel_samples);
+  return {sample.index * n, n, sample.count * n};
+}
+
+void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                              const Vec3& wo, const Rgb& shadow_mapped, RandomStream& sequence,
+                              PixelSample& light) const {
+  const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
+  if (options_.direct == DirectBy::shadow_map && diffuse) {
+    light.direct += shadow_mapped * bsdf.diffuse_reflectance() / kPi;
+    light.illuminance_lx += luminance(shadow_mapped);
+  }
+  if (options_.direct != DirectBy::traced || !(diffuse || bsdf.has_gloss())) return;
+  const DirectLight direct = shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
+                                             range(sample, options_.gloss_samples).count, sequence);
+  light.direct += direct.radiance;
+  light.noisy += direct.radiance;
+  light.variance += direct.variance;
+  if (!cached_direct_) light.illuminance_lx += luminance(direct.illuminance);
+}
+
+void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                             const Vec3& wo, RandomStream& sequence, RandomStream& random, PixelSample& light,
+                             ShadingLog& log) const {
+  // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
+  const int light_samples =
+      options_.direct == DirectBy::traced ? range(sample, options_.light_samples).count : 0;
+  const GlossLight gloss = shading_.gloss(point, bsdf, wo, range(sample, options_.gloss_samples),
+                                          light_samples, 0, sequence, random, log);
+  light.glossy += gloss.radiance;
+  light.noisy += gloss.radiance;
+  light.variance += gloss.variance;
+  if (options_.direct == DirectBy::none) return;
+  light.direct += gloss.from_lamps;
+  light.noisy += gloss.from_lamps;
+}
+
+}  // namespace phos

@@ -1,0 +1,57 @@
+// The light that one sample of a pixel sees.
+#pragma once
+
+#include <cstdint>
+
+#include "cache/shading.h"
+#include "splat/layers.h"
+#include "splat/render.h"
+
+namespace phos {
+
+/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
+int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples);
+
+/// One of the samples of a pixel.
+struct SampleOfPixel {
+  std::size_t pixel = 0;
+  int index = 0, count = 1;  ///< this one, and how many the pixel has
+};
+
+/// What shading some pixels leaves besides their light.
+struct ShadingResult {
+  ShadingLog log;
+  std::uint64_t looked_up = 0, missed = 0;
+  void join(const ShadingResult& other);
+};
+
+/// Const, usable from any thread; holds references.
+class PixelShader {
+ public:
+  PixelShader(const RayScene& rays, const Shading& shading, const RecordTree& records,
+              const RenderOptions& options, bool cached_direct);
+
+  /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
+  struct Splat {
+    Vec4 light{0}, error{0};  // as in SplatBuffer
+  };
+  /// `shadow_mapped`: direct illuminance with options.direct = shadow_map, lx.
+  PixelSample shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
+                    const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const;
+
+ private:
+  bool from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light) const;
+  SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
+  void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                   const Rgb& shadow_mapped, RandomStream& sequence, PixelSample& light) const;
+  void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                  RandomStream& sequence, RandomStream& random, PixelSample& light, ShadingLog& log) const;
+
+  const RayScene& rays_;
+  const Shading& shading_;
+  const RecordTree& records_;
+  const RenderOptions& options_;
+  bool cached_direct_;
+};
+
+}  // namespace phos
