@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cache/estimator.h"
+#include "cache/growth.h"
 #include "cache/irradiance_cache.h"
 #include "cache/placement.h"
 #include "cache/record_options.h"
@@ -16,21 +17,22 @@ namespace phos {
 
 /// A share of the records of `--place every`, as made: their neighbours have had no say in their radii yet.
 struct IrradiancePart {
-  std::string name;                          ///< "k/n"
-  std::uint64_t first = 0, total = 0;        ///< number of its first record, and of records of the whole run
-  std::vector<Made> made;                    ///< in order
-  Counters counters;                         ///< of making them
-  double accuracy = 0.2;                     ///< as in IrradianceCache
-  std::string scene_hash, quantity;          ///< as in IrradianceCache
-  float min_radius_m = 0, max_radius_m = 0;  ///< of the whole cache
-  Bounds scene_bounds;
+  std::string name;                    ///< "k/n"
+  std::uint64_t first = 0, total = 0;  ///< number of its first record, and of records of the whole run
+  std::vector<Made> made;              ///< in order
+  Counters counters;                   ///< of making them
+  IrradianceCache whole;               ///< that it is a part of, without records
+  RadiusBounds bounds;
+  Bounds scene;
 };
 
-/// Makes records [(k-1)N/n, kN/n) of N points. Throws Error(usage) for a part that is not "k/n", 1 <= k <= n.
-IrradiancePart make_part(const Estimator& estimator, const RayScene& rays, const RecordOptions& resolved,
-                         const std::string& part, std::span<const SurfaceSample> points);
+/// Makes records [(k-1)N/n, kN/n) of N points. `cache` says what they are made for and holds no records.
+/// Throws Error(usage) if it does, and for a part that is not "k/n", 1 <= k <= n.
+IrradiancePart make_part(const IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+                         const RecordOptions& resolved, const std::string& part,
+                         std::span<const SurfaceSample> points);
 
-/// `provenance` is that of the run, whose counters hold no count of the part's own.
+/// `provenance` is that of the run; its counters hold what came before (a coarse cache), not the part's own.
 void write_part(const std::string& path, const IrradiancePart& part, Provenance provenance);
 
 /// A whole run.

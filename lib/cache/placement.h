@@ -40,7 +40,7 @@ void declare_options(Options& options, PlacementOptions& placement);
 struct PlacementSource {
   const PhotonMap* photons = nullptr;
   bool points_given = false;
-  std::span<const SurfaceSample> points;
+  std::span<const SurfaceSample> points{};
   std::uint64_t seed = 0;  ///< of the order in which photons are tried
 };
 
