@@ -19,6 +19,17 @@ constexpr std::uint32_t kMostPasses = 1u << (16 - kRingBits);
 /// rounding, has hit the site's own surface.
 constexpr float kOwnSurface = 0.5f;
 
+/// 16 random bits as a place in a cell, in (0, 1); 1/2 on the mean.
+float in_cell(std::uint32_t bits) { return (static_cast<float>(bits) + 0.5f) * 0x1p-16f; }
+
+/// A unit vector turned by an angle of at most a third of pi: the first terms of the series, to rounding.
+Vec2 turned(const Vec2& v, float angle) {
+  const float x2 = angle * angle;
+  const float c = 1 + x2 * (-1.f / 2 + x2 * (1.f / 24 + x2 * (-1.f / 720 + x2 * (1.f / 40320))));
+  const float s = angle * (1 + x2 * (-1.f / 6 + x2 * (1.f / 120 + x2 * (-1.f / 5040 + x2 * (1.f / 362880)))));
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
 /// How far off its surfaces a parallel one lies below which records cannot tell the two apart
 /// (record_in_front allows a hundredth of the radius), in radii.
 constexpr float kNextSurface = 0.02f;
@@ -61,15 +72,18 @@ void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std:
   const auto rings = static_cast<float>(h.rings), slices = static_cast<float>(h.slices);
   h.resize(static_cast<std::size_t>(h.rings) * static_cast<std::size_t>(h.slices));
   std::fill(h.projected_sr.begin(), h.projected_sr.end(), kPi / (rings * slices));
+  std::vector<Vec2> middle(static_cast<std::size_t>(h.slices));  // of each slice
+  for (std::size_t k = 0; k < middle.size(); ++k)
+    middle[k] = cos_sin((static_cast<float>(k) + 0.5f) / slices);
   RandomStream random(seed, Stage::record, site.item);
   std::size_t i = 0;
   for (int ring = 0; ring < h.rings; ++ring) {
     random.start_bounce(pass << kRingBits | static_cast<std::uint32_t>(ring));
-    for (int slice = 0; slice < h.slices; ++slice, ++i) {
-      const Vec2 u = random.uniform2();
-      const float sin2 = std::min((static_cast<float>(ring) + u.x) / rings, 1.f);
-      const float turns = (static_cast<float>(slice) + u.y) / slices;
-      h.direction[i] = h.frame.to_world(Vec3(std::sqrt(sin2) * cos_sin(turns), std::sqrt(1 - sin2)));
+    for (std::size_t k = 0; k < middle.size(); ++k, ++i) {
+      const std::uint32_t bits = random.bits();
+      const float sin2 = (static_cast<float>(ring) + in_cell(bits >> 16)) / rings;
+      const Vec2 around = turned(middle[k], 2 * kPi / slices * (in_cell(bits & 0xffffu) - 0.5f));
+      h.direction[i] = h.frame.to_world(Vec3(std::sqrt(sin2) * around, std::sqrt(std::max(0.f, 1 - sin2))));
     }
   }
 }

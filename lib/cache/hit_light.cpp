@@ -58,7 +58,13 @@ struct HitLight::Impl {
   std::uint64_t seed;
   std::int64_t bounces;
   LampSampler lamps;
-  std::vector<std::uint8_t> diffuse;  // per material: it has no other lobe
+  /// What is known of a material before any point of it.
+  struct Surface {
+    bool diffuse = false;   // it has no other lobe
+    bool constant = false;  // its reflectance is the same all over, but for vertex colours
+    Rgb reflectance{0};
+  };
+  std::vector<Surface> surface;  // per material
 
   Impl(const RayScene& r, const Luminaires& l, const GatherSource& s, const RecordOptions& options,
        std::uint64_t own_seed)
@@ -71,7 +77,7 @@ struct HitLight::Impl {
         lamps(r, l) {
     for (const Material& m : scene.material) {
       const bool lobeless = (m.model == Model::phong || m.model == Model::ward) && !positive(m.ks);
-      diffuse.push_back(m.model == Model::lambert || lobeless);
+      surface.push_back({m.model == Model::lambert || lobeless, !m.base_colour.used(), m.kd});
     }
   }
 
@@ -79,6 +85,7 @@ struct HitLight::Impl {
     return bounces_left != 1 && (source.indirect || source.fallback);
   }
   bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
+  void ask_ahead(std::span<const Hit> hits, std::size_t i) const;
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
   Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
@@ -90,6 +97,16 @@ struct HitLight::Impl {
   Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
                     RandomStream& random) const;
 };
+
+/// Vertex normals lie about in the memory of a large scene: they are asked for a few hits before their turn.
+void HitLight::Impl::ask_ahead(std::span<const Hit> hits, std::size_t i) const {
+  constexpr std::size_t kAhead = 8, kLarge = 4096;  // hits; triangles
+  if (scene.triangle.size() < kLarge || scene.normal.empty() || i + 2 * kAhead >= hits.size()) return;
+  const Hit &soon = hits[i + kAhead], &later = hits[i + 2 * kAhead];
+  if (std::isfinite(later.distance_m)) __builtin_prefetch(&scene.triangle[later.triangle]);
+  if (!std::isfinite(soon.distance_m)) return;
+  for (const std::uint32_t v : scene.triangle[soon.triangle].v) __builtin_prefetch(&scene.normal[v]);
+}
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
@@ -105,16 +122,16 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
 
 /// Of a material that is diffuse alone.
 Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
-  const Material& material = scene.material[point.material];
-  const Rgb rho = material.kd * Rgb(point.colour);
-  if (!material.base_colour.used()) return rho;
-  return rho * Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
+  const Surface& own = surface[point.material];
+  if (own.constant) return own.reflectance * Rgb(point.colour);
+  const TextureUse& colours = scene.material[point.material].base_colour;
+  return own.reflectance * Rgb(point.colour) * Rgb(look_up(scene, colours, point.uv0, point.uv1));
 }
 
 /// Light straight from a lamp that something may hide is left in worker.shadow instead.
 Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
                                  std::uint32_t hit, Worker& worker) const {
-  const Rgb f = reflectance(point) / kPi;
+  const Rgb f = reflectance(point) * (1 / kPi);
   if (!positive(f)) return Rgb(0);
   Rgb sum(0);
   const bool cached = reads_cache(bounces);
@@ -258,6 +275,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   const LampSequence lamp_points(random);
   worker.shadow.clear();
   for (std::size_t i = 0; i < hits.size(); ++i) {
+    impl_->ask_ahead(hits, i);
     h.distance_m[i] = hits[i].distance_m;
     h.radiance[i] = Rgb(0);
     h.hit_normal[i] = -h.direction[i];
@@ -267,7 +285,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     if (impl_->bounces == 0) continue;
     const std::uint64_t key = ray_key(item, pass, i);
     h.radiance[i] =
-        impl_->diffuse[point.material]
+        impl_->surface[point.material].diffuse
             ? impl_->from_diffuse(point, lamp_points[i], key, static_cast<std::uint32_t>(i), worker)
             : impl_->from_any(point, -h.direction[i], key, worker);
   }
