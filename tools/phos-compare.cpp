@@ -89,7 +89,7 @@ int main_of_tool(int argc, const char* const* argv) {
   Tool tool("phos-compare", "measures how far an image is from a reference", kDescription, 1,
             Tool::Output::none);
   Options& o = tool.options();
-  std::string image_path, reference_path, difference_path;
+  std::string image_path, reference_path, second_path, difference_path;
   CompareOptions options;
   bool json = false;
   double range = 0;
@@ -98,6 +98,8 @@ int main_of_tool(int argc, const char* const* argv) {
   o.section("What is compared");
   o.list("layer", options.layers, "LAYER",
          "layers to compare (beauty, indirect, illuminance, Z, ...); else all common ones");
+  o.file("second-reference", second_path,
+         "the reference made with another seed: gives the rmse without the noise of the two");
   o.flag("ignore-emission", options.ignore_emission, "leave out pixels whose layer emission is not black");
   o.section("Results");
   o.flag("json", json, "print JSON instead of a table");
@@ -115,8 +117,12 @@ int main_of_tool(int argc, const char* const* argv) {
   return tool.run(argc, argv, [&] {
     tool.add_input("image", image_path);
     tool.add_input("reference", reference_path);
+    if (!second_path.empty()) tool.add_input("second reference", second_path);
     const Image image = read_image(image_path), reference = read_image(reference_path);
-    const std::vector<LayerMetrics> all = compare_images(image, reference, options);
+    std::optional<Image> second;
+    if (!second_path.empty()) second = read_image(second_path);
+    const std::vector<LayerMetrics> all =
+        compare_images(image, reference, options, second ? &*second : nullptr);
     if (!difference_path.empty()) write_difference(difference_path, image, reference, options, range);
     const std::string failure = verdict(all);
     if (json) {

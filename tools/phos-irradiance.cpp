@@ -1,31 +1,13 @@
-// Places irradiance records and estimates them from photons.
+// Places irradiance records and estimates them.
+#include "cache/irradiance_parts.h"
 #include "cache/placement.h"
-#include "cache/record_maker.h"
-#include "file/hash.h"
 #include "file/tool.h"
 #include "scene/load.h"
+#include "splat/make_estimator.h"
 
 using namespace phos;
 
 namespace {
-
-struct Inputs {
-  std::vector<std::string> paths;
-  std::string scene, photons;
-
-  /// Tells scene and photons apart by their contents.
-  void sort_out() {
-    if (paths.size() != 2) throw Error(ExitCode::usage, "", "give two inputs, a scene and its photons");
-    const bool first = is_container(paths[0]), second = is_container(paths[1]);
-    if (first && second)
-      throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
-    if (!first && !second) {
-      hash_file(paths[0]), hash_file(paths[1]);  // a missing file is said to be missing
-      throw Error(ExitCode::usage, "", "no photons among the inputs; give the output of phos-photons too");
-    }
-    scene = paths[first ? 1 : 0], photons = paths[first ? 0 : 1];
-  }
-};
 
 std::string percent(double part, double whole) {
   std::ostringstream out;
@@ -50,7 +32,12 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
   tool.say(text(cache.records.size(), " records (", report.kept, " new) cover ", report.candidates,
                 " candidates in ", report.passes, report.passes == 1 ? " pass" : " passes",
                 light > 0 ? "; mean standard error " + percent(error, light) : ""));
-  if (report.uncovered > 0) {
+  if (report.uncovered_share) {
+    tool.stat("uncovered_share", *report.uncovered_share);
+    tool.say(text("of the surface that light can reach, ", percent(*report.uncovered_share, 1),
+                  " is out of every record's reach; ", report.sides_inside, " of ", report.sides,
+                  " sides of triangles lie inside solids"));
+  } else if (report.uncovered > 0) {
     tool.say(text(report.uncovered,
                   " candidates are left uncovered by neighbour clamping; raise --passes to cover them"));
   }
@@ -59,20 +46,26 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("phos-irradiance", "places irradiance records and estimates them from photons",
-            "Records are placed where photons landed, or at given points, until each is within reach of one. "
-            "A record holds "
-            "the irradiance there with its standard error and gradients. Inputs are a scene and its photons, "
-            "in any order.",
-            1);
-  Inputs inputs;
+  Tool tool(
+      "phos-irradiance", "places irradiance records and estimates them from photons or rays",
+      "Records are placed where photons landed, at given points, where a camera looks or on every surface, "
+      "until "
+      "each such place is within reach of one. A record holds the irradiance there with its standard error "
+      "and "
+      "gradients. Inputs, in any order: a scene; photons of it, unless rays gather the first bounce only or "
+      "read a "
+      "cache; and an irradiance cache for rays to read where they land, in place of the coarse one that "
+      "is otherwise made from the photons.",
+      2);
+  std::vector<std::string> paths;
   SceneOptions scene_options;
   RecordOptions records;
   PlacementOptions placement;
   std::string at, add_to, isa;
   bool allow_mismatch = false;
   Options& options = tool.options();
-  options.inputs("SCENE PHOTONS", inputs.paths, "scene (.glb, .gltf, .obj) and photons of it");
+  options.inputs("SCENE [PHOTONS] [CACHE]", paths,
+                 "scene (.glb, .gltf, .obj), photons of it, a cache of it to gather from");
   declare_options(options, scene_options);
   declare_options(options, records);
   declare_options(options, placement);
@@ -84,36 +77,26 @@ int main(int argc, char** argv) {
   options.flag("allow-mismatch", allow_mismatch, "use photons of another scene or another version of it");
   options.example("phos-irradiance room.glb room.photons -o room.irradiance",
                   "records where the photons are");
+  options.example("phos-irradiance room.glb room.photons --estimate gather --rays 1024 -o room.irradiance",
+                  "the same by rays, which read a coarse cache made from the photons: best quality");
   options.example(
       "phos-irradiance room.glb room.photons --at misses.csv --add-to room.irradiance -o room.irradiance",
       "fills what a camera misses");
 
   return tool.run(argc, argv, [&] {
-    inputs.sort_out();
-    tool.add_input("scene", scene_files(inputs.scene));
-    tool.add_input("photons", inputs.photons);
+    const IrradianceFiles files = sort_inputs(paths);
+    tool.add_input("scene", scene_files(files.scene));
+    if (!files.photons.empty()) tool.add_input("photons", files.photons);
+    if (!files.source.empty()) tool.add_input("source", files.source);
     if (!at.empty()) tool.add_input("points", at);
     if (!add_to.empty()) tool.add_input("irradiance", add_to);
+    if (!placement.part.empty()) tool.set_variant("part " + placement.part);
     if (tool.up_to_date()) return;
 
-    const Scene scene = load_scene(inputs.scene, scene_options);
-    const PhotonMap photons = PhotonMap::open(inputs.photons);
-    if (!allow_mismatch) require_same_scene(*photons.container(), inputs.scene, scene.hash, scene.parts);
+    const Scene scene = load_scene(files.scene, scene_options);
+    const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     IrradianceCache cache;
-    if (!add_to.empty()) {
-      const Container earlier = Container::open(add_to, "irradiance");
-      if (!allow_mismatch) {
-        require_same_scene(earlier, inputs.scene, scene.hash, scene.parts);
-        const auto source = earlier.provenance().inputs.find("photons");
-        if (source != earlier.provenance().inputs.end() &&
-            source->second != hash_file(inputs.photons).hex()) {
-          throw Error(ExitCode::mismatch, add_to,
-                      "was made from other photons; give those, or pass --allow-mismatch to mix the two");
-        }
-      }
-      adopt_options(records, options, earlier);
-      cache = read_irradiance(earlier);
-    }
+    if (!add_to.empty()) cache = open_earlier(add_to, files, scene, allow_mismatch, options, records);
     records.resolve(scene.bounds.diagonal_m());
     cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
@@ -121,22 +104,27 @@ int main(int argc, char** argv) {
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at);
+    const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
+                                 tool.seed()};
+    resolve(placement, scene, source);
     const RayScene rays(scene, {isa});
-    PlacementReport report;
+    const ChosenEstimator estimator = [&] {
+      const auto timer = tool.time("coarse records");
+      return ChosenEstimator(rays, inputs, records, tool.seed());
+    }();
+    if (estimator.coarse_records() > 0) tool.stat("coarse_records", estimator.coarse_records());
     {
       const auto timer = tool.time("records");
-      const RecordMaker maker(photons, rays, records, tool.seed());
-      report = place_records(
-          cache, maker, rays, records, placement,
-          at.empty() ? photon_candidates(photons, records.paths, tool.seed(), placement.max_candidates)
-                     : point_candidates(points),
-          tool.counters());
-      summarise(tool, cache, report);
+      if (!placement.part.empty()) {
+        const IrradiancePart part = make_part(cache, *estimator, rays, records, placement.part, points);
+        return write_part(tool.output(), part, tool.provenance("irradiance", scene.hash, scene.parts));
+      }
+      summarise(tool, cache, place(cache, *estimator, rays, records, placement, source, tool.counters()));
     }
     if (cache.records.empty()) {
-      tool.warn(photons.size() == 0
+      tool.warn(inputs.photons && inputs.photons->size() == 0
                     ? "there are no photons: the file is empty, which means no light anywhere"
-                    : "no photon counts (see --paths): the file is empty, which means no such light");
+                    : "no place wants a record (see --place, --paths): the file is empty");
     }
     write_irradiance(tool.output(), cache, tool.provenance("irradiance", scene.hash, scene.parts));
   });

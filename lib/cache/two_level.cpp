@@ -10,6 +10,8 @@ namespace {
 
 /// Photons tried as places: a coarse cache needs far fewer records than that.
 constexpr std::int64_t kCandidates = 50000;
+/// Records are read somewhat beyond the reach at which they were placed, so that few places have none.
+constexpr double kReadBeyond = 1.5;
 
 RecordOptions coarse_options(const RecordOptions& fine) {
   RecordOptions coarse = fine;
@@ -26,7 +28,7 @@ RecordOptions coarse_options(const RecordOptions& fine) {
 }  // namespace
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
-                         std::uint64_t seed, Counters& counters) {
+                         std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
   photons_ = std::make_unique<RecordMaker>(photons, rays, coarse, seed);
   if (resolved.gather_from == GatherFrom::photons) return;
@@ -35,15 +37,14 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
   Counters own;
   place_records(cache, *photons_, rays, coarse, {},
                 photon_candidates(photons, coarse.paths, seed, kCandidates), own);
-  counters.count("coarse records", cache.records.size());
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, cache.accuracy);
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
   for (const IrradianceRecord& r : cache.records) tree_->insert(r);
 }
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
                          const RecordOptions& resolved, std::uint64_t seed) {
   if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, earlier.accuracy);
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * earlier.accuracy);
   for (const IrradianceRecord& r : earlier.records) tree_->insert(r);
   holds_direct_ = earlier.quantity == "all";
 }

@@ -6,7 +6,6 @@
 #include "cache/gather.h"
 #include "cache/irradiance_cache.h"
 #include "cache/record_options.h"
-#include "core/counters.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
@@ -21,7 +20,7 @@ class CoarseLevel {
   /// GatherFrom::photons, whose every ray asks the photons. View-independent: it depends on scene, photons,
   /// options and seed alone.
   CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
-              std::uint64_t seed, Counters& counters);
+              std::uint64_t seed);
   /// From an earlier cache; `photons` may be null: then there is no light where it has no record.
   CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
               const RecordOptions& resolved, std::uint64_t seed);

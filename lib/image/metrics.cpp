@@ -124,8 +124,26 @@ Pu21 visual_difference(const Image& image, const Image& reference, const std::st
   return compare_pu21(ya, yb, counts, image.width(), image.height());
 }
 
-LayerMetrics measure(const Image& image, const Image& reference, const std::string& layer,
-                     std::vector<char> counts) {
+/// The noise of two references is independent, and averages out of the product of their differences.
+void measure_converged(LayerMetrics& m, const Image& image, const Image& reference, const Image& second,
+                       const std::string& layer, const std::vector<char>& counts, double magnitude) {
+  if (components_of(second, layer) != m.components)
+    throw Error(ExitCode::mismatch, "second reference",
+                text("has no layer ", m.layer, " like the reference's; make it with the same options"));
+  double sum = 0;
+  for (const std::string& c : m.components) {
+    const std::span<const float> a = values_of(image, layer, c), b = values_of(reference, layer, c),
+                                 other = values_of(second, layer, c);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (counts[i] && std::isfinite(other[i])) sum += (double{a[i]} - b[i]) * (double{a[i]} - other[i]);
+  }
+  const auto n = static_cast<double>(std::max<std::size_t>(m.pixels, 1) * m.components.size());
+  m.converged_rmse = std::sqrt(std::max(0.0, sum / n));
+  m.relative_converged_rmse = ratio(*m.converged_rmse, magnitude);
+}
+
+LayerMetrics measure(const Image& image, const Image& reference, const Image* second,
+                     const std::string& layer, std::vector<char> counts) {
   LayerMetrics m;
   m.layer = layer_label(layer), m.unit = layer_unit(layer);
   m.components = components_of(reference, layer);
@@ -141,6 +159,7 @@ LayerMetrics measure(const Image& image, const Image& reference, const std::stri
   m.rmse = std::sqrt(m.rmse);
   m.relative_rmse = ratio(m.rmse, magnitude);
   m.relative_bias = ratio(m.bias, magnitude);
+  if (second) measure_converged(m, image, reference, *second, layer, counts, magnitude);
   if (!absolute.empty()) {
     const auto at =
         absolute.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(absolute.size() - 1) + 0.5);
@@ -195,11 +214,12 @@ std::vector<std::string> all_layers(const Image& image) {
 }
 
 std::vector<LayerMetrics> compare_images(const Image& image, const Image& reference,
-                                         const CompareOptions& options) {
+                                         const CompareOptions& options, const Image* second) {
   const std::vector<std::string> layers = common_layers(image, reference, options);
+  if (second) common_layers(*second, reference, {.layers = options.layers});
   const std::vector<char> mask = emission_mask(image, reference, options.ignore_emission);
   std::vector<LayerMetrics> all;
-  for (const std::string& layer : layers) all.push_back(measure(image, reference, layer, mask));
+  for (const std::string& layer : layers) all.push_back(measure(image, reference, second, layer, mask));
   return all;
 }
 
@@ -228,6 +248,8 @@ Json to_json(const LayerMetrics& m) {
   j["rmse"] = m.rmse, j["relative_rmse"] = m.relative_rmse, j["relative_mse"] = m.relative_mse;
   j["mean_relative_error"] = m.mean_relative_error, j["bias"] = m.bias, j["relative_bias"] = m.relative_bias;
   j["p99"] = m.p99, j["max"] = m.max, j["epsilon"] = m.epsilon;
+  if (m.converged_rmse)
+    j["converged_rmse"] = *m.converged_rmse, j["relative_converged_rmse"] = *m.relative_converged_rmse;
   if (m.visual) j["pu21_psnr_db"] = m.visual->psnr_db, j["pu21_ssim"] = m.visual->ssim;
   return j;
 }
@@ -253,6 +275,9 @@ std::string to_table(const std::vector<LayerMetrics>& metrics) {
                number(m.relative_bias).c_str(), number(m.p99).c_str(), number(m.max).c_str(),
                m.visual ? number(m.visual->psnr_db).c_str() : "",
                m.visual ? number(m.visual->ssim).c_str() : "");
+    if (m.converged_rmse)
+      out += text("  rmse without the references' noise ", number(*m.converged_rmse), ", relative ",
+                  number(*m.relative_converged_rmse), "\n");
     if (m.ignored > 0) out += text("  ", m.ignored, " pixels left out\n");
     if (m.non_finite > 0) out += text("  ", m.non_finite, " pixels are not finite\n");
   }

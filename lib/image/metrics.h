@@ -32,6 +32,10 @@ struct LayerMetrics {
   double max = 0;                            ///< largest |d|
   double epsilon = 0;          ///< 1 % of mean |reference|: keeps black pixels from ruling relative measures
   std::optional<Pu21> visual;  ///< of layers in cd/m2
+  /// rmse and relative_rmse against what the reference converges to, from two references of independent
+  /// noise: root of mean (image - reference)(image - second), 0 where that is negative. A pixel that is not
+  /// finite in the second counts as equal to it.
+  std::optional<double> converged_rmse, relative_converged_rmse;
 };
 
 struct CompareOptions {
@@ -43,8 +47,9 @@ struct CompareOptions {
 /// image is counted and left out. Throws Error(mismatch) for images of different size, without a common
 /// layer, without the asked-for layer, or without `emission` where it is needed (the reference's; failing
 /// that, the image's).
+/// `second`: the reference once more, made with another seed.
 std::vector<LayerMetrics> compare_images(const Image& image, const Image& reference,
-                                         const CompareOptions& options);
+                                         const CompareOptions& options, const Image* second = nullptr);
 
 /// The layers of compare_images as pixels of `image - reference`; zero where left out, for a difference
 /// picture.

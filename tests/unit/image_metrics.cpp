@@ -46,6 +46,20 @@ TEST(Metrics, SignsCancelInBiasOnly) {
   EXPECT_NEAR(m.mean[0], 5, 1e-12);
 }
 
+/// Two references whose noise is independent: their noise leaves the measure, the image's own error stays.
+TEST(Metrics, TwoReferencesCancelTheirNoise) {
+  RandomStream random(5, Stage::test, 0);
+  Image image = grey(200, 200, 11), references[2] = {grey(200, 200, 10), grey(200, 200, 10)};
+  for (Image& r : references)
+    for (const char* c : {"R", "G", "B"})
+      for (float& v : r.channel(c)) v += 6 * random.uniform() - 3;
+  const LayerMetrics m = compare_images(image, references[0], {}, &references[1])[0];
+  EXPECT_NEAR(m.rmse, 2, 0.02);  // 1 and the variance 6^2 / 12
+  EXPECT_NEAR(*m.converged_rmse, 1, 0.02);
+  EXPECT_NEAR(*m.relative_converged_rmse, 0.1, 0.002);
+  EXPECT_FALSE(compare_images(image, references[0], {})[0].converged_rmse);
+}
+
 TEST(Metrics, PercentileLeavesOutTheWorst) {
   Image image = grey(100, 10, 1), reference = grey(100, 10, 1);
   for (std::size_t i = 0; i < 5; ++i) image.channel("G")[i] = 1001;

@@ -1,0 +1,71 @@
+#include "splat/irradiance_inputs.h"
+
+#include "core/error.h"
+#include "file/hash.h"
+
+namespace phos {
+namespace {
+
+void take(std::string& slot, const std::string& path, const char* what) {
+  if (!slot.empty())
+    throw Error(ExitCode::usage, path, text("is a second ", what, " beside ", slot, "; give one"));
+  slot = path;
+}
+
+}  // namespace
+
+IrradianceFiles sort_inputs(const std::vector<std::string>& paths) {
+  IrradianceFiles files;
+  for (const std::string& path : paths) {
+    if (!is_container(path)) {
+      hash_file(path);  // a missing file is said to be missing
+      take(files.scene, path, "scene");
+      continue;
+    }
+    const std::string kind = Container::open(path).provenance().kind;
+    if (kind == "photons")
+      take(files.photons, path, "photon map");
+    else if (kind == "irradiance")
+      take(files.source, path, "irradiance cache");
+    else
+      throw Error(ExitCode::usage, path,
+                  text("holds ", kind, "; give a scene, photons, or a cache for rays to read"));
+  }
+  if (files.scene.empty())
+    throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
+  return files;
+}
+
+EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, bool allow_mismatch) {
+  EstimateInputs inputs;
+  if (!files.photons.empty()) {
+    inputs.photons = PhotonMap::open(files.photons);
+    if (!allow_mismatch)
+      require_same_scene(*inputs.photons->container(), files.scene, scene.hash, scene.parts);
+  }
+  if (!files.source.empty()) {
+    const Container file = Container::open(files.source, "irradiance");
+    if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
+    inputs.source = read_irradiance(file);
+  }
+  return inputs;
+}
+
+IrradianceCache open_earlier(const std::string& path, const IrradianceFiles& files, const Scene& scene,
+                             bool allow_mismatch, const Options& given, RecordOptions& records) {
+  const Container file = Container::open(path, "irradiance");
+  if (!allow_mismatch) {
+    require_same_scene(file, files.scene, scene.hash, scene.parts);
+    const auto& inputs = file.provenance().inputs;
+    const auto photons = inputs.find("photons");
+    if (photons != inputs.end() && !files.photons.empty() &&
+        photons->second != hash_file(files.photons).hex()) {
+      throw Error(ExitCode::mismatch, path,
+                  "was made from other photons; give those, or pass --allow-mismatch to mix the two");
+    }
+  }
+  adopt_options(records, given, file);
+  return read_irradiance(file);
+}
+
+}  // namespace phos

@@ -1,0 +1,47 @@
+#include "splat/make_estimator.h"
+
+#include "cache/gather.h"
+#include "cache/record_maker.h"
+#include "core/error.h"
+#include "splat/hemisphere_raster.h"
+
+namespace phos {
+namespace {
+
+CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options,
+                         std::uint64_t seed) {
+  const bool photons_only = options.estimate == Estimate::hull || options.estimate == Estimate::kernel;
+  if (photons_only && !inputs.photons) {
+    throw Error(ExitCode::usage, "--estimate",
+                "hull and kernel count photons; give the output of phos-photons too, or --estimate gather");
+  }
+  if (photons_only || options.gather_bounces == 1) return CoarseLevel();
+  if (inputs.source)
+    return CoarseLevel(rays, *inputs.source, inputs.photons ? &*inputs.photons : nullptr, options, seed);
+  if (inputs.photons) return CoarseLevel(rays, *inputs.photons, options, seed);
+  throw Error(
+      ExitCode::usage, "--gather-bounces",
+      "for more than the first bounce, give photons or an earlier cache too; --gather-bounces 1 needs none");
+}
+
+}  // namespace
+
+ChosenEstimator::ChosenEstimator(const RayScene& rays, const EstimateInputs& inputs,
+                                 const RecordOptions& options, std::uint64_t seed)
+    : lights_(rays.scene()), coarse_(coarse_level(rays, inputs, options, seed)) {
+  switch (options.estimate) {
+    case Estimate::hull:
+    case Estimate::kernel:
+      estimator_ = std::make_unique<RecordMaker>(*inputs.photons, rays, options, seed);
+      break;
+    case Estimate::gather:
+      estimator_ = std::make_unique<GatherEstimator>(rays, lights_, coarse_.source(), options, seed);
+      break;
+    case Estimate::raster:
+      estimator_ = std::make_unique<RasterEstimator>(rays, lights_, coarse_.source(), options, seed);
+      break;
+  }
+}
+ChosenEstimator::~ChosenEstimator() = default;
+
+}  // namespace phos

@@ -1,0 +1,31 @@
+// The estimator that the options ask for, and everything that it refers to.
+#pragma once
+
+#include <memory>
+
+#include "cache/estimator.h"
+#include "cache/record_options.h"
+#include "cache/two_level.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+#include "splat/irradiance_inputs.h"
+
+namespace phos {
+
+/// Throws Error(usage) if the estimate needs photons that are not there. Holds references to rays and inputs.
+class ChosenEstimator {
+ public:
+  ChosenEstimator(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& resolved,
+                  std::uint64_t seed);
+  ~ChosenEstimator();
+  const Estimator& operator*() const { return *estimator_; }
+  /// Of the coarse cache that rays read; 0 for estimates from photons.
+  std::size_t coarse_records() const { return coarse_.records(); }
+
+ private:
+  Luminaires lights_;
+  CoarseLevel coarse_;
+  std::unique_ptr<Estimator> estimator_;
+};
+
+}  // namespace phos
