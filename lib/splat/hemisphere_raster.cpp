@@ -18,6 +18,9 @@ constexpr float kOwnSurface = 0.5f;
 /// Of the radius: how far below its place a parallel surface must lie for lookups to tell the two apart
 /// (record_in_front allows half of it).
 constexpr float kNextSurface = 0.02f;
+/// Depth of the near plane, in roundings of positions: a wall at that distance is still seen where it meets
+/// the edge of the plane.
+constexpr float kNear = 0.1f;
 
 }  // namespace
 
@@ -116,7 +119,7 @@ void RasterEstimator::sample(const RecordSite& site, Hemisphere& h, Worker& work
   h.resize(plane.direction.size());
   h.projected_sr = plane.projected_sr;
   impl_->context.make_current();
-  draw_triangles(impl_->context.gl(), impl_->mesh, impl_->view(eye, h.frame, from.error_m), impl_->target,
+  draw_triangles(impl_->context.gl(), impl_->mesh, impl_->view(eye, h.frame, kNear * from.error_m), impl_->target,
                  w.triangle);
   w.hits.assign(h.size(), Hit());
   for (std::size_t i = 0; i < h.size(); ++i) {

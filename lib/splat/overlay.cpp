@@ -21,6 +21,9 @@ constexpr float kLineOpacity = 0.85f;
 /// A record is hidden if something stands before it by more than this share of its distance.
 constexpr double kInFront = 1e-3;
 constexpr float kBrightest = 0.85f;  // of a screen's white
+// What lies below is shown as a darker, greyer picture, so that colours are the marks' own.
+constexpr float kGrey = 0.75f, kDimmed = 0.35f;
+constexpr double kOutliers = 0.01;  // share of the marks beyond either end of the colours
 
 float srgb_to_linear(std::uint8_t code) {
   const float v = static_cast<float>(code) / 255;
@@ -153,22 +156,27 @@ float value_of(const IrradianceRecord& r, OverlayColour colour) {
   return light > 0 ? luminance(r.stderr_lx) / light : 0;
 }
 
-/// Colours from least to most, where the values have logarithms.
+/// Colours from least to most, but for a few outliers that look like these. Values without a logarithm are
+/// least.
 DrawnRecords paint(std::vector<Mark>& marks, float key_cd_m2) {
-  double least = HUGE_VAL, most = 0;
-  for (const Mark& m : marks) {
-    if (m.value > 0) least = std::min(least, static_cast<double>(m.value));
-    most = std::max(most, static_cast<double>(m.value));
+  std::vector<double> values;
+  for (const Mark& m : marks)
+    if (m.value > 0) values.push_back(static_cast<double>(m.value));
+  std::sort(values.begin(), values.end());
+  DrawnRecords drawn{marks.size()};
+  if (!values.empty()) {
+    const auto out = static_cast<std::size_t>(kOutliers * static_cast<double>(values.size()));
+    drawn.least = values[out], drawn.most = values[values.size() - 1 - out];
   }
   for (Mark& m : marks) {
     double t = 0;
-    if (static_cast<double>(m.value) > least && most > least)
-      t = std::log(static_cast<double>(m.value) / least) / std::log(most / least);
-    const Colour8 code = palette_colour(Palette::turbo, 0.08 + 0.84 * t);
+    if (static_cast<double>(m.value) > drawn.least && drawn.most > drawn.least)
+      t = std::log(static_cast<double>(m.value) / drawn.least) / std::log(drawn.most / drawn.least);
+    const Colour8 code = palette_colour(Palette::turbo, 0.1 + 0.76 * std::min(t, 1.0));
     const Rgb screen(srgb_to_linear(code[0]), srgb_to_linear(code[1]), srgb_to_linear(code[2]));
     m.colour = screen * (scene_luminance(luminance(screen), key_cd_m2) / luminance(screen));
   }
-  return {marks.size(), most > 0 ? least : 0, most};
+  return drawn;
 }
 
 }  // namespace
@@ -186,6 +194,7 @@ DrawnRecords draw_records(Image& image, std::span<const IrradianceRecord> record
   std::vector<Rgb> picture = image.rgb("");
   const double key = tone_map(picture, width, height, {}).key_cd_m2;
   const DrawnRecords drawn = paint(marks, key > 0 ? static_cast<float>(key) : 1.f);
+  for (Rgb& under : picture) under = kDimmed * glm::mix(under, Rgb(luminance(under)), kGrey);
   drawing.draw_zones(marks, picture);
   drawing.draw_dots(marks, picture);
   image.set_rgb("", picture);

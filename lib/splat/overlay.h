@@ -20,12 +20,13 @@ enum class OverlayColour {
 /// What has been drawn, and what its colours stand for.
 struct DrawnRecords {
   std::size_t count = 0;
-  double least = 0, most = 0;  ///< value of the first and last colour
+  double least = 0, most = 0;  ///< value of the first and last colour; one mark in a hundred lies beyond each
 };
 
-/// Draws into the beauty (R, G, B) of an image of `camera` each record that can be seen from there: a dot at
-/// its place, and the outline of its zone of influence (where record_error is `accuracy`) on the surfaces it
-/// lights. Colours are as bright as phos-picture's own tone mapping shows them well in this image.
+/// Dims the beauty (R, G, B) of an image of `camera`, and draws over it each record that can be seen from
+/// there: a dot at its place, and the outline of its zone of influence (where record_error is `accuracy`) on
+/// the surfaces it lights. Colours are as bright as phos-picture's own tone mapping shows them well in this
+/// image.
 DrawnRecords draw_records(Image& image, std::span<const IrradianceRecord> records, double accuracy,
                           const RayScene& rays, const Camera& camera, OverlayColour colour);
 
