@@ -18,7 +18,7 @@ DirectIrradiance direct_at(const Scene& scene, const Vec3& p, const Vec3& n, int
 }
 
 TEST(DirectLight, APointLampOverAFloorIsExactAtEverySize) {
-  const AnalyticScene metre = point_light_over_plane(100, 2, 0);
+  const AnalyticScene metre = point_light_over_plane(2, 100, 0);
   for (const float size : {1e-6f, 1e-3f, 1.f, 1e3f, 1e6f}) {
     const AnalyticScene s = scaled(metre, size);
     for (const Check& check : s.checks) {

@@ -1,0 +1,277 @@
+#include "cache/sensors.h"
+
+#include <algorithm>
+
+#include "cache/direct_light.h"
+#include "cache/gather.h"
+#include "cache/placement.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kChunk = 256;
+constexpr std::size_t kLines = 4096;
+
+bool beyond(const Bounds& bounds, const Vec3& p) {
+  return bounds.empty() || glm::any(glm::lessThan(p, bounds.lo)) || glm::any(glm::greaterThan(p, bounds.hi));
+}
+
+struct Direct {
+  float value_lx = 0, stderr_lx = 0;
+};
+
+/// Direct light at every sensor, and where sensors are.
+std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
+                                const SensorOptions& options, SensorReport& report) {
+  const std::size_t n = sensors.points.size();
+  std::vector<Direct> direct(n);
+  Progress progress("direct light", n, "sensors");
+  struct Lost {
+    std::uint64_t inside = 0, outside = 0;
+  };
+  const Lost lost = parallel_reduce<Lost>(
+      n, kChunk, {},
+      [&](std::size_t begin, std::size_t end) {
+        Lost part;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& [p, normal] = sensors.points[i];
+          const SurfacePoint at = receiver(rays.scene(), p, normal);
+          RandomStream random(options.seed, Stage::direct_light, i);
+          const DirectIrradiance e =
+              direct_irradiance(rays, lights, at, static_cast<int>(options.light_samples), random);
+          direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx)};
+          part.inside += inside_solid(rays, at);
+          part.outside += beyond(rays.scene().bounds, p);
+        }
+        progress.advance(end - begin);
+        return part;
+      },
+      [](Lost& sum, const Lost& part) { sum.inside += part.inside, sum.outside += part.outside; });
+  report.inside = lost.inside, report.outside = lost.outside;
+  return direct;
+}
+
+Reading together(const Direct& direct, float indirect_lx, float stderr_lx) {
+  return {direct.value_lx + indirect_lx, std::hypot(direct.stderr_lx, stderr_lx), direct.value_lx,
+          indirect_lx};
+}
+
+/// Of a whole that holds the direct light: what is left is indirect, or noise.
+Reading apart(float whole_lx, float stderr_lx, const Direct& direct) {
+  return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f)};
+}
+
+/// Records at the sensors that no cache covers, and what they say there.
+std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const RayScene& rays,
+                                const Luminaires& lights, const SensorCaches& caches,
+                                const SensorOptions& options, SensorReport& report) {
+  RecordOptions resolved;
+  resolved.estimate = Estimate::gather;
+  resolved.accuracy = options.accuracy;
+  resolved.rays = options.rays;
+  resolved.leak_test = options.leak_test;
+  resolved.resolve(rays.scene().bounds.diagonal_m());
+  const std::unique_ptr<RecordTree> tree = caches.tree(rays.scene());
+  GatherSource source;
+  source.indirect = tree.get();
+  source.holds_direct = caches.holds_direct();
+  const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
+  IrradianceCache fresh;
+  fresh.accuracy = resolved.accuracy;
+  place_records(fresh, estimator, rays, resolved, {}, point_candidates(open), report.counters);
+  report.records_made = fresh.records.size();
+
+  RecordTree records(rays.scene().bounds, fresh.accuracy,
+                     options.leak_test == LeakTest::ray ? &rays : nullptr);
+  for (const IrradianceRecord& r : fresh.records) records.insert(r);
+  std::vector<Reading> readings(open.size());
+  parallel_chunks(open.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    const auto worker = estimator.make_worker();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [p, normal] = open[i];
+      const Interpolated e = records.interpolate(p, normal);
+      Rgb value = e.irradiance, error = e.stderr_lx;
+      if (!(e.weight > 0)) {  // its neighbours shrank away from it: a record of its own
+        const IrradianceRecord own = estimator.make({p, normal, kPointItems + i}, *worker).record;
+        value = own.irradiance, error = own.stderr_lx;
+      }
+      readings[i].indirect_lx = luminance(value), readings[i].stderr_lx = luminance(error);
+    }
+  });
+  return readings;
+}
+
+/// A name as CSV has it.
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+}  // namespace
+
+void declare_options(Options& options, SensorOptions& s) {
+  options.integer("light-samples", s.light_samples, "N", "shadow rays to each area light", {1, 1e6});
+  options.choice<LeakTest>("leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
+                           "ray: a record serves a sensor only if the two can see each other");
+  options.flag("direct-only", s.direct_only, "no indirect light");
+  options.integer("rays", s.rays, "N", "rays of a record made where the caches have none", {4, 1e8});
+  options.number("accuracy", s.accuracy, "A", "of those records: zone of influence = A x mean distance",
+                 {0, 10, true});
+}
+
+SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test) {
+  for (const Container& file : files) {
+    lookups_.emplace_back(file, leak_test);
+    const bool direct = lookups_.back().records().quantity() == "all";
+    if (lookups_.size() > 1 && direct != holds_direct_) {
+      throw Error(ExitCode::mismatch, file.path(),
+                  text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
+                       direct ? "indirect" : "all", "; give caches made with the same --paths"));
+    }
+    holds_direct_ = direct;
+  }
+}
+
+Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
+  if (lookups_.size() == 1) return lookups_[0].interpolate(p, n);
+  Interpolated sum;
+  for (const RecordLookup& lookup : lookups_) {
+    const Interpolated part = lookup.interpolate(p, n);
+    sum.irradiance += part.weight * part.irradiance;
+    sum.stderr_lx += part.weight * part.stderr_lx;
+    sum.weight += part.weight;
+  }
+  sum.finish();
+  return sum;
+}
+
+std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
+  if (empty()) return nullptr;
+  const double accuracy = lookups_[0].records().accuracy();
+  auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy);
+  for (const RecordLookup& lookup : lookups_) {
+    const auto reach = static_cast<float>(lookup.records().accuracy() / accuracy);
+    for (std::size_t i = 0; i < lookup.records().size(); ++i) {
+      IrradianceRecord r = lookup.records()[i];
+      r.radius_m *= reach;
+      tree->insert(r);
+    }
+  }
+  return tree;
+}
+
+std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
+                                const SensorCaches& caches, const SensorOptions& options,
+                                SensorReport& report) {
+  const std::size_t n = sensors.points.size();
+  const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
+  std::vector<Reading> readings(n);
+  if (options.direct_only) {
+    for (std::size_t i = 0; i < n; ++i) readings[i] = together(direct[i], 0, 0);
+    return readings;
+  }
+  std::vector<std::uint8_t> covered(n);
+  parallel_for(n, kChunk, [&](std::size_t i) {
+    const auto& [p, normal] = sensors.points[i];
+    const Interpolated e = caches.interpolate(p, normal);
+    covered[i] = e.weight > 0;
+    const float value = luminance(e.irradiance), error = luminance(e.stderr_lx);
+    readings[i] = caches.holds_direct() ? apart(value, error, direct[i]) : together(direct[i], value, error);
+  });
+  std::vector<SurfaceSample> open;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!covered[i]) open.push_back(sensors.points[i]);
+  }
+  report.uncovered = open.size();
+  if (open.empty()) return readings;
+  const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, options, report);
+  for (std::size_t i = 0, k = 0; i < n; ++i) {
+    if (covered[i]) continue;
+    readings[i] = together(direct[i], fresh[k].indirect_lx, fresh[k].stderr_lx);
+    ++k;
+  }
+  return readings;
+}
+
+std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
+                                        const Luminaires& lights,
+                                        const std::function<Whole(std::size_t sensor)>& estimate,
+                                        const SensorOptions& options, SensorReport& report) {
+  const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
+  std::vector<Reading> readings(direct.size());
+  Progress progress("exact light", direct.size(), "sensors");
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const Whole whole = estimate(i);
+    readings[i] =
+        apart(static_cast<float>(whole.illuminance_lx), static_cast<float>(whole.stderr_lx), direct[i]);
+    progress.advance();
+  }
+  return readings;
+}
+
+std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings) {
+  const std::size_t n = readings.size();
+  std::vector<std::string> pieces(1 + (n + kLines - 1) / kLines);
+  pieces[0] = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx\n";
+  parallel_chunks(n, kLines, [&](std::size_t begin, std::size_t end) {
+    std::string& out = pieces[1 + begin / kLines];
+    out.reserve((end - begin) * 112);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [p, normal] = sensors.points[i];
+      const Reading& r = readings[i];
+      out += sensors.ids.empty() ? std::to_string(i) : quoted(sensors.ids[i]);
+      for (const float v : {p.x, p.y, p.z, normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx,
+                            r.direct_lx, r.indirect_lx})
+        out += ',', out += shortest(v);
+      out += '\n';
+    }
+  });
+  return pieces;
+}
+
+Json summarise(std::span<const Reading> readings) {
+  Json summary;
+  summary["number"] = readings.size();
+  if (readings.empty()) return summary;
+  double sum = 0, least = static_cast<double>(kInfinity), most = 0;
+  for (const Reading& r : readings) {
+    const auto e = static_cast<double>(r.illuminance_lx);
+    sum += e, least = std::min(least, e), most = std::max(most, e);
+  }
+  const double mean = sum / static_cast<double>(readings.size());
+  summary["mean_lx"] = static_cast<float>(mean);
+  summary["min_lx"] = static_cast<float>(least);
+  summary["max_lx"] = static_cast<float>(most);
+  if (mean > 0) summary["U0"] = static_cast<float>(least / mean);
+  if (most > 0) summary["Ud"] = static_cast<float>(least / most);
+  return summary;
+}
+
+bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {
+  // The corners of a cube, turned so that they do not run along walls and diagonals.
+  static const std::array<Vec3, 8> kDirections = [] {
+    std::array<Vec3, 8> d;
+    const Vec3 x = glm::normalize(Vec3(3, 1, 0.6f)), y = glm::normalize(glm::cross(Vec3(0.2f, -0.7f, 2), x)),
+               z = glm::cross(x, y);
+    for (std::size_t i = 0; i < 8; ++i)
+      d[i] = glm::normalize((i & 1 ? 1.f : -1.f) * x + (i & 2 ? 1.f : -1.f) * y + (i & 4 ? 1.f : -1.f) * z);
+    return d;
+  }();
+  const Vec3 origin = receiver.position + receiver.error_m * receiver.geometric_normal;
+  int hits = 0, behind = 0;
+  for (const Vec3& direction : kDirections) {
+    Hit hit;
+    const Ray ray{origin, direction};
+    if (!rays.intersect(ray, hit)) continue;
+    ++hits;
+    behind += glm::dot(geometric_normal(rays.scene(), hit.triangle), direction) > 0;
+  }
+  return 2 * behind > hits;
+}
+
+}  // namespace phos

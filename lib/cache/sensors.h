@@ -1,0 +1,107 @@
+// Illuminance at sensors: direct light by shadow rays, indirect light from caches, and from records made on
+// the spot where these have none.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cache/candidates.h"
+#include "cache/record_index.h"
+#include "core/counters.h"
+#include "core/json.h"
+#include "scene/luminaires.h"
+
+namespace phos {
+
+/// Where light is measured, and on which side.
+struct Sensors {
+  std::vector<SurfaceSample> points;  ///< m; unit normals
+  std::vector<std::string> ids;       ///< one each, or empty: sensors are numbered from 0
+  std::uint64_t left_out = 0;         ///< points of a grid where nobody could put a sensor
+};
+
+/// Sensors from a text file, "-" is stdin. CSV whose first line names x,y,z (m) and nx,ny,nz, and perhaps id,
+/// in any order among other columns ("x [m]" and "x_m" are read as x); or six numbers a line, between blanks
+/// or commas, as Radiance has them. Lines that are empty or start with '#' are skipped. Throws
+/// Error(bad_input) naming line and column.
+Sensors read_sensors(const std::string& path);
+/// The same from text; `where` is its name in messages.
+Sensors parse_sensors(std::string_view text, const std::string& where);
+
+struct Reading {
+  float illuminance_lx = 0, stderr_lx = 0;
+  float direct_lx = 0, indirect_lx = 0;
+};
+
+struct SensorOptions {
+  std::int64_t light_samples = 64;  ///< shadow rays to each area light
+  LeakTest leak_test = LeakTest::none;
+  bool direct_only = false;
+  // Records made where the caches have none.
+  std::int64_t rays = 1024;
+  double accuracy = 0.15;
+  std::uint64_t seed = 0;
+};
+
+void declare_options(Options& options, SensorOptions& sensors);
+
+/// What happened besides.
+struct SensorReport {
+  std::uint64_t uncovered = 0;     ///< sensors that no record of the caches covers
+  std::uint64_t records_made = 0;  ///< for those
+  std::uint64_t inside = 0;        ///< sensors inside of solids: rays from there mostly meet back faces
+  std::uint64_t outside = 0;       ///< sensors beyond the scene's bounds
+  Counters counters;               ///< numerical events of the new records
+};
+
+/// Caches of one scene that are looked up together.
+class SensorCaches {
+ public:
+  /// Throws Error(bad_input) for a file of another kind, Error(mismatch) if one holds all light and another
+  /// indirect light.
+  SensorCaches(std::span<const Container> files, const RayScene* leak_test);
+  bool empty() const { return lookups_.empty(); }
+  bool holds_direct() const { return holds_direct_; }
+  Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// All records in memory, each with its reach: what gathered rays read.
+  std::unique_ptr<RecordTree> tree(const Scene& scene) const;
+
+ private:
+  std::vector<RecordLookup> lookups_;
+  bool holds_direct_ = false;
+};
+
+/// Reads every sensor. Same numbers for any number of threads.
+std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
+                                const SensorCaches& caches, const SensorOptions& options,
+                                SensorReport& report);
+
+/// All light at a sensor, with its standard error, lx: an estimate of the caller's own.
+struct Whole {
+  double illuminance_lx = 0, stderr_lx = 0;
+};
+/// The same from an exact estimate of the whole light in place of caches; direct light as above. Estimates
+/// are asked for one after another, in order.
+std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
+                                        const Luminaires& lights,
+                                        const std::function<Whole(std::size_t sensor)>& estimate,
+                                        const SensorOptions& options, SensorReport& report);
+
+/// id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx and a line for each sensor, shortest numbers, in
+/// pieces that follow each other.
+std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings);
+
+/// number, mean_lx, min_lx, max_lx, U0 = min/mean, Ud = min/max (absent where everything is dark or there is
+/// no sensor).
+Json summarise(std::span<const Reading> readings);
+
+/// Is a point inside a solid, or behind the one-sided walls of a room? More than half of the surfaces that
+/// eight rays meet are seen from behind.
+bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
+
+}  // namespace phos

@@ -1,0 +1,187 @@
+// phos-sense as a user meets it: exit codes, messages, tables.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.h"
+#include "support/run.h"
+
+namespace {
+
+using namespace phos;
+using namespace phos::test;
+
+const std::string kBox = data("cornell-measured.glb");
+const std::string kHeader = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx\n";
+
+void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& word) {
+  std::vector<std::string> words{"sense"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const auto run = run_tool(words);
+  EXPECT_EQ(run.code, code) << run.err;
+  EXPECT_TRUE(is_one_line(run.err)) << run.err;
+  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  EXPECT_TRUE(run.out.empty()) << run.out;
+}
+
+/// The numbers of each line after the header.
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line + "\n", kHeader);
+  while (std::getline(lines, line)) {
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::strtod(cell.c_str(), nullptr));
+    EXPECT_EQ(row.size(), 11u) << line;
+  }
+  return rows;
+}
+
+/// Photons and a cache of the box, made once.
+const std::string& box_folder() {
+  static const std::string folder = [] {
+    std::string f = scratch("sense-box");
+    EXPECT_EQ(run_tool({"photons", kBox, "--photons", "60000", "-o", f + "/box.photons"}).code, 0);
+    EXPECT_EQ(run_tool({"irradiance", kBox, f + "/box.photons", "-o", f + "/box.irradiance"}).code, 0);
+    return f;
+  }();
+  return folder;
+}
+
+TEST(SenseTool, HelpAndVersion) {
+  const auto help = run_tool({"sense", "--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* word : {"--points", "--grid", "--mesh", "--height", "--margin", "--up", "--exact",
+                           "--leak-test", "--light-samples", "--summary", "130"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(run_tool({"sense", "--version"}).code, 0);
+}
+
+TEST(SenseTool, RefusesBadCommandLines) {
+  EXPECT_EQ(run_tool({"sense"}).code, 2);
+  expect_refused({kBox, "--direct-only"}, 2, "--points");
+  expect_refused({kBox, "--direct-only", "--grid", "1"}, 2, "--mesh");
+  expect_refused({kBox, "--direct-only", "--grid", "1", "--mesh", "floor", "--height", "1"}, 2, "--mesh");
+  expect_refused({kBox, "--direct-only", "--grid", "0", "--height", "1"}, 2, "grid");
+  expect_refused({kBox, "--direct-only", "--points", "p", "--grid", "1", "--height", "1"}, 2, "--points");
+  expect_refused({kBox, "--direct-only", "--points", "p", "--height", "1"}, 2, "--height");
+  expect_refused({kBox, "--grid", "1", "--height", "1"}, 2, "no cache");
+  expect_refused({kBox, kBox, "--grid", "1", "--height", "1"}, 2, "one scene");
+  expect_refused({kBox, "--exact", "--direct-only", "--grid", "1", "--height", "1"}, 2, "--direct-only");
+  expect_refused({kBox, "--direct-only", "--grid", "0.1", "--mesh", "nobody"}, 2, "nobody");
+}
+
+TEST(SenseTool, RefusesBadInput) {
+  const std::string folder = scratch("sense-input"), p = folder + "/p.csv";
+  const auto points = [&](const std::string& content, const std::string& word) {
+    spill(p, content);
+    expect_refused({kBox, "--direct-only", "--points", p}, 3, word);
+  };
+  points("", "p.csv: is empty");
+  points("x,y,z,nx,ny\n", "no column nz");
+  points("x,y,z,nx,ny,nz\n1,2,3,0,1\n", "line 2");
+  points("x,y,z,nx,ny,nz\r\n1,2,3,0,1,0\r\n1,2,nan,0,1,0\r\n", "line 3: column z");
+  points("1 2 3 0 0 0\n", "normal is zero");
+  expect_refused({kBox, "--direct-only", "--points", folder + "/none.csv"}, 3, "none.csv");
+  expect_refused({folder + "/none.glb", "--direct-only", "--points", p}, 3, "none.glb");
+}
+
+TEST(SenseTool, RefusesWrongCaches) {
+  const std::string& folder = box_folder();
+  expect_refused({kBox, folder + "/box.photons", "--grid", "0.1", "--height", "0.1"}, 3, "photons");
+  expect_refused(
+      {data("cornell-glossy22.glb"), folder + "/box.irradiance", "--grid", "0.1", "--height", "0.1"}, 4,
+      "scene");
+  expect_refused({kBox, folder + "/box.irradiance", "--exact", "--grid", "0.1", "--height", "0.1"}, 2,
+                 "cache");
+}
+
+TEST(SenseTool, AHeaderAloneIsNoSensor) {
+  const std::string p = scratch("sense-none") + "/p.csv";
+  spill(p, "x,y,z,nx,ny,nz\n");
+  const auto run = run_tool({"sense", kBox, "--direct-only", "--points", p});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out, kHeader);
+  EXPECT_NE(run.err.find("no sensor"), std::string::npos);
+}
+
+TEST(SenseTool, NamesAndOrderAreKept) {
+  const std::string folder = scratch("sense-names"), p = folder + "/p.csv";
+  spill(p, "id,x,y,z,nx,ny,nz\n\"b, 1\",0.2,0.3,0.25,0,1,0\na,0.3,0.3,0.25,0,2,0\n");
+  const auto run = run_tool({"sense", kBox, "--direct-only", "--points", p, "-o", folder + "/out.csv"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(run.out.empty());
+  const std::string csv = slurp(folder + "/out.csv");
+  EXPECT_TRUE(csv.starts_with(kHeader + "\"b, 1\",0.2,0.3,0.25,0,1,0,")) << csv;
+  EXPECT_NE(csv.find("\na,0.3,0.3,0.25,0,1,0,"), std::string::npos) << csv;
+}
+
+TEST(SenseTool, AWorkplaneFromACacheIsWithinErrorOfPathTracing) {
+  const std::string folder = scratch("sense-plane"), &box = box_folder();
+  const std::vector<std::string> grid{"--grid", "0.11", "--height", "0.4", "--margin", "0.05"};
+  std::vector<std::string> cached{"sense",
+                                  kBox,
+                                  box + "/box.irradiance",
+                                  "--summary",
+                                  folder + "/s.json",
+                                  "--stats",
+                                  folder + "/stats.json"},
+      exact{"sense", kBox, "--exact", "--samples", "4096", "--seed", "5"};
+  cached.insert(cached.end(), grid.begin(), grid.end()), exact.insert(exact.end(), grid.begin(), grid.end());
+  const auto a = run_tool(cached), b = run_tool(exact);
+  ASSERT_EQ(a.code, 0) << a.err;
+  ASSERT_EQ(b.code, 0) << b.err;
+  EXPECT_NE(a.err.find("U0"), std::string::npos) << a.err;
+  const auto x = rows_of(a.out), y = rows_of(b.out);
+  ASSERT_EQ(x.size(), y.size());
+  ASSERT_GT(x.size(), 10u);
+  double difference = 0, sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_EQ(x[i][0], static_cast<double>(i));
+    for (std::size_t c = 1; c < 7; ++c) EXPECT_EQ(x[i][c], y[i][c]);
+    EXPECT_NEAR(x[i][7], x[i][9] + x[i][10], 1e-3 * x[i][7]);
+    EXPECT_LT(std::fabs(x[i][7] - y[i][7]), 5 * std::hypot(x[i][8], y[i][8]) + 0.05 * y[i][7]) << i;
+    difference += x[i][7] - y[i][7], sum += y[i][7];
+  }
+  EXPECT_LT(std::fabs(difference / sum), 0.05);
+  for (const std::string& file : {folder + "/s.json", folder + "/stats.json"}) {
+    const std::string json = slurp(file);
+    for (const char* key : {"\"mean_lx\"", "\"U0\"", "\"Ud\"", "\"misses\"", "\"number\""})
+      EXPECT_NE(json.find(key), std::string::npos) << key << json;
+  }
+}
+
+TEST(SenseTool, PathTracingIsWithinItsOwnError) {
+  const std::string p = scratch("sense-exact") + "/p.csv";
+  spill(p, "x,y,z,nx,ny,nz\n0.1,0.02,0.1,0,1,0\n0.3,0.4,0.2,0,1,0\n0.45,0.3,0.45,0,0,1\n");
+  const auto run = [&](const char* samples, const char* seed) {
+    const auto r = run_tool({"sense", kBox, "--exact", "--points", p, "--samples", samples, "--seed", seed});
+    EXPECT_EQ(r.code, 0) << r.err;
+    return rows_of(r.out);
+  };
+  const auto rough = run("2000", "1"), fine = run("60000", "2");
+  ASSERT_EQ(rough.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(std::fabs(rough[i][7] - fine[i][7]), 4 * std::hypot(rough[i][8], fine[i][8]));
+    EXPECT_GT(rough[i][8], 3 * fine[i][8]);
+  }
+}
+
+TEST(SenseTool, SameBytesOnAnyNumberOfThreadsAndTheMeshGrid) {
+  const std::string& box = box_folder();
+  const std::string wall = text(scratch("sense-threads"), "/");
+  for (const char* threads : {"1", "2"}) {
+    const auto run = run_tool({"sense", kBox, box + "/box.irradiance", "--grid", "0.1", "--height", "0.3",
+                               "--leak-test", "ray", "--threads", threads, "-o", wall + threads});
+    EXPECT_EQ(run.code, 0) << run.err;
+  }
+  EXPECT_EQ(slurp(wall + "1"), slurp(wall + "2"));
+  EXPECT_FALSE(slurp(wall + "1").empty());
+}
+
+}  // namespace

@@ -1,0 +1,152 @@
+// phos-sense: scene, caches, points -> lux and its standard error at sensors.
+#include <cstdio>
+
+#include "cache/sensor_grid.h"
+#include "cache/sensors.h"
+#include "file/atomic_file.h"
+#include "file/tool.h"
+#include "reference/point_irradiance.h"
+#include "scene/load.h"
+
+using namespace phos;
+
+namespace {
+
+struct Inputs {
+  std::vector<std::string> paths, caches;
+  std::string scene, points, summary;
+
+  void sort_out() {
+    for (const std::string& path : paths) {
+      if (is_container(path))
+        caches.push_back(path);
+      else if (!scene.empty())
+        throw Error(ExitCode::usage, path, text("is no cache, and ", scene, " is the scene; give one scene"));
+      else
+        scene = path;
+    }
+    if (scene.empty())
+      throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
+  }
+};
+
+void check_usage(const Inputs& inputs, const SensorOptions& sense, bool exact) {
+  if (exact && sense.direct_only)
+    throw Error(ExitCode::usage, "exact", "computes all light; leave out --direct-only");
+  if (exact && !inputs.caches.empty())
+    throw Error(ExitCode::usage, "exact", "reads no cache; leave the caches out");
+  if (inputs.caches.empty() && !exact && !sense.direct_only) {
+    throw Error(
+        ExitCode::usage, "",
+        "no cache to read indirect light from: give one of phos-irradiance, or --exact, or --direct-only");
+  }
+}
+
+void write_text(const std::string& path, std::span<const std::string> pieces) {
+  AtomicFile file(path);
+  for (const std::string& piece : pieces) file.write(piece);
+  file.commit();
+}
+
+void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::span<const Reading> readings,
+               const SensorReport& report) {
+  Json summary = summarise(readings);
+  summary["misses"] = report.uncovered;
+  summary["records_made"] = report.records_made;
+  summary["sensors_inside_solids"] = report.inside;
+  summary["sensors_outside"] = report.outside;
+  summary["left_out"] = sensors.left_out;
+  for (const auto& [name, value] : summary.as_object()) tool.stat(name, value);
+  if (!inputs.summary.empty()) write_text(inputs.summary, {{summary.dump(2), "\n"}});
+  std::string line = text(readings.size(), " sensors");
+  const auto add = [&](const char* key, const char* words, const char* unit) {
+    if (const Json* value = summary.find(key)) line += words + value->dump() + unit;
+  };
+  add("mean_lx", ": mean ", " lx"), add("min_lx", ", min ", " lx"), add("max_lx", ", max ", " lx");
+  add("U0", ", U0 ", ""), add("Ud", ", Ud ", "");
+  tool.say(line);
+  if (sensors.left_out > 0)
+    tool.say(text(sensors.left_out,
+                  " points of the grid are left out: in solids, behind walls, near walls, or "
+                  "with nothing below"));
+  if (report.uncovered > 0)
+    tool.say(text(report.uncovered, " sensors are beyond the caches' records; ", report.records_made,
+                  " records were made for them"));
+  if (report.inside > 0) tool.warn(text(report.inside, " sensors are inside of solids or behind walls"));
+  if (report.outside > 0) tool.warn(text(report.outside, " sensors are outside of the scene's bounds"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-sense", "illuminance at sensor points, with its standard error",
+            "Direct light comes from shadow rays, indirect light from irradiance caches; where these have no "
+            "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "
+            "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout.",
+            1, Tool::Output::optional);
+  tool.output_has_no_key();
+  Inputs inputs;
+  SceneOptions scene_options;
+  GridOptions grid;
+  SensorOptions sense;
+  PointOptions exactly;
+  bool exact = false, allow_mismatch = false;
+  std::string isa;
+  Options& options = tool.options();
+  options.inputs("SCENE [CACHE...]", inputs.paths, "scene (.glb, .gltf, .obj) and irradiance caches of it");
+  declare_options(options, scene_options);
+  options.section("Sensors");
+  options.file(
+      "points", inputs.points,
+      "sensors: CSV with the columns x,y,z,nx,ny,nz and perhaps id, or six numbers a line; - is stdin");
+  declare_options(options, grid);
+  options.section("Light");
+  declare_options(options, sense);
+  options.flag("exact", exact, "path tracing at each sensor instead of caches");
+  options.integer("samples", exactly.samples, "N", "paths for each sensor with --exact, at most", {2, 1e12});
+  options.number("error", exactly.relative_error, "SHARE",
+                 "with --exact, stop at this standard error relative to the value", kPositive);
+  declare_isa(options, isa);
+  options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON");
+  options.flag("allow-mismatch", allow_mismatch, "use caches of another scene or another version of it");
+  options.example("phos-sense room.glb room.irradiance --grid 0.5 --height 0.8 --margin 0.5 -o desk.csv",
+                  "a workplane");
+  options.example("phos-sense room.glb room.irradiance --points sensors.csv", "given points, to stdout");
+
+  return tool.run(argc, argv, [&] {
+    inputs.sort_out();
+    check_usage(inputs, sense, exact);
+    check(grid, inputs.points);
+    tool.add_input("scene", scene_files(inputs.scene));
+    const Scene scene = load_scene(inputs.scene, scene_options);
+    std::vector<Container> files;
+    for (const std::string& path : inputs.caches) {
+      files.push_back(Container::open(path, "irradiance"));
+      if (!allow_mismatch) require_same_scene(files.back(), inputs.scene, scene.hash, scene.parts);
+    }
+    const RayScene rays(scene, {isa});
+    const Luminaires lights(scene);
+    const Sensors sensors = find_sensors(inputs.points, grid, rays);
+    if (sensors.points.empty()) tool.warn("there is no sensor: the output is a header alone");
+    sense.seed = exactly.seed = tool.seed();
+    SensorReport report;
+    const auto whole = [&](std::size_t i) {
+      exactly.item = i;
+      const PointIrradiance e =
+          estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
+      if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
+      return Whole{e.illuminance_lx, e.illuminance_stderr_lx};
+    };
+    std::vector<Reading> readings;
+    {
+      const auto timer = tool.time("read");
+      const SensorCaches caches(files, sense.leak_test == LeakTest::ray ? &rays : nullptr);
+      readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
+                       : read_light(sensors, rays, lights, caches, sense, report);
+    }
+    tool.counters().merge(report.counters);
+    const auto timer = tool.time("write");
+    write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings));
+    report_on(tool, inputs, sensors, readings, report);
+  });
+}
