@@ -160,8 +160,15 @@ std::unique_ptr<Estimator::Worker> GatherEstimator::make_worker() const {
 Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
   auto& w = static_cast<Impl::Worker&>(worker);
   const RecordOptions& options = impl_->options;
-  const std::size_t passes = impl_->sample_all(*this, site, w);
-  PlaceLight light = light_of(std::span(w.passes).first(passes), options);
+  w.light->hidden_radiance = Rgb(0), w.light->hidden = 0;
+  const std::size_t count = impl_->sample_all(*this, site, w);
+  const std::span<const Hemisphere> passes(w.passes.data(), count);
+  PlaceLight light = light_of(passes, options);
+  if (light.irradiance == Rgb(0) && w.light->hidden > 0) {
+    float rays = 0;
+    for (const Hemisphere& h : passes) rays += static_cast<float>(h.size());
+    light.stderr_lx = w.light->hidden_radiance / static_cast<float>(w.light->hidden) * (kPi / rays);
+  }
   const SurfacePoint place = receiver(impl_->rays.scene(), site.position, site.normal);
   if (options.paths == Quantity::all) {
     RandomStream random(impl_->seed, Stage::direct_light, site.item);

@@ -41,6 +41,8 @@ class HitLight {
   struct Worker {
     Counters counters;
     std::vector<ShadowRay> shadow;                ///< of the last shade()'s diffuse hits
+    Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
+    std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
     std::uint64_t without_record = 0;             // since counted
   };
@@ -64,7 +66,9 @@ Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const
 
 /// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
 /// standard error is at most error x its value, or all of options.rays are spent (counted). With paths = all,
-/// direct light at the record is added from samples of the lamps.
+/// direct light at the record is added from samples of the lamps. A record whose rays found no light at all
+/// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
+/// what the rays hit tell; 0 where none was.
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

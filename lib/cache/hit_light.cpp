@@ -290,7 +290,10 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
             : impl_->from_any(point, -h.direction[i], key, worker);
   }
   for (const ShadowRay& s : worker.shadow) {
-    if (!impl_->rays.occluded(s.ray)) h.radiance[s.hit] += s.radiance;
+    if (!impl_->rays.occluded(s.ray))
+      h.radiance[s.hit] += s.radiance;
+    else
+      worker.hidden_radiance += s.radiance, ++worker.hidden;
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
   worker.without_record = 0;
