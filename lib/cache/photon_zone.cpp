@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/octahedral.h"
+
 namespace phos {
 namespace {
 
@@ -27,31 +29,42 @@ void ZoneGatherer::limit_slab(ZonePlace& place, float radius_m) const {
 void ZoneGatherer::gather(const ZonePlace& place, float radius_m, std::uint32_t left_out,
                           GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
-  zone.clear(), gathered.height_m.clear();
   photons_.in_sphere(place.p, radius_m * (1 + kSlab * kSlab), gathered.rows);
+  const std::size_t found = gathered.rows.size();
+  zone.resize(found), gathered.height_m.resize(found), gathered.codes.resize(found);
+  std::size_t near = 0;
   std::uint32_t last_code = 0;
-  float facing = -1;
-  bool decoded = false;
+  float facing = glm::dot(decode_octahedral(last_code), place.frame.z);
   for (const std::uint32_t row : gathered.rows) {
     if (row == left_out || !is_wanted(photons_, row, paths_)) continue;
     const Vec3 local = place.frame.to_local(photons_.position[row] - place.p);
     if (local.z > place.above_m || local.z < -place.below_m) continue;
     // Strictly inside: a zone whose radius is that of a photon does not hold that photon (C4).
     if (!(local.x * local.x + local.y * local.y < radius_m * radius_m)) continue;
-    if (!decoded || photons_.normal[row] != last_code) {
-      last_code = photons_.normal[row], decoded = true;
+    if (photons_.normal[row] != last_code) {
+      last_code = photons_.normal[row];
       facing = glm::dot(decode_octahedral(last_code), place.frame.z);
     }
     if (facing < kSameFacing) continue;
-    const Vec3 w = decode_octahedral(photons_.direction[row]);
-    if (!(glm::dot(w, place.frame.z) > 0)) continue;
-    zone.offset_m.push_back(Vec2(local)), gathered.height_m.push_back(local.z);
+    gathered.rows[near] = row, gathered.codes[near] = photons_.direction[row];
+    zone.offset_m[near] = Vec2(local), gathered.height_m[near] = local.z;
     // Flux per surface area times `facing` is flux per tangent-plane area.
-    zone.flux_lm.push_back(photons_.flux[row] * facing);
-    zone.direction.push_back(w);
-    zone.inverse_distance.push_back(1 / std::max(photons_.distance[row], nearest_m_));
-    zone.source_normal.push_back(decode_octahedral(photons_.source_normal[row]));
+    zone.flux_lm[near] = photons_.flux[row] * facing;
+    ++near;
   }
+  decode_octahedral(std::span(gathered.codes).first(near), zone.direction);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < near; ++i) {
+    if (!(glm::dot(zone.direction[i], place.frame.z) > 0)) continue;
+    const std::uint32_t row = gathered.rows[i];
+    zone.offset_m[kept] = zone.offset_m[i], gathered.height_m[kept] = gathered.height_m[i];
+    zone.flux_lm[kept] = zone.flux_lm[i], zone.direction[kept] = zone.direction[i];
+    zone.inverse_distance[kept] = 1 / std::max(photons_.distance[row], nearest_m_);
+    gathered.codes[kept] = photons_.source_normal[row];
+    ++kept;
+  }
+  zone.resize(kept), gathered.height_m.resize(kept);
+  decode_octahedral(std::span(gathered.codes).first(kept), zone.source_normal);
 }
 
 /// Does a line above the surface lead from the place there? Walls that stand on the surface part it, and

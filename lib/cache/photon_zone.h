@@ -34,7 +34,7 @@ inline constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
 struct GatheredPhotons {
   ZonePhotons zone;
   std::vector<float> height_m;  ///< of each over the tangent plane
-  std::vector<std::uint32_t> rows;
+  std::vector<std::uint32_t> rows, codes;
 };
 
 /// Finds the photons of a zone. Const and usable from any thread.

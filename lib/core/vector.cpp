@@ -1,4 +1,5 @@
 #include "core/vector.h"
+#include "core/octahedral.h"
 
 #include <algorithm>
 
@@ -45,6 +46,24 @@ Vec3 decode_octahedral(std::uint32_t code) {
     n.y = (1.f - std::fabs(x)) * std::copysign(1.f, n.y);
   }
   return glm::normalize(n);
+}
+
+void decode_octahedral(std::span<const std::uint32_t> codes, std::span<Vec3> unit) {
+  constexpr std::size_t kBlock = 64;
+  float x[kBlock], y[kBlock], z[kBlock];
+  for (std::size_t begin = 0; begin < codes.size(); begin += kBlock) {
+    const std::size_t n = std::min(kBlock, codes.size() - begin);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t code = codes[begin + i];
+      const float u = from_snorm16(code), v = from_snorm16(code >> 16);
+      const float w = 1.f - std::fabs(u) - std::fabs(v);
+      const float a = w < 0 ? (1.f - std::fabs(v)) * std::copysign(1.f, u) : u;
+      const float b = w < 0 ? (1.f - std::fabs(u)) * std::copysign(1.f, v) : v;
+      const float scale = 1.f / std::sqrt(a * a + b * b + w * w);
+      x[i] = a * scale, y[i] = b * scale, z[i] = w * scale;
+    }
+    for (std::size_t i = 0; i < n; ++i) unit[begin + i] = {x[i], y[i], z[i]};
+  }
 }
 
 }  // namespace phos

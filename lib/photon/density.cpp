@@ -90,17 +90,15 @@ struct Coverage {
   Vec2 zone_centroid{0}, hull_centroid{0};
   int probes = 1;
   bool hull_known = false;  ///< enough probes fell in the hull
-  double strip = 0,
-         cap = 0;        ///< fraction of the zone, on the surface, between edge and centre; beyond the edge
-  double cap_share = 1;  ///< of the cap, on the surface
-  Cells hull_cells{};    ///< per cell, share of its probes in the hull and on the surface
+  double cap_share = 1;     ///< of the cap, on the surface
+  Cells hull_cells{};       ///< per cell, share of its probes in the hull and on the surface
 };
 
 Coverage probe(std::span<const Vec2> points, const Hull& hull, const Edge& edge, float radius_m,
                const OnSurface& on_surface, int n, std::vector<std::uint8_t>& covered) {
   Coverage c;
   Cells total{};
-  int on = 0, in_hull = 0, on_hull = 0, in_cap = 0, on_cap = 0, on_strip = 0;
+  int on = 0, in_hull = 0, on_hull = 0, in_cap = 0, on_cap = 0;
   covered.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const Vec2 q = probe_offset(i, n, radius_m);
@@ -108,14 +106,12 @@ Coverage probe(std::span<const Vec2> points, const Hull& hull, const Edge& edge,
     covered[static_cast<std::size_t>(i)] = hit;
     const auto cell = static_cast<std::size_t>(cell_of(q, radius_m));
     const bool in = hull.vertices.size() >= 3 && inside_hull(hull, points, q);
-    const float along = glm::dot(q, edge.outward);
-    const bool beyond = along > static_cast<float>(edge.h) * radius_m;
+    const bool beyond = glm::dot(q, edge.outward) > static_cast<float>(edge.h) * radius_m;
     total[cell] += 1, in_hull += in, in_cap += beyond;
     if (!hit) continue;
     ++on, c.zone_centroid += q;
     if (in) ++on_hull, c.hull_centroid += q, c.hull_cells[cell] += 1;
     if (beyond) ++on_cap;
-    if (beyond && along < 0) ++on_strip;
   }
   for (std::size_t i = 0; i < kCells; ++i) c.hull_cells[i] /= std::max(total[i], 1.0);
   c.zone = std::max(on, 1) / static_cast<double>(n);
@@ -125,9 +121,27 @@ Coverage probe(std::span<const Vec2> points, const Hull& hull, const Edge& edge,
   if (c.hull_known)
     c.hull = on_hull / static_cast<double>(in_hull), c.hull_centroid /= static_cast<float>(on_hull);
   c.hull_partial = c.hull_known && on_hull < in_hull;
-  c.strip = on_strip / static_cast<double>(n);
   c.cap_share = in_cap > 0 ? on_cap / static_cast<double>(in_cap) : 0;
   return c;
+}
+
+/// Surface in the strip of the zone between an edge that leaves the centre out (h < 0) and the centre, as a
+/// fraction of the zone: what the photons there must have missed if the centre is lit. Probed in the strip
+/// itself: it is often too thin for probes of the whole zone. `least`: a smaller strip is not looked at.
+double strip_fraction(const Edge& edge, double least, float radius_m, const OnSurface& on_surface) {
+  constexpr int kProbes = 64;
+  const double strip = cap_fraction(edge.h) - 0.5;
+  if (strip < least || !on_surface) return strip;
+  const Vec2 across(-edge.outward.y, edge.outward.x);
+  double on = 0, all = 0;
+  for (int i = 0; i < kProbes; ++i) {
+    const double depth = edge.h * (i + 0.5) / kProbes, half = std::sqrt(1 - depth * depth);
+    const double side = half * (2 * std::fmod(i * 0.6180339887498949, 1.0) - 1);
+    const bool hit =
+        on_surface(radius_m * (static_cast<float>(depth) * edge.outward + static_cast<float>(side) * across));
+    all += half, on += hit ? half : 0;
+  }
+  return strip * on / all;
 }
 
 /// C3: variance over mean of the counts, where the zone is lit and surface, far above Poisson and large in
@@ -225,10 +239,13 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
   const double inside = count - static_cast<double>(hull.vertices.size());
   e.area_m2 = hull.area * coverage;
   e.area_error = probe_error(c.hull_partial, c.hull, c.probes);
-  if (edge.h < 0 && inside / e.area_m2 * disc * c.strip >= options.dark_photons) {
+  const double strip_holding_one = e.area_m2 / (disc * std::max(inside, 1.0));
+  const double dark_strip = options.dark_photons * strip_holding_one;
+  const double strip = edge.h < 0 ? strip_fraction(edge, dark_strip, radius_m, on_surface) : 0;
+  if (strip > 0 && strip >= dark_strip) {
     if (options.centre_lit) return over_surface(ZoneKind::few);  // the hull is a part of what is lit
     e = ZoneEstimate{.kind = ZoneKind::dark,
-                     .area_m2 = disc * c.strip,
+                     .area_m2 = disc * strip,
                      .edge_m = static_cast<float>(-edge.h) * radius_m,
                      .probed = true};
     scratch.used.assign(m, 0);
