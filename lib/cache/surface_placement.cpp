@@ -77,10 +77,10 @@ class SurfaceCover {
         least_reach_m_(static_cast<float>(resolved.accuracy * *resolved.min_radius_m)),
         reachable_(2 * rays.scene().triangle.size()) {}
 
-  /// Looks at all surface and covers what is open. Returns the share of the area that was.
-  double pass(int number);
-  /// The share of the reachable area that fresh points find open.
-  double open_share() const;
+  /// Looks at all surface and covers what is open.
+  void pass(int number);
+  /// The share of the reachable area that points of its own find open.
+  double open_share(int pass) const;
 
   std::uint64_t pieces() const { return pieces_; }
   std::uint64_t sides() const { return sides_.sides().size(); }
@@ -94,7 +94,7 @@ class SurfaceCover {
   Finding find(const Piece& piece, const SurfacePoint& middle, const SurfacePoint (&corner)[3],
                float length_m) const;
   bool valid(const IrradianceRecord& record, const SurfacePoint& point) const;
-  std::vector<Piece> round(const std::vector<Piece>& pieces, Progress& progress, double& open_m2);
+  std::vector<Piece> round(const std::vector<Piece>& pieces, Progress& progress);
 
   const RayScene& rays_;
   const RecordOptions& options_;
@@ -151,8 +151,7 @@ Look SurfaceCover::look(const Piece& piece) const {
 }
 
 /// Looks at pieces, covers what is open, and returns what to look at next.
-std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progress& progress,
-                                       double& open_m2) {
+std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progress& progress) {
   std::vector<Piece> next;
   const Jumps order(pieces.size());
   for (std::size_t begin = 0; begin < pieces.size();) {
@@ -170,7 +169,6 @@ std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progres
       } else if (seen.finding == Finding::open) {
         open.push_back(seen.site);
         open.back().item = kSurfaceItems + pieces_ + i;
-        open_m2 += std::ldexp(sides_.area_m2(piece.side), -piece.depth);
         next.push_back(piece);
       }
     }
@@ -181,22 +179,18 @@ std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progres
   return next;
 }
 
-double SurfaceCover::pass(int number) {
+void SurfaceCover::pass(int number) {
   std::vector<Piece> pieces;
-  double area_m2 = 0, open_m2 = 0;
   for (const Side side : sides_.sides()) {
-    if (number > 1 && !reachable_[side]) continue;
-    pieces.push_back({side});
-    area_m2 += sides_.area_m2(side);
+    if (number == 1 || reachable_[side]) pieces.push_back({side});
   }
   for (int step = 1; !pieces.empty(); ++step) {
     Progress progress(text("records, pass ", number, ", step ", step), pieces.size(), "pieces of surface");
-    pieces = round(pieces, progress, open_m2);
+    pieces = round(pieces, progress);
   }
-  return area_m2 > 0 ? open_m2 / area_m2 : 0;
 }
 
-double SurfaceCover::open_share() const {
+double SurfaceCover::open_share(int pass) const {
   std::vector<double> sum;
   double area_m2 = 0;
   for (const Side side : sides_.sides()) sum.push_back(area_m2 += sides_.area_m2(side));
@@ -209,7 +203,7 @@ double SurfaceCover::open_share() const {
       [&](std::size_t begin, std::size_t end) {
         Count part;
         for (std::size_t i = begin; i < end; ++i) {
-          RandomStream random(0, Stage::placement, kSurfaceItems + i);
+          RandomStream random(static_cast<std::uint64_t>(pass), Stage::placement, kSurfaceItems + i);
           const double at = (static_cast<double>(i) + random.uniform_double()) / kFreshPoints * area_m2;
           const auto found = std::upper_bound(sum.begin(), sum.end() - 1, at) - sum.begin();
           const SurfacePoint p = sides_.point(sides_.sides()[static_cast<std::size_t>(found)],
@@ -236,11 +230,12 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   SurfaceCover cover(rays, resolved, growth, placer);
   for (int pass = 1; pass <= placement.passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
-    if (cover.pass(pass) < kSurfaceShare) break;
+    cover.pass(pass);
+    report.uncovered_share = cover.open_share(pass);
+    if (*report.uncovered_share < kSurfaceShare) break;
   }
   report.candidates = cover.pieces();
   report.sides = cover.sides(), report.sides_inside = cover.sides_inside();
-  report.uncovered_share = cover.open_share();
   if (report.sides_inside > 0) counters.count("sides inside solids passed over", report.sides_inside);
   finish_placement(growth, maker, cache, report, counters);
   return report;

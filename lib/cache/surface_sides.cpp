@@ -56,10 +56,10 @@ bool SurfaceSides::closed_off(const SurfacePoint& point) const {
     Hit hit;
     if (!rays_.intersect({point.leave(n), -n, 0, 3 * point.error_m}, hit)) return true;
   }
-  return oriented_ && sees_backs_alone(point);
+  return oriented_ && shut_in(point, true);
 }
 
-bool SurfaceSides::sees_backs_alone(const SurfacePoint& point) const {
+bool SurfaceSides::shut_in(const SurfacePoint& point, bool look_again) const {
   const Frame frame = make_frame(point.geometric_normal);
   const float turns = static_cast<float>(point.triangle % 1024) * 0.7548777f;
   for (int i = 0; i < kRays; ++i) {
@@ -67,7 +67,8 @@ bool SurfaceSides::sees_backs_alone(const SurfacePoint& point) const {
     SurfacePoint seen;
     if (!trace(rays_, {point.leave(direction), direction}, seen)) return false;
     if (seen.distance_m <= kTouching * point.error_m) continue;
-    if (seen.front || transmits(rays_.scene().material[seen.material])) return false;
+    if (transmits(rays_.scene().material[seen.material])) return false;
+    if (seen.front && !(look_again && shut_in(seen, false))) return false;
   }
   return true;
 }

@@ -26,7 +26,7 @@ class SurfaceSides {
   bool closed_off(const SurfacePoint& point) const;
 
  private:
-  bool sees_backs_alone(const SurfacePoint& point) const;
+  bool shut_in(const SurfacePoint& point, bool look_again) const;
   bool cameras_see_backs() const;
   const RayScene& rays_;
   std::vector<Side> sides_;
