@@ -1,0 +1,146 @@
+// What of a picture is made: layers asked for alone, and more samples where surfaces meet.
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "splat/edges.h"
+#include "splat/layers.h"
+#include "splat/render.h"
+#include "support/splat_scenes.h"
+
+namespace phos::test {
+namespace {
+
+RenderOptions picture_of(const IrradianceCache& cache, const Camera& camera, int side) {
+  RenderOptions options;
+  options.width = options.height = side;
+  options.pixel_samples = 1;
+  options.light_samples = 4;
+  options.splat = SplatBy::cpu;
+  resolve(options, camera, cache);
+  return options;
+}
+
+TEST(LayerSet, ReadsNames) {
+  const std::vector<std::string> some{"beauty", "Z"};
+  const LayerSet set(some);
+  EXPECT_TRUE(set.has(Layer::beauty));
+  EXPECT_TRUE(set.has(Layer::depth));
+  EXPECT_FALSE(set.has(Layer::direct));
+  EXPECT_FALSE(set.all());
+  EXPECT_TRUE(LayerSet(std::vector<std::string>{"all"}).has(Layer::stderr_));
+  EXPECT_THROW(LayerSet(std::vector<std::string>{"beauti"}), Error);
+  EXPECT_THROW(LayerSet(std::vector<std::string>{}), Error);
+}
+
+/// A layer is the same bits whatever others are made.
+TEST(Render, LayersOneByOne) {
+  const Scene scene = cornell();
+  const RayScene rays(scene);
+  const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
+  RenderOptions options = picture_of(cache, scene.camera[0], 24);
+  options.pixel_samples = 2;
+  const Image all = render_scene(rays, cache, options).image;
+  for (const char* name : {"beauty", "direct", "indirect", "emission", "stderr", "albedo", "illuminance",
+                           "weight", "normal", "position", "Z"}) {
+    options.layers = {name};
+    const Image one = render_scene(rays, cache, options).image;
+    EXPECT_GE(one.channels().size(), 1u) << name;
+    EXPECT_LE(one.channels().size(), 3u) << name;
+    for (const auto& [channel, values] : one.channels()) {
+      ASSERT_TRUE(all.has(channel)) << channel;
+      EXPECT_EQ(values, all.channels().at(channel)) << channel;
+    }
+  }
+  options.layers = {"glossy"};
+  EXPECT_TRUE(render_scene(rays, cache, options).image.has_layer("glossy")) << "asked for, although black";
+}
+
+TEST(Edges, WhereSurfacesMeet) {
+  const AnalyticScene s = furnace(0.5f);
+  const RayScene rays(s.scene);
+  constexpr int kSide = 100;
+  const GBuffer g = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, {0.5f, 0.5f});
+  const std::vector<std::uint32_t> edges = edge_pixels(g);
+  ASSERT_FALSE(edges.empty());
+  EXPECT_LT(edges.size(), g.hit.size() / 5);
+  std::vector<bool> edge(g.hit.size());
+  for (const std::uint32_t i : edges) edge[i] = true;
+  for (std::size_t i = 0; i + 1 < g.hit.size(); ++i) {
+    if (i % kSide == kSide - 1) continue;
+    const bool turns = glm::dot(Vec3(g.normal[i]), Vec3(g.normal[i + 1])) < 0.5f;
+    EXPECT_TRUE(!turns || (edge[i] && edge[i + 1]));
+  }
+  // A wall seen at a grazing angle has none.
+  const AnalyticScene floor = point_light_over_plane();
+  const RayScene floor_rays(floor.scene);
+  const Camera grazing = look_at({-7, 0.1f, 0}, {0, 0, 0}, {0, 1, 0}, 0.1f);
+  const GBuffer flat = trace_gbuffer(floor_rays, grazing, kSide, 8, {0.5f, 0.5f});
+  std::size_t beside_sky = 0;
+  for (const std::uint32_t i : edge_pixels(flat)) {
+    const bool sky = !flat.covered(i) || (i >= kSide && !flat.covered(i - kSide)) ||
+                     (i + kSide < flat.hit.size() && !flat.covered(i + kSide)) || !flat.covered(i - 1) ||
+                     !flat.covered(i + 1);
+    beside_sky += sky;
+    EXPECT_TRUE(sky) << i;
+  }
+}
+
+/// Samples at edges alone come as close to many samples everywhere as those do at edges.
+TEST(Render, EdgeSamplesSmoothEdges) {
+  Scene scene;
+  begin_instance(scene, "lamp", add_lambert(scene, "lamp", 0, 100));
+  add_quad(scene, {-5, -5, 0}, {5.3f, 0.4f, 0}, {-0.7f, 10, 0});
+  const Camera camera = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(0.25f));
+  scene.camera.push_back(camera);
+  finalize(scene);
+  const RayScene rays(scene);
+  const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
+  RenderOptions options = picture_of(cache, camera, 32);
+  const auto error = [&](std::int64_t samples, std::int64_t at_edges, const std::vector<float>& truth) {
+    options.pixel_samples = samples, options.edge_samples = at_edges;
+    const Rendering r = render_scene(rays, cache, options);
+    double square = 0;
+    const auto light = r.image.channel("emission.G");
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      square += std::pow(static_cast<double>(light[i] - truth[i]), 2);
+    return std::sqrt(square / static_cast<double>(truth.size()));
+  };
+  options.pixel_samples = 1024;
+  const Rendering many = render_scene(rays, cache, options);
+  const std::vector<float>& truth = many.image.channels().at("emission.G");
+  const double one = error(1, 0, truth), sixteen = error(16, 0, truth), edges = error(1, 15, truth);
+  EXPECT_GT(one, 2 * sixteen);
+  EXPECT_NEAR(edges / sixteen, 1, 1e-3) << "the same samples where it matters";
+}
+
+TEST(Render, EdgeSamplesCannotHaveShadowMaps) {
+  const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
+  RenderOptions options;
+  options.edge_samples = 2;
+  options.direct = DirectBy::shadow_map;
+  EXPECT_THROW(resolve(options, Camera(), cache), Error);
+}
+
+/// Packets give what single rays give, bit for bit, also where the picture does not fill them.
+TEST(GBuffer, PacketsAreSingleRays) {
+  const AnalyticScene s = integrating_sphere(0.5f, 1280);
+  for (const Scene& scene : {cornell(), s.scene}) {
+    for (const char* isa : {"", "sse2"}) {
+      const RayScene rays(scene, {isa});
+      const GBuffer g = trace_gbuffer(rays, scene.camera[0], 203, 101, {0.3f, 0.7f});
+      for (std::size_t i = 0; i < g.hit.size(); ++i) {
+        const Ray ray = pixel_ray(scene.camera[0], 203, 101, static_cast<int>(i % 203),
+                                  static_cast<int>(i / 203), {0.3f, 0.7f});
+        Hit hit;
+        ASSERT_EQ(rays.intersect(ray, hit), g.covered(i));
+        ASSERT_EQ(hit.distance_m, g.hit[i].distance_m);
+        ASSERT_EQ(hit.triangle, g.hit[i].triangle);
+        ASSERT_EQ(hit.u, g.hit[i].u);
+        ASSERT_EQ(hit.v, g.hit[i].v);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace phos::test
