@@ -13,6 +13,7 @@
 namespace phos {
 namespace {
 
+constexpr float kFarthest = 1e18f;  // the ray tracer takes no coordinates beyond
 constexpr std::size_t kId = 6, kColumns = 7, kAbsent = ~std::size_t{0};
 constexpr const char* kNames[kColumns] = {"x", "y", "z", "nx", "ny", "nz", "id"};
 constexpr const char* kHint = "the first line must name the columns x,y,z,nx,ny,nz, or hold six numbers";
@@ -134,6 +135,8 @@ class Reader {
         refuse(text(" has only ", cells_.size(), " columns; column ", kNames[k], " is missing"));
       if (k < kId && !read_number(cells_[column_[k]], v[k]))
         refuse(text(": column ", kNames[k], " is not a finite number"));
+      if (k < 3 && std::fabs(v[k]) > kFarthest)
+        refuse(text(": column ", kNames[k], " is farther off than 1e18 m"));
     }
     const Vec3 normal = normalized_or_zero({v[3], v[4], v[5]});
     if (normal == Vec3(0)) refuse(": columns nx,ny,nz: the normal is zero");

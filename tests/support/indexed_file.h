@@ -32,7 +32,7 @@ inline IrradianceCache random_cache(std::size_t n) {
 inline Provenance irradiance_provenance() {
   Provenance p;
   p.tool = "test", p.command = "test", p.parameters = Json::Object{}, p.extra = Json::Object{};
-  p.key = "0";
+  p.key = "none";
   return p;
 }
 

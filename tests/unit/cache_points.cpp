@@ -54,6 +54,7 @@ TEST(Points, SixNumbersALineAsRadianceHasThem) {
   EXPECT_EQ(parse_sensors("1,2,3,0,0,1\n4,5,6,0,1,0", "p").points.size(), 2u);
   EXPECT_NE(error_of("1 2 3 0 0 1\n1 2 3 0 0\n").find("line 2 has 5 columns"), std::string::npos);
   EXPECT_NE(error_of("1 2 3 0 0 1\n1 2 3 0 0 1 7\n").find("line 2 has 7 columns"), std::string::npos);
+  EXPECT_NE(error_of("1 2 3e30 0 0 1\n").find("line 1: column z is farther off"), std::string::npos);
   EXPECT_NE(error_of("1 2 3 0 0 1\n1 2 3 0 inf 1\n").find("line 2: column ny"), std::string::npos);
 }
 
