@@ -23,8 +23,10 @@ struct Hemisphere {
       projected_sr;  ///< projected solid angle that it stands for (cosine included); all sum to pi
   std::size_t size() const { return direction.size(); }
   bool stratified() const { return rings > 0; }
+  /// Of a cell; `slice` goes round, at most once.
   std::size_t at(int ring, int slice) const {
-    return static_cast<std::size_t>(ring * slices + (slice + slices) % slices);
+    const int around = slice < 0 ? slice + slices : slice >= slices ? slice - slices : slice;
+    return static_cast<std::size_t>(ring * slices + around);
   }
   void resize(std::size_t n) {
     direction.resize(n), radiance.resize(n), distance_m.resize(n), hit_normal.resize(n),

@@ -20,13 +20,19 @@ constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
 
-/// Numbers a ray for random streams of its own (Steele et al. 2014, SplitMix64).
-std::uint64_t ray_key(std::uint64_t item, std::uint32_t pass, std::size_t ray) {
-  std::uint64_t z = item + 0x9e3779b97f4a7c15u * (std::uint64_t{pass} << 32 | ray | 1u << 31);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+/// A ray of a record's pass.
+struct RayName {
+  std::uint64_t item;
+  std::uint32_t pass, ray;
+
+  /// Numbers it for random streams of its own (Steele et al. 2014, SplitMix64).
+  std::uint64_t key() const {
+    std::uint64_t z = item + 0x9e3779b97f4a7c15u * (std::uint64_t{pass} << 32 | ray | 1u << 31);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+};
 
 /// Point k of an additive sequence of three dimensions (R3), each shifted: low discrepancy over the rays of a
 /// hemisphere, so that together they see all of the lamps evenly.
@@ -46,7 +52,7 @@ class LampSequence {
   std::uint32_t shift_[3];
 };
 
-bool positive(const Rgb& c) { return max_component(c) > 0; }
+bool positive(const Rgb& c) { return c.x > 0 || c.y > 0 || c.z > 0; }
 
 }  // namespace
 
@@ -88,9 +94,9 @@ struct HitLight::Impl {
   void ask_ahead(std::span<const Hit> hits, std::size_t i) const;
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
-  Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
-                   std::uint32_t hit, Worker& worker) const;
-  Rgb from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Worker& worker) const;
+  Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
+                   Worker& worker) const;
+  Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
 
   struct Step;
   bool choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const;
@@ -129,8 +135,8 @@ Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
 }
 
 /// Light straight from a lamp that something may hide is left in worker.shadow instead.
-Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, std::uint64_t item,
-                                 std::uint32_t hit, Worker& worker) const {
+Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
+                                 Worker& worker) const {
   const Rgb f = reflectance(point) * (1 / kPi);
   if (!positive(f)) return Rgb(0);
   Rgb sum(0);
@@ -141,10 +147,10 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<flo
       if (light.certain)
         sum += f * light.lux;
       else
-        worker.shadow.push_back({light.ray, f * light.lux, hit});
+        worker.shadow.push_back({light.ray, f * light.lux, ray.ray});
     }
   }
-  if (cached) sum += f * cached_lx(point, item, worker);
+  if (cached) sum += f * cached_lx(point, ray.key(), worker);
   return sum;
 }
 
@@ -205,7 +211,8 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
 
 /// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
 /// Every light is counted once: unbiased but for the cache.
-Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, std::uint64_t item, Worker& worker) const {
+Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const {
+  const std::uint64_t item = ray.key();
   RandomStream random(seed, Stage::specular, item);
   Rgb sum(0), throughput(1);
   std::int64_t left = bounces;
@@ -283,11 +290,10 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     const SurfacePoint point = impl_->rays.surface({origin, h.direction[i]}, hits[i]);
     h.hit_normal[i] = point.geometric_normal;
     if (impl_->bounces == 0) continue;
-    const std::uint64_t key = ray_key(item, pass, i);
-    h.radiance[i] =
-        impl_->surface[point.material].diffuse
-            ? impl_->from_diffuse(point, lamp_points[i], key, static_cast<std::uint32_t>(i), worker)
-            : impl_->from_any(point, -h.direction[i], key, worker);
+    const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
+    h.radiance[i] = impl_->surface[point.material].diffuse
+                        ? impl_->from_diffuse(point, lamp_points[i], ray, worker)
+                        : impl_->from_any(point, -h.direction[i], ray, worker);
   }
   for (const ShadowRay& s : worker.shadow) {
     if (!impl_->rays.occluded(s.ray))

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinimumShare = 0.1;
 constexpr float kBelowOne = 0x1.fffffep-1f;
 /// An area light is near from this distance to its centre on, in radii of the sphere about it.
-constexpr float kNear = 2;
+constexpr float kNear = 1.5f;
 /// Share of rays near a lamp; and where there are too many lamps to tell.
 constexpr float kRaysNear = 0.5f, kRaysAmongMany = 0.125f;
 
