@@ -89,9 +89,10 @@ void Layers::set_surface(std::size_t i, const Vec3& position, const Vec3& normal
   add_to(depth_, i, depth_m);
 }
 
-Rgb Layers::standard_error(std::size_t i, float n, bool single) const {
+Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
+  const auto n = static_cast<float>(samples);
   Rgb variance = variance_[i] / (n * n);
-  if (single && n > 1) {
+  if (samples >= std::max(spread_from, 2)) {
     const Rgb mean = noisy_[i] / n;
     variance = glm::max(noisy_square_[i] / n - mean * mean, Rgb(0)) / (n - 1);
   }
@@ -99,7 +100,7 @@ Rgb Layers::standard_error(std::size_t i, float n, bool single) const {
   return glm::sqrt(variance + shared * shared);
 }
 
-Image Layers::image(std::span<const std::uint16_t> samples, bool single) const {
+Image Layers::image(std::span<const std::uint16_t> samples, int spread_from) const {
   Image image(width_, height_);
   const std::size_t pixels = samples.size();
   std::vector<Rgb> values(pixels);
@@ -119,7 +120,7 @@ Image Layers::image(std::span<const std::uint16_t> samples, bool single) const {
   put_mean("glossy", glossy_, !wanted_.all());
   put_mean("specular", specular_, !wanted_.all());
   if (!variance_.empty())
-    put("stderr", [&](std::size_t i) { return standard_error(i, static_cast<float>(samples[i]), single); });
+    put("stderr", [&](std::size_t i) { return standard_error(i, samples[i], spread_from); });
   const auto put_channel = [&](const std::string& name, bool wanted, const auto& value) {
     if (!wanted) return;
     const std::span<float> channel = image.channel(name);

@@ -62,12 +62,12 @@ class Layers {
   void add(std::size_t pixel, const PixelSample& sample);
   /// What does not average: seen through the pixel's first sample.
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
-  /// Divided by samples[pixel]. `single`: each sample sent one ray of a kind only, so that the noise shows in
-  /// the spread of a pixel's samples alone.
-  Image image(std::span<const std::uint16_t> samples, bool single) const;
+  /// Divided by samples[pixel]. Pixels of more than one sample, and no fewer than `spread_from`, sent single
+  /// rays, so that their noise shows in the spread of their samples alone.
+  Image image(std::span<const std::uint16_t> samples, int spread_from) const;
 
  private:
-  Rgb standard_error(std::size_t pixel, float samples, bool single) const;
+  Rgb standard_error(std::size_t pixel, int samples, int spread_from) const;
   int width_, height_;
   LayerSet wanted_;
   // One entry per pixel; empty where not asked for.

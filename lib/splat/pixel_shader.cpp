@@ -2,10 +2,6 @@
 
 namespace phos {
 
-int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples) {
-  return static_cast<int>((of_pixel + pixel_samples - 1) / pixel_samples);
-}
-
 void ShadingResult::join(const ShadingResult& other) {
   looked_up += other.looked_up, missed += other.missed;
   log.counters.merge(other.log.counters);
@@ -23,9 +19,11 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   const Vec3 wo = -ray.direction;
   // What the samples of a pixel share, and each one's own.
   RandomStream sequence(options_.seed, Stage::direct_light, sample.pixel);
-  const auto most = static_cast<std::uint64_t>(options_.pixel_samples + options_.edge_samples);
+  if (sample.at_edge) sequence.start_bounce(1);
+  const std::int64_t most = options_.pixel_samples + options_.edge_samples;
+  const std::int64_t index = sample.index + (sample.at_edge ? options_.pixel_samples : 0);
   RandomStream random(options_.seed, Stage::specular,
-                      sample.pixel * most + static_cast<std::uint64_t>(sample.index));
+                      sample.pixel * static_cast<std::uint64_t>(most) + static_cast<std::uint64_t>(index));
   light.emission = emitted_luminance(rays_.scene(), point);
   light.albedo = bsdf.diffuse_reflectance();
   if (bsdf.has_diffuse()) {
@@ -61,10 +59,22 @@ bool PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const 
   return true;
 }
 
+/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
+int PixelShader::rays_of_each(bool at_edge, std::int64_t of_pixel) const {
+  const std::int64_t samples = options_.pixel_samples + (at_edge ? options_.edge_samples : 0);
+  return static_cast<int>((of_pixel + samples - 1) / samples);
+}
+
+bool PixelShader::single_rays(bool at_edge) const {
+  return rays_of_each(at_edge, options_.light_samples) == 1 ||
+         rays_of_each(at_edge, options_.gloss_samples) == 1;
+}
+
 /// This sample's part of what is asked for the whole pixel.
 SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixel) const {
-  const int n = samples_of_each(of_pixel, options_.pixel_samples);
-  return {sample.index * n, n, sample.count * n};
+  const int n = rays_of_each(sample.at_edge, of_pixel);
+  const std::int64_t group = sample.at_edge ? options_.edge_samples : options_.pixel_samples;
+  return {sample.index * n, n, static_cast<int>(group) * n};
 }
 
 void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,

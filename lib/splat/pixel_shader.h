@@ -9,13 +9,12 @@
 
 namespace phos {
 
-/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
-int samples_of_each(std::int64_t of_pixel, std::int64_t pixel_samples);
-
-/// One of the samples of a pixel.
+/// One of the samples of a pixel: of those that every pixel has, or of those that edges have besides. Each
+/// group has low-discrepancy sequences of its own.
 struct SampleOfPixel {
   std::size_t pixel = 0;
-  int index = 0, count = 1;  ///< this one, and how many the pixel has
+  int index = 0;  ///< within its group
+  bool at_edge = false;
 };
 
 /// What shading some pixels leaves besides their light.
@@ -35,12 +34,16 @@ class PixelShader {
   struct Splat {
     Vec4 light{0}, error{0};  // as in SplatBuffer
   };
+  /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a
+  /// pixel's samples alone?
+  bool single_rays(bool at_edge) const;
   /// `shadow_mapped`: direct illuminance with options.direct = shadow_map, lx.
   PixelSample shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                     const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const;
 
  private:
   bool from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light) const;
+  int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                    const Rgb& shadow_mapped, RandomStream& sequence, PixelSample& light) const;

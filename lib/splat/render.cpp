@@ -250,7 +250,7 @@ class Painter {
       if (!gbuffer.covered(i)) return;
       const Ray ray = ray_of(i, where);
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
-      layers_.add(i, shader_.shade({i, s, count_[i]}, ray, point, {splats.light[i], splats.error[i]},
+      layers_.add(i, shader_.shade({i, s}, ray, point, {splats.light[i], splats.error[i]},
                                    mapped.empty() ? Rgb(0) : mapped[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
     });
@@ -265,7 +265,7 @@ class Painter {
         const Ray ray = ray_of(i, subpixel(s, most_samples()));
         SurfacePoint point;
         if (trace(rays_, ray, point))
-          layers_.add(i, shader_.shade({i, s, most_samples()}, ray, point, {}, Rgb(0), result));
+          layers_.add(i, shader_.shade({i, s - samples_, true}, ray, point, {}, Rgb(0), result));
       }
     });
   }
@@ -290,9 +290,10 @@ class Painter {
     result_.counters = total_.log.counters;
     result_.misses = std::move(total_.log.misses);
     spread(result_.misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
-    const bool single = samples_of_each(options_.light_samples, samples_) == 1 ||
-                        samples_of_each(options_.gloss_samples, samples_) == 1;
-    result_.image = layers_.image(count_, single);
+    const int spread_from = shader_.single_rays(false)  ? 2
+                            : shader_.single_rays(true) ? samples_ + 1
+                                                        : std::numeric_limits<int>::max();
+    result_.image = layers_.image(count_, spread_from);
   }
 
   const RayScene& rays_;
