@@ -136,13 +136,15 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
   record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
   if (zone.centroid_m != Vec2(0)) move_to_centre(place, zone, s, record);
   const ComparedGradients known = compared(place, zone, zone_radius_m, s);
-  const bool occlusion = known.z2 > kOccludedZ2;
-  if (occlusion) s.counters.count("records at an occlusion gradient");
-  const Gradients& steep = occlusion ? known.blend : known.analytic;
+  // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
+  // the records of a Cornell box or Sponza), and errors there were the same with it.
+  if (known.z2 > kOccludedZ2 && zone.kind != ZoneKind::kernel) {
+    s.counters.count("records at an occlusion gradient");
+  }
   const float brightest = max_component(record.irradiance);
   float within = record.radius_m;  // KBPv06: where the gradient would change a channel by itself
   for (int c = 0; c < 3; ++c) {
-    const float slope = glm::length(steep.translation[c]);
+    const float slope = glm::length(known.analytic.translation[c]);
     if (record.irradiance[c] > 0.01f * brightest && slope * within > record.irradiance[c]) {
       within = record.irradiance[c] / slope;
     }
