@@ -72,18 +72,24 @@ void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std:
   const auto rings = static_cast<float>(h.rings), slices = static_cast<float>(h.slices);
   h.resize(static_cast<std::size_t>(h.rings) * static_cast<std::size_t>(h.slices));
   std::fill(h.projected_sr.begin(), h.projected_sr.end(), kPi / (rings * slices));
-  std::vector<Vec2> middle(static_cast<std::size_t>(h.slices));  // of each slice
-  for (std::size_t k = 0; k < middle.size(); ++k)
+  const auto count_of_ring = static_cast<std::size_t>(h.slices);
+  std::vector<Vec2> middle(count_of_ring);  // of each slice
+  for (std::size_t k = 0; k < count_of_ring; ++k)
     middle[k] = cos_sin((static_cast<float>(k) + 0.5f) / slices);
+  std::vector<Vec2> jitter(count_of_ring);
   RandomStream random(seed, Stage::record, site.item);
-  std::size_t i = 0;
-  for (int ring = 0; ring < h.rings; ++ring) {
+  const float slice_angle = 2 * kPi / slices;
+  Vec3* direction = h.direction.data();
+  for (int ring = 0; ring < h.rings; ++ring, direction += h.slices) {
     random.start_bounce(pass << kRingBits | static_cast<std::uint32_t>(ring));
-    for (std::size_t k = 0; k < middle.size(); ++k, ++i) {
+    for (Vec2& u : jitter) {
       const std::uint32_t bits = random.bits();
-      const float sin2 = (static_cast<float>(ring) + in_cell(bits >> 16)) / rings;
-      const Vec2 around = turned(middle[k], 2 * kPi / slices * (in_cell(bits & 0xffffu) - 0.5f));
-      h.direction[i] = h.frame.to_world(Vec3(std::sqrt(sin2) * around, std::sqrt(std::max(0.f, 1 - sin2))));
+      u = {in_cell(bits >> 16), in_cell(bits & 0xffffu)};
+    }
+    for (std::size_t k = 0; k < count_of_ring; ++k) {
+      const float sin2 = (static_cast<float>(ring) + jitter[k].x) * (1 / rings);
+      const Vec2 around = turned(middle[k], slice_angle * (jitter[k].y - 0.5f));
+      direction[k] = h.frame.to_world(Vec3(std::sqrt(sin2) * around, std::sqrt(std::max(0.f, 1 - sin2))));
     }
   }
 }

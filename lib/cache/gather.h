@@ -8,6 +8,7 @@
 
 #include "cache/estimator.h"
 #include "cache/hemisphere.h"
+#include "cache/lamp_sampler.h"
 #include "cache/record_options.h"
 #include "cache/shading.h"
 #include "scene/luminaires.h"
@@ -31,16 +32,17 @@ class HitLight {
            const RecordOptions& resolved, std::uint64_t seed);
   ~HitLight();
 
-  /// Light of a lamp's sample that arrives unless something is in the way.
-  struct ShadowRay {
-    Ray ray;
-    Rgb radiance{0};        ///< cd/m2, reflected
-    std::uint32_t hit = 0;  ///< which of the hits reflects it
+  /// Light straight from a lamp at a diffuse hit, and what it makes of it.
+  struct LampSight {
+    ArrivingLight light;
+    Rgb brdf{0};            ///< 1/sr
+    std::uint32_t hit = 0;  ///< which of the hits
   };
   /// Memory and counts of one thread.
   struct Worker {
     Counters counters;
-    std::vector<ShadowRay> shadow;                ///< of the last shade()'s diffuse hits
+    std::vector<LampSight> sights;  ///< of the last shade(): the first `sight_count`
+    std::size_t sight_count = 0;
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed

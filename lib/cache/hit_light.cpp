@@ -134,7 +134,7 @@ Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
   return own.reflectance * Rgb(point.colour) * Rgb(look_up(scene, colours, point.uv0, point.uv1));
 }
 
-/// Light straight from a lamp that something may hide is left in worker.shadow instead.
+/// Light straight from a lamp that something may hide is left in worker.sights instead.
 Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
                                  Worker& worker) const {
   const Rgb f = reflectance(point) * (1 / kPi);
@@ -142,12 +142,11 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<flo
   Rgb sum(0);
   const bool cached = reads_cache(bounces);
   if (!(cached && source.holds_direct)) {
-    const ArrivingLight light = lamps.sample(point, u);
-    if (positive(light.lux)) {
-      if (light.certain)
-        sum += f * light.lux;
-      else
-        worker.shadow.push_back({light.ray, f * light.lux, ray.ray});
+    LampSight& sight = worker.sights[worker.sight_count];
+    lamps.sample(point, u, sight.light);
+    if (positive(sight.light.lux)) {
+      sight.brdf = f, sight.hit = ray.ray;
+      ++worker.sight_count;
     }
   }
   if (cached) sum += f * cached_lx(point, ray.key(), worker);
@@ -226,8 +225,8 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
       const bool cached = reads_cache(left);
       if (cached) sum += f * cached_lx(point, item + reflection, worker);
       if (!(cached && source.holds_direct)) {
-        const ArrivingLight light =
-            lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()});
+        ArrivingLight light;
+        lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
         if (positive(light.lux) && arrives(light)) sum += f * light.lux;
       }
     }
@@ -280,7 +279,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   RandomStream random(impl_->seed, Stage::direct_light, item);
   random.start_bounce(1 + pass);
   const LampSequence lamp_points(random);
-  worker.shadow.clear();
+  if (worker.sights.size() < hits.size()) worker.sights.resize(hits.size());
+  worker.sight_count = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     impl_->ask_ahead(hits, i);
     h.distance_m[i] = hits[i].distance_m;
@@ -295,11 +295,12 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
                         ? impl_->from_diffuse(point, lamp_points[i], ray, worker)
                         : impl_->from_any(point, -h.direction[i], ray, worker);
   }
-  for (const ShadowRay& s : worker.shadow) {
-    if (!impl_->rays.occluded(s.ray))
-      h.radiance[s.hit] += s.radiance;
+  for (const LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
+    const Rgb radiance = sight.brdf * sight.light.lux;
+    if (impl_->arrives(sight.light))
+      h.radiance[sight.hit] += radiance;
     else
-      worker.hidden_radiance += s.radiance, ++worker.hidden;
+      worker.hidden_radiance += radiance, ++worker.hidden;
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
   worker.without_record = 0;

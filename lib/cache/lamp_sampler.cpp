@@ -186,29 +186,27 @@ float LampSampler::ray_share(const SurfacePoint& point) const {
   return 0;
 }
 
-ArrivingLight LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_share) const {
-  ArrivingLight light;
+void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_share,
+                         ArrivingLight& light) const {
   const Vec3 local = sample_cosine_hemisphere(u);
   const Vec3 direction = make_frame(point.normal).to_world(local);
-  if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return light;
+  if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return;
   SurfacePoint found;
-  if (!trace(rays_, {point.leave(direction), direction}, found)) return light;
+  if (!trace(rays_, {point.leave(direction), direction}, found)) return;
   const Rgb luminance = emitted_luminance(rays_.scene(), found);
   const std::int32_t lamp = max_component(luminance) > 0 ? lights_.light_of(found.triangle) : -1;
-  if (lamp < 0) return light;
+  if (lamp < 0) return;
   const auto i = static_cast<std::size_t>(lamp);
   const float cos_light = std::fabs(glm::dot(found.geometric_normal, direction));
   const float by_lamp =
       probability(point, i) * lights_.density(i, found.triangle, found.distance_m, cos_light);
   light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
   light.certain = true;
-  return light;
 }
 
-/// A point of a panel, uniform over its area. Without a division or root that it can do without.
-ArrivingLight LampSampler::from_panel(const SurfacePoint& point, const Panel& panel, float u_patch,
-                                      const Vec2& u, float probability) const {
-  ArrivingLight light;
+/// A point of a panel, uniform over its area. Fills what it needs of the light; lux 0 where it is dark.
+void LampSampler::from_panel(const SurfacePoint& point, const Panel& panel, float u_patch, const Vec2& u,
+                             float probability, ArrivingLight& light) {
   std::size_t k = 0;
   if (panel.patch.size() > 1) {
     const auto above = std::upper_bound(panel.cdf.begin(), panel.cdf.end() - 1, u_patch);
@@ -221,37 +219,37 @@ ArrivingLight LampSampler::from_panel(const SurfacePoint& point, const Panel& pa
   const float height_m = glm::dot(way, point.normal), above_m = glm::dot(way, point.geometric_normal);
   float before_m = -glm::dot(way, patch.normal);
   if (panel.two_sided) before_m = std::fabs(before_m);
-  if (!(height_m > 0) || !(above_m > 0) || !(before_m > 0)) return light;
-  const Vec3 origin = point.position + point.error_m * point.geometric_normal;
-  const Vec3 free_way = end - origin;
+  if (!(height_m > 0) || !(above_m > 0) || !(before_m > 0)) return;
+  light.ray.origin = point.position + point.error_m * point.geometric_normal;
+  const Vec3 free_way = end - light.ray.origin;
   const float d2 = glm::dot(free_way, free_way);
+  if (!(d2 > 0)) return;
   const float per_m = 1 / std::sqrt(d2), per_m2 = per_m * per_m;
   light.lux =
       panel.luminance_cd_m2 * ((height_m * per_m2) * (before_m * per_m2) * (patch.area_m2 / probability));
-  if (!(d2 > 0) || !is_finite(light.lux)) return ArrivingLight();
-  light.ray = {origin, free_way * per_m, 0, d2 * per_m - std::max(patch.error_m, point.error_m)};
+  light.ray.direction = free_way * per_m;
+  light.ray.t_max_m = d2 * per_m - std::max(patch.error_m, point.error_m);
   light.certain = !(light.ray.t_max_m > 0);
-  return light;
 }
 
-ArrivingLight LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& u) const {
-  ArrivingLight light;
-  if (lights_.size() == 0) return light;
+void LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& u,
+                         ArrivingLight& light) const {
+  light.lux = Rgb(0);
+  if (lights_.size() == 0) return;
   const float rays = ray_share(point);
-  if (u[0] < rays) return by_ray(point, {u[1], u[2]}, rays);
+  if (u[0] < rays) return by_ray(point, {u[1], u[2]}, rays, light);
   const Choice lamp = choose(point, std::min((u[0] - rays) / (1 - rays), kBelowOne));
   if (rays == 0 && !panel_[lamp.light].patch.empty())
-    return from_panel(point, panel_[lamp.light], lamp.rest, {u[1], u[2]}, lamp.probability);
+    return from_panel(point, panel_[lamp.light], lamp.rest, {u[1], u[2]}, lamp.probability, light);
   Illumination arriving;
-  if (!lights_.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, arriving)) return light;
+  if (!lights_.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, arriving)) return;
   const float cosine = glm::dot(point.normal, arriving.direction);
-  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, arriving.direction) > 0)) return light;
+  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, arriving.direction) > 0)) return;
   float density = (1 - rays) * lamp.probability;
   if (arriving.density > 0) density = density * arriving.density + rays * cosine / kPi;
   light.lux = arriving.value * (cosine / density);
   light.ray = shadow_ray(point, arriving);
   light.certain = !(light.ray.t_max_m > 0);
-  return light;
 }
 
 Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {

@@ -65,7 +65,8 @@ struct Ground {
         rays.intersect(around.back(), hits[i]);
       }
       light.shade(origin, hits, site.item, 0, h, *lit);
-      for (const HitLight::ShadowRay& s : lit->shadow) to_lamps.push_back(s.ray);
+      for (std::size_t i = 0; i < lit->sight_count; ++i)
+        if (!lit->sights[i].light.certain) to_lamps.push_back(lit->sights[i].light.ray);
       around_end.push_back(around.size()), to_lamps_end.push_back(to_lamps.size());
     }
   }

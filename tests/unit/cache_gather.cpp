@@ -54,8 +54,8 @@ TEST(LampSampler, IsUnbiased) {
         double sum = 0, squares = 0;
         constexpr int kSamples = 20000;
         for (int i = 0; i < kSamples; ++i) {
-          const ArrivingLight light =
-              lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()});
+          ArrivingLight light;
+          lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
           if (!(light.lux.y > 0) || (!light.certain && rays.occluded(light.ray))) continue;
           const auto lux = static_cast<double>(light.lux.y);
           sum += lux / kSamples, squares += lux * lux / kSamples;
