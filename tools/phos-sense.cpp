@@ -30,11 +30,13 @@ struct Inputs {
   }
 };
 
-void check_usage(const Inputs& inputs, const SensorOptions& sense, bool exact) {
+void check_usage(const Options& options, const Inputs& inputs, const SensorOptions& sense, bool exact) {
   if (exact && sense.direct_only)
     throw Error(ExitCode::usage, "exact", "computes all light; leave out --direct-only");
-  if (exact && !inputs.caches.empty())
-    throw Error(ExitCode::usage, "exact", "reads no cache; leave the caches out");
+  if ((exact || sense.direct_only) && !inputs.caches.empty())
+    throw Error(ExitCode::usage, exact ? "exact" : "direct-only", "reads no cache; leave the caches out");
+  for (const char* name : {"samples", "error"})
+    if (!exact && options.given(name)) throw Error(ExitCode::usage, name, "belongs to --exact; leave it out");
   if (inputs.caches.empty() && !exact && !sense.direct_only) {
     throw Error(
         ExitCode::usage, "",
@@ -56,15 +58,10 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
   summary["sensors_inside_solids"] = report.inside;
   summary["sensors_outside"] = report.outside;
   summary["left_out"] = sensors.left_out;
+  if (sensors.level_m) summary["level_m"] = *sensors.level_m;
   for (const auto& [name, value] : summary.as_object()) tool.stat(name, value);
   if (!inputs.summary.empty()) write_text(inputs.summary, {{summary.dump(2), "\n"}});
-  std::string line = text(readings.size(), " sensors");
-  const auto add = [&](const char* key, const char* words, const char* unit) {
-    if (const Json* value = summary.find(key)) line += words + value->dump() + unit;
-  };
-  add("mean_lx", ": mean ", " lx"), add("min_lx", ", min ", " lx"), add("max_lx", ", max ", " lx");
-  add("U0", ", U0 ", ""), add("Ud", ", Ud ", "");
-  tool.say(line);
+  tool.say(summary_line(summary));
   if (sensors.left_out > 0)
     tool.say(text(sensors.left_out,
                   " points of the grid are left out: in solids, behind walls, near walls, or "
@@ -115,7 +112,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     inputs.sort_out();
-    check_usage(inputs, sense, exact);
+    check_usage(options, inputs, sense, exact);
     check(grid, inputs.points);
     tool.add_input("scene", scene_files(inputs.scene));
     const Scene scene = load_scene(inputs.scene, scene_options);

@@ -285,6 +285,7 @@ Sensors workplane(const RayScene& rays, const GridOptions& grid) {
                          *grid.spacing_m, grid.margin_m);
   require_few(xs.count, ys.count, *grid.spacing_m);
   const auto level = static_cast<float>(static_cast<double>(floor_level_m(scene, grid.up)) + *grid.height_m);
+  sensors.level_m = level;
   const std::size_t n = xs.count * ys.count;
   const auto place = [&](std::size_t i) {
     Vec3 p;

@@ -124,7 +124,8 @@ void declare_options(Options& options, SensorOptions& s) {
                  {0, 10, true});
 }
 
-SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test) {
+SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test)
+    : leak_test_(leak_test) {
   for (const Container& file : files) {
     lookups_.emplace_back(file, leak_test);
     const bool direct = lookups_.back().records().quantity() == "all";
@@ -153,7 +154,7 @@ Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
 std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   if (empty()) return nullptr;
   const double accuracy = lookups_[0].records().accuracy();
-  auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy);
+  auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy, leak_test_);
   for (const RecordLookup& lookup : lookups_) {
     const auto reach = static_cast<float>(lookup.records().accuracy() / accuracy);
     for (std::size_t i = 0; i < lookup.records().size(); ++i) {
@@ -250,6 +251,17 @@ Json summarise(std::span<const Reading> readings) {
   if (mean > 0) summary["U0"] = static_cast<float>(least / mean);
   if (most > 0) summary["Ud"] = static_cast<float>(least / most);
   return summary;
+}
+
+std::string summary_line(const Json& summary) {
+  std::string line;
+  const auto add = [&](const char* key, const char* before, const char* after) {
+    if (const Json* value = summary.find(key)) line += before + value->dump() + after;
+  };
+  add("number", "", " sensors"), add("level_m", " at the level of ", " m");
+  add("mean_lx", ": mean ", " lx"), add("min_lx", ", min ", " lx"), add("max_lx", ", max ", " lx");
+  add("U0", ", U0 ", ""), add("Ud", ", Ud ", "");
+  return line;
 }
 
 bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {

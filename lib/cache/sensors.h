@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct Sensors {
   std::vector<SurfaceSample> points;  ///< m; unit normals
   std::vector<std::string> ids;       ///< one each, or empty: sensors are numbered from 0
   std::uint64_t left_out = 0;         ///< points of a grid where nobody could put a sensor
+  std::optional<float> level_m;       ///< of a workplane
 };
 
 /// Sensors from a text file, "-" is stdin. CSV whose first line names x,y,z (m) and nx,ny,nz, and perhaps id,
@@ -73,6 +75,7 @@ class SensorCaches {
 
  private:
   std::vector<RecordLookup> lookups_;
+  const RayScene* leak_test_;
   bool holds_direct_ = false;
 };
 
@@ -99,6 +102,9 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
 /// number, mean_lx, min_lx, max_lx, U0 = min/mean, Ud = min/max (absent where everything is dark or there is
 /// no sensor).
 Json summarise(std::span<const Reading> readings);
+
+/// A summary (which may also hold the level_m of a workplane) in a line for people.
+std::string summary_line(const Json& summary);
 
 /// Is a point inside a solid, or behind the one-sided walls of a room? More than half of the surfaces that
 /// eight rays meet are seen from behind.

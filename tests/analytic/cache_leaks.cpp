@@ -28,7 +28,7 @@ double leak(const AnalyticScene& s, float gap_m, bool everywhere, bool leak_test
   const RayScene rays(s.scene);
   RecordTree tree(s.scene.bounds, 0.3, leak_test ? &rays : nullptr);
   RandomStream random(11, Stage::test, 0);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Vec2 q = random_in(random, 1.9f);
     for (const float z : {0.f, -gap_m}) {
       for (const float side : {1.f, -1.f}) {
@@ -39,7 +39,7 @@ double leak(const AnalyticScene& s, float gap_m, bool everywhere, bool leak_test
     }
   }
   double lit = 0, dark = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     const Vec2 q = random_in(random, 1.9f);
     lit += double(tree.interpolate({q, 0}, {0, 0, 1}).irradiance.y);
     for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0, 0, -1)})

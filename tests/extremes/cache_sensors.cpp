@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/sensor_grid.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "support/sensors.h"
 
@@ -94,6 +95,37 @@ TEST(SensorExtremes, SameTableOnAnyNumberOfThreads) {
   }
   set_threads(0);
   EXPECT_TRUE(table[0] == table[1]);
+}
+
+TEST(SensorExtremes, NoiseIsRefusedInOneLineOrRead) {
+  const std::string good = "id,x,y,z,nx,ny,nz\n\"a, b\",1,2,3,0,0,1\n# c\nd,-1e-3,+2,3,0,1,0\r\n";
+  const std::string letters = "\",\n\r #0123456789.+-eExyzni\t\xef\xbb\xbf[]";
+  int read = 0, refused = 0;
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    RandomStream random(8, Stage::test, k);
+    std::string bad = good;
+    for (std::uint32_t times = 1 + random.bits() % 3; times > 0; --times) {
+      const std::size_t at = random.bits() % bad.size();
+      const char letter = random.bits() % 4 ? letters[random.bits() % letters.size()]
+                                            : static_cast<char>(random.bits() % 256);
+      if (random.bits() % 3 == 0)
+        bad.erase(at, 1 + random.bits() % 4);
+      else
+        bad[at] = letter;
+      if (bad.empty()) bad = ",";
+    }
+    try {
+      for (const SurfaceSample& p : parse_sensors(bad, "p").points)
+        ASSERT_TRUE(is_finite(p.position) && std::fabs(glm::length(p.normal) - 1) < 1e-5f);
+      ++read;
+    } catch (const Error& e) {
+      ASSERT_EQ(e.code(), ExitCode::bad_input);
+      ASSERT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 500);
+  EXPECT_GT(refused, 5000);
 }
 
 TEST(SensorExtremes, AMillionLines) {

@@ -102,6 +102,7 @@ TEST(SensorGrid, AWorkplaneLiesOverTheFloorAndAvoidsSolidsAndWalls) {
   const Sensors low = workplane(rays, at_height(0.8, 1));
   EXPECT_EQ(low.points.size(), 32u);
   EXPECT_EQ(low.left_out, 4u);
+  EXPECT_NEAR(*low.level_m, -2.2f, 1e-6);
   for (const SurfaceSample& p : low.points) {
     EXPECT_NEAR(p.position.y, -2.2f, 1e-6);
     EXPECT_EQ(p.normal, Vec3(0, 1, 0));
