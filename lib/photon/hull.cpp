@@ -25,17 +25,18 @@ struct Scratch {
 };
 
 /// Picks those of the finite points that can be vertices: all but those inside of the octagon of the points
-/// that lie furthest in eight directions (Akl and Toussaint 1978). Told in floats, with room for rounding:
-/// exact work is left for the few near the rim. `x` and `y` lie within 1/2 of the origin.
+/// that lie furthest in eight directions (Akl and Toussaint 1978), some hundreds being asked. Told in floats,
+/// with room for rounding: exact work is left for the few near the rim. `x` and `y` lie within 1/2 of the
+/// origin.
 void pick_outer(Scratch& s) {
   constexpr float kRoom = 1e-5f;
   constexpr float kAcross[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-  const std::size_t n = s.x.size();
+  const std::size_t n = s.x.size(), step = 1 + n / 256;
   std::size_t corner[8]{};
   for (std::size_t k = 0; k < 4; ++k) {  // and the opposite direction
     const float dx = kAcross[k][0], dy = kAcross[k][1];
     float most = -HUGE_VALF, least = HUGE_VALF;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; i += step) {
       const float along = dx * s.x[i] + dy * s.y[i];
       if (along > most) most = along, corner[k] = i;
       if (along < least) least = along, corner[k + 4] = i;
