@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "scene/scene.h"
+#include "scene/camera_rays.h"
 
 namespace phos {
 
@@ -26,16 +26,26 @@ Pose pose_of(const Camera& camera) {
 
 }  // namespace
 
-Camera::Ray Camera::ray(const Vec2& st, float image_aspect) const {
-  const Pose pose = pose_of(*this);
+CameraRays::CameraRays(const Camera& camera, float image_aspect)
+    : perspective_(camera.perspective),
+      half_height_(camera.perspective ? std::tan(0.5f * camera.yfov_rad) : camera.ymag_m),
+      image_aspect_(image_aspect) {
+  const Pose pose = pose_of(camera);
+  origin_ = pose.origin, axes_ = pose.axes;
+}
+
+Camera::Ray CameraRays::operator()(const Vec2& st) const {
   const Vec2 ndc(2 * st.x - 1, 1 - 2 * st.y);
-  if (perspective) {
-    const float half_height = std::tan(0.5f * yfov_rad);
-    const Vec3 local = glm::normalize(Vec3(ndc.x * half_height * image_aspect, ndc.y * half_height, -1));
-    return {pose.origin, glm::normalize(pose.axes.to_world(local))};
+  if (perspective_) {
+    const Vec3 local = glm::normalize(Vec3(ndc.x * half_height_ * image_aspect_, ndc.y * half_height_, -1));
+    return {origin_, glm::normalize(axes_.to_world(local))};
   }
-  return {pose.origin + ndc.x * ymag_m * image_aspect * pose.axes.x + ndc.y * ymag_m * pose.axes.y,
-          -pose.axes.z};
+  return {origin_ + ndc.x * half_height_ * image_aspect_ * axes_.x + ndc.y * half_height_ * axes_.y,
+          -axes_.z};
+}
+
+Camera::Ray Camera::ray(const Vec2& st, float image_aspect) const {
+  return CameraRays(*this, image_aspect)(st);
 }
 
 Mat4 Camera::view_projection(float image_aspect, float near_m, float far_m) const {

@@ -10,10 +10,7 @@
 namespace phos {
 
 Ray pixel_ray(const Camera& camera, int width, int height, int x, int y, const Vec2& subpixel) {
-  const Vec2 st((static_cast<float>(x) + subpixel.x) / static_cast<float>(width),
-                (static_cast<float>(y) + subpixel.y) / static_cast<float>(height));
-  const Camera::Ray ray = camera.ray(st, static_cast<float>(width) / static_cast<float>(height));
-  return {ray.origin, ray.direction};
+  return PixelRays(camera, width, height)(x, y, subpixel);
 }
 
 GBuffer empty_gbuffer(int width, int height) {
@@ -36,6 +33,7 @@ void set_pixel(GBuffer& g, std::size_t i, const Scene& scene, const Hit& hit, co
 GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height,
                       const Vec2& subpixel) {
   GBuffer g = empty_gbuffer(width, height);
+  const PixelRays pixel_ray_of(camera, width, height);
   // Blocks of 4 x 4: rays of a packet run side by side.
   constexpr int kBlock = 4;
   const auto blocks = static_cast<std::size_t>((height + kBlock - 1) / kBlock);
@@ -48,7 +46,7 @@ GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int
       ray.clear(), pixel.clear();
       for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, width); ++x) {
-          ray.push_back(pixel_ray(camera, width, height, x, y, subpixel));
+          ray.push_back(pixel_ray_of(x, y, subpixel));
           pixel.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                           static_cast<std::size_t>(x));
         }

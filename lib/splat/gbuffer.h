@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "scene/camera_rays.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 
@@ -23,6 +24,24 @@ struct GBuffer {
 
 /// Camera ray of a pixel; subpixel in [0,1)^2 ((0.5,0.5) = centre).
 Ray pixel_ray(const Camera& camera, int width, int height, int x, int y, const Vec2& subpixel);
+
+/// pixel_ray for many pixels of one picture.
+class PixelRays {
+ public:
+  PixelRays(const Camera& camera, int width, int height)
+      : rays_(camera, static_cast<float>(width) / static_cast<float>(height)),
+        width_(static_cast<float>(width)),
+        height_(static_cast<float>(height)) {}
+  Ray operator()(int x, int y, const Vec2& subpixel) const {
+    const Camera::Ray ray = rays_(
+        Vec2((static_cast<float>(x) + subpixel.x) / width_, (static_cast<float>(y) + subpixel.y) / height_));
+    return {ray.origin, ray.direction};
+  }
+
+ private:
+  CameraRays rays_;
+  float width_, height_;
+};
 
 /// By rays (Embree): the oracle.
 GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height,

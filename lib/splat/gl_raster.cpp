@@ -116,11 +116,12 @@ GBuffer GlRenderer::rasterise(const Camera& camera, int width, int height, const
   const Scene& scene = impl_->scene;
   std::vector<Reads> reads;
   for (const Material& material : scene.material) reads.push_back(reads_of(scene, material));
+  const PixelRays pixel_rays(camera, width, height);
   parallel_for(static_cast<std::size_t>(height), 4, [&](std::size_t y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       if (triangle[i] == kNoTriangle) continue;
-      const Ray ray = pixel_ray(camera, width, height, x, static_cast<int>(y), subpixel);
+      const Ray ray = pixel_rays(x, static_cast<int>(y), subpixel);
       const Hit hit = hit_triangle(scene, ray, triangle[i]);
       const std::uint32_t material = scene.instance[scene.triangle_instance[triangle[i]]].material;
       set_pixel(g, i, scene, hit, surface_at(scene, reads[material], ray, hit));

@@ -161,6 +161,7 @@ class Painter {
         width_(static_cast<int>(options.width)),
         height_(static_cast<int>(options.height)),
         samples_(static_cast<int>(options.pixel_samples)),
+        pixel_rays_(camera_, width_, height_),
         lights_(rays.scene()),
         records_(tree()),
         shading_(rays, lights_, records_, shading_options()),
@@ -239,8 +240,7 @@ class Painter {
 
   Ray ray_of(std::size_t pixel, const Vec2& where) const {
     const auto width = static_cast<std::size_t>(width_);
-    return pixel_ray(camera_, width_, height_, static_cast<int>(pixel % width),
-                     static_cast<int>(pixel / width), where);
+    return pixel_rays_(static_cast<int>(pixel % width), static_cast<int>(pixel / width), where);
   }
 
   void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const std::vector<Rgb>& mapped) {
@@ -302,6 +302,7 @@ class Painter {
   Rendering& result_;
   const Camera& camera_;
   int width_, height_, samples_;
+  PixelRays pixel_rays_;
   Luminaires lights_;
   RecordTree records_;
   Shading shading_;
