@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   bool exact = false, allow_mismatch = false;
   std::string isa;
   Options& options = tool.options();
-  options.inputs("SCENE [CACHE...]", inputs.paths, "scene (.glb, .gltf, .obj) and irradiance caches of it");
+  options.inputs("SCENE [CACHE]", inputs.paths, "scene (.glb, .gltf, .obj) and irradiance caches of it");
   declare_options(options, scene_options);
   options.section("Sensors");
   options.file(
@@ -127,11 +127,13 @@ int main(int argc, char** argv) {
     if (sensors.points.empty()) tool.warn("there is no sensor: the output is a header alone");
     sense.seed = exactly.seed = tool.seed();
     SensorReport report;
+    std::uint64_t samples = 0;
     const auto whole = [&](std::size_t i) {
       exactly.item = i;
       const PointIrradiance e =
           estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
       if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
+      samples += e.samples;
       return Whole{e.illuminance_lx, e.illuminance_stderr_lx};
     };
     std::vector<Reading> readings;
@@ -142,6 +144,8 @@ int main(int argc, char** argv) {
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
     tool.counters().merge(report.counters);
+    tool.counters().require_at_most("non-finite sample", 1e-6, samples,
+                                    "look for extreme values in materials and lights with phos-scene");
     const auto timer = tool.time("write");
     write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings));
     report_on(tool, inputs, sensors, readings, report);
