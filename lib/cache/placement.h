@@ -54,7 +54,9 @@ struct PlacementReport {
   double making_s = 0;  ///< wall time spent in making records
   // Of surface.
   std::uint64_t sides = 0, sides_inside = 0;  ///< of triangles; those in solids, where nothing is placed
-  std::optional<double> uncovered_share;      ///< of the reachable area, by fresh points
+  /// By fresh points, of what light can reach: of its area, and with each triangle counting alike, so that
+  /// small things beside large ones count too.
+  std::optional<double> uncovered_share, uncovered_share_of_triangles;
 };
 
 /// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all

@@ -79,8 +79,8 @@ class SurfaceCover {
 
   /// Looks at all surface and covers what is open.
   void pass(int number);
-  /// The share of the reachable area that points of its own find open.
-  double open_share(int pass) const;
+  /// The share that fresh points find open of what light can reach, by area or each triangle alike.
+  double open_share(int pass, bool by_area) const;
 
   std::uint64_t pieces() const { return pieces_; }
   std::uint64_t sides() const { return sides_.sides().size(); }
@@ -190,11 +190,12 @@ void SurfaceCover::pass(int number) {
   }
 }
 
-double SurfaceCover::open_share(int pass) const {
+double SurfaceCover::open_share(int pass, bool by_area) const {
+  const std::vector<Side>& sides = sides_.sides();
   std::vector<double> sum;
-  double area_m2 = 0;
-  for (const Side side : sides_.sides()) sum.push_back(area_m2 += sides_.area_m2(side));
-  if (!(area_m2 > 0)) return 0;
+  double total = 0;
+  for (const Side side : sides) sum.push_back(total += by_area ? sides_.area_m2(side) : 1);
+  if (sides.empty()) return 0;
   struct Count {
     std::uint64_t open = 0, closed = 0;
   };
@@ -203,17 +204,18 @@ double SurfaceCover::open_share(int pass) const {
       [&](std::size_t begin, std::size_t end) {
         Count part;
         for (std::size_t i = begin; i < end; ++i) {
-          RandomStream random(static_cast<std::uint64_t>(pass), Stage::placement, kSurfaceItems + i);
-          const double at = (static_cast<double>(i) + random.uniform_double()) / kFreshPoints * area_m2;
+          RandomStream random(static_cast<std::uint64_t>(pass), Stage::placement,
+                              kSurfaceItems + 2 * i + (by_area ? 1 : 0));
+          const double at = (static_cast<double>(i) + random.uniform_double()) / kFreshPoints * total;
           const auto found = std::upper_bound(sum.begin(), sum.end() - 1, at) - sum.begin();
-          const SurfacePoint p = sides_.point(sides_.sides()[static_cast<std::size_t>(found)],
-                                              sample_triangle(random.uniform2()));
+          const SurfacePoint p =
+              sides_.point(sides[static_cast<std::size_t>(found)], sample_triangle(random.uniform2()));
           if (growth_.tree().covered(p.position, p.smooth_normal)) continue;
           ++(sides_.closed_off(p) ? part.closed : part.open);
         }
         return part;
       },
-      [](Count& total, const Count& part) { total.open += part.open, total.closed += part.closed; });
+      [](Count& all, const Count& part) { all.open += part.open, all.closed += part.closed; });
   const std::uint64_t reached = kFreshPoints - count.closed;
   return reached > 0 ? static_cast<double>(count.open) / static_cast<double>(reached) : 0;
 }
@@ -231,8 +233,9 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   for (int pass = 1; pass <= placement.passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
     cover.pass(pass);
-    report.uncovered_share = cover.open_share(pass);
-    if (*report.uncovered_share < kSurfaceShare) break;
+    report.uncovered_share = cover.open_share(pass, true);
+    report.uncovered_share_of_triangles = cover.open_share(pass, false);
+    if (std::max(*report.uncovered_share, *report.uncovered_share_of_triangles) < kSurfaceShare) break;
   }
   report.candidates = cover.pieces();
   report.sides = cover.sides(), report.sides_inside = cover.sides_inside();
