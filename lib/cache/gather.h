@@ -26,6 +26,13 @@ struct GatherSource {
 };
 
 /// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.
+///
+/// RecordOptions::gather_bounces counts reflections between the lamp and the record, those by gloss, mirrors
+/// and glass too, as PathOptions::bounces of the reference does (which also counts the one at the record):
+/// with 1, a diffuse place shows what lamps send it, and a mirror shows the lamps. Without that limit a
+/// diffuse place ends a path by what the source knows, and gloss, mirrors and glass are followed, one ray at
+/// a time, until they lead to one: caustics seen in mirrors and all such light is there, without bias. Lamps
+/// without area are not seen in mirrors: their caustics are in the source alone.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -51,8 +58,8 @@ class HitLight {
   std::unique_ptr<Worker> make_worker() const;
 
   /// Sets radiance, distance_m and hit_normal of h from what its rays hit (distance_m infinite: nothing), by
-  /// one sample of the lamps at each hit and `source`. Lamps' own emission is left out: a record's direct
-  /// light is computed apart. Random numbers depend on (seed, item, pass, ray).
+  /// one sample of the lamps at each hit (low-discrepancy over the hits) and `source`. Lamps' own emission is
+  /// left out: a record's direct light is computed apart. Random numbers depend on (seed, item, pass, ray).
   void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
              Hemisphere& h, Worker& worker) const;
 

@@ -3,6 +3,10 @@
 // exceed the true error: lamps are sampled by low-discrepancy points, whose gain it does not know.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/random.h"
+#include "core/sampling.h"
 #include "support/gathered.h"
 #include "support/records.h"
 
@@ -103,6 +107,39 @@ TEST(Furnace, AllBouncesFromPhotons) {
   EXPECT_LE(missed, 16u);
   expect_unbiased(g.trial(check.position, check.normal, options, {.indirect = &none}, 0.5), 0.5,
                   "empty cache");
+}
+
+/// Of the flux P in a closed room of area A, rho P is reflected once and lands somewhere: the area mean of
+/// that light is rho P / A, whatever the shape.
+TEST(ClosedRoom, AreaMeanOfOneBounce) {
+  for (const test::AnalyticScene& s : {test::uniform_box(0.5f), test::integrating_sphere(0.5f, 320)}) {
+    test::Gathered g(s.scene);
+    const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, 1, 64);
+    const GatherEstimator gather(g.rays, g.lights, {}, options, 1);
+    const auto worker = gather.make_worker();
+    std::vector<double> below;  // of area, per triangle
+    double area = 0;
+    for (std::uint32_t t = 0; t < s.scene.triangle.size(); ++t)
+      below.push_back(area += static_cast<double>(area_m2(s.scene, t)));
+    double sum = 0, squares = 0;
+    constexpr int kPoints = 3000;
+    for (std::uint64_t i = 0; i < kPoints; ++i) {
+      RandomStream random(11, Stage::test, i);
+      const double x = (static_cast<double>(i) + random.uniform_double()) / kPoints * area;
+      const auto t =
+          static_cast<std::uint32_t>(std::upper_bound(below.begin(), below.end() - 1, x) - below.begin());
+      const Vec2 w = sample_triangle(random.uniform2());
+      const auto& v = s.scene.triangle[t].v;
+      const Vec3 p = (1 - w.x - w.y) * s.scene.position[v[0]] + w.x * s.scene.position[v[1]] +
+                     w.y * s.scene.position[v[2]];
+      const RecordSite site{p, geometric_normal(s.scene, t), i};
+      const auto e = static_cast<double>(gather.make(site, *worker).record.irradiance.y);
+      sum += e / kPoints, squares += e * e / kPoints;
+    }
+    const double truth = 0.5 * 100 / area;
+    EXPECT_NEAR(sum, truth, 3.5 * std::sqrt((squares - sum * sum) / kPoints)) << s.name;
+    EXPECT_NEAR(sum, truth, 0.02 * truth) << s.name;
+  }
 }
 
 /// Nothing that reflects sees anything lit: all light is direct.
