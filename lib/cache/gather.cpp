@@ -41,8 +41,7 @@ void each_in_tiles(const Hemisphere& h, const Visit& visit) {
         for (int k = slice; k < std::min(slice + kSide, h.slices); ++k) visit(h.at(j, k));
 }
 
-/// How far off its surfaces a parallel one lies below which records cannot tell the two apart
-/// (record_in_front allows a hundredth of the radius), in radii.
+/// Parallel surfaces this far apart, in radii, are told apart by record_in_front (which allows half of it).
 constexpr float kNextSurface = 0.02f;
 
 }  // namespace

@@ -201,7 +201,9 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
   if (!lights.illuminate(lamp.light, point.position, lamp.rest, random.uniform2(), light)) return Rgb(0);
   const Rgb f = bsdf.evaluate_gloss(wo, light.direction);
   const float cosine = glm::dot(point.normal, light.direction);
-  if (f == Rgb(0) || !(cosine > 0) || rays.occluded(shadow_ray(point, light))) return Rgb(0);
+  if (f == Rgb(0) || !(cosine > 0)) return Rgb(0);
+  const Ray ray = shadow_ray(point, light);
+  if (ray.t_max_m > 0 && rays.occluded(ray)) return Rgb(0);
   float density = lamp.probability;
   if (light.density > 0)
     density = density * light.density + gloss_probability * bsdf.density_gloss(wo, light.direction);

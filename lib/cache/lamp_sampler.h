@@ -84,8 +84,8 @@ class LampSampler {
   bool area_ = false;  // any is an area light
 };
 
-/// The ray that must be free for a light's sample to reach a point. Empty (t_max_m = 0) where the two are too
-/// close to each other for anything to stand between.
+/// The ray that must be free for a light's sample to reach a point. t_max_m is not above 0 where the two are
+/// too close to each other for anything to stand between: do not ask then.
 Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
 
 }  // namespace phos

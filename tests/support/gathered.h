@@ -15,7 +15,6 @@ namespace phos::test {
 struct Trial {
   double mean = 0, stderr_of_mean = 0;
   double stated = 0;  ///< root mean square of (value - truth) / stated standard error
-  double events = 0;  ///< of the kind asked for
 };
 
 inline RecordOptions gather_options(const Scene& scene, Quantity paths, std::int64_t bounces,
