@@ -66,20 +66,22 @@ void raster_border(benchmark::State& state) {
   const RasterEstimator estimator(*p.rays, *p.lights, {},
                                   p.options(Estimate::raster, static_cast<RasterBorder>(state.range(0))), 1);
   const auto worker = estimator.make_worker();
-  double square = 0;
+  double absolute = 0, relative = 0, truth = 0;  // sums of squares
   std::size_t lit = 0;
   for (auto _ : state) {
-    square = 0, lit = 0;
+    absolute = relative = truth = 0, lit = 0;
     for (std::size_t i = 0; i < p.sites.size(); ++i) {
       const double e = static_cast<double>(luminance(estimator.make(p.sites[i], *worker).record.irradiance));
-      if (!(p.truth_lx[i] > 0)) continue;
-      const double off = e / p.truth_lx[i] - 1;
-      square += off * off, ++lit;
+      const double t = p.truth_lx[i], off = e - t;
+      if (!(t > 0)) continue;
+      absolute += off * off, truth += t * t, relative += off * off / (t * t), ++lit;
     }
   }
   const char* const names[] = {"none", "coverage", "stretch"};
   state.SetLabel(names[state.range(0)]);
-  state.counters["rms_percent"] = 100 * std::sqrt(square / static_cast<double>(lit));
+  // Of the values' own root mean square; and of each place's error relative to its own value.
+  state.counters["rms_percent"] = 100 * std::sqrt(absolute / truth);
+  state.counters["rms_relative_percent"] = 100 * std::sqrt(relative / static_cast<double>(lit));
   state.counters["records"] =
       benchmark::Counter(static_cast<double>(p.sites.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
