@@ -47,7 +47,7 @@ inline std::vector<SurfacePoint> lit_points(const RayScene& rays, const std::vec
     return glm::dot(lamp - p.position, p.geometric_normal) > 0 && rays.visible(p, lamp, 0);
   };
   std::vector<SurfacePoint> first, lit;
-  for (const SurfacePoint& p : surface_points(rays, 2000, Spread::by_area, 6))
+  for (const SurfacePoint& p : surface_points(rays, 400, Spread::by_area, 6))
     if (sees_lamp(p)) first.push_back(p);
   for (const SurfacePoint& p : points) {
     const bool reached = sees_lamp(p) || std::any_of(first.begin(), first.end(), [&](const SurfacePoint& q) {
