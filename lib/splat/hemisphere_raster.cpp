@@ -119,8 +119,8 @@ void RasterEstimator::sample(const RecordSite& site, Hemisphere& h, Worker& work
   h.resize(plane.direction.size());
   h.projected_sr = plane.projected_sr;
   impl_->context.make_current();
-  draw_triangles(impl_->context.gl(), impl_->mesh, impl_->view(eye, h.frame, kNear * from.error_m), impl_->target,
-                 w.triangle);
+  draw_triangles(impl_->context.gl(), impl_->mesh, impl_->view(eye, h.frame, kNear * from.error_m),
+                 impl_->target, w.triangle);
   w.hits.assign(h.size(), Hit());
   for (std::size_t i = 0; i < h.size(); ++i) {
     h.direction[i] = h.frame.to_world(plane.direction[i]);
