@@ -28,7 +28,7 @@ void warn_of_misses(const Tool& tool, const Rendering& rendering) {
   if (rendering.missed == 0) return;
   const double share = static_cast<double>(rendering.missed) / static_cast<double>(rendering.looked_up);
   tool.warn(text(shortest(std::ceil(1e4 * share) / 100),
-                 " % of the visible points have no record (dark there); write them with --misses, fill them "
+                 " % of the visible points have no record near enough (farther ones light them); write them with --misses, fill them "
                  "with phos-irradiance --at, or raise --accuracy"));
 }
 
@@ -72,11 +72,16 @@ int main(int argc, char** argv) {
   bool allow_mismatch = false;
   options.input("SCENE", scene_path, "glTF or OBJ scene");
   options.inputs("CACHE", cache_paths, "irradiance caches of that scene; several are joined");
+  ExrCompression compression = ExrCompression::zip;
   RenderOptions render;
   SceneOptions scene_options;
   declare_options(options, render);
   declare_options(options, scene_options);
   options.section("Output");
+  options.choice<ExrCompression>(
+      "compression", compression,
+      {{"zip", ExrCompression::zip}, {"piz", ExrCompression::piz}, {"none", ExrCompression::none}},
+      "of the EXR file, lossless: none is the fastest");
   options.file("misses", misses_path,
                "write the visible points without a record here (CSV), for phos-irradiance --at");
   options.flag("allow-mismatch", allow_mismatch, "accept a cache of another version of the scene (recorded)");
@@ -131,7 +136,7 @@ int main(int argc, char** argv) {
     require_finite(rendering.image);
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");
-    write_exr(tool.output(), rendering.image);
+    write_exr(tool.output(), rendering.image, compression);
     if (misses_path.empty()) {
       warn_of_misses(tool, rendering);
     } else {

@@ -142,6 +142,8 @@ class RecordTree {
   /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// The same records, each of which reaches `factor` times as far.
+  RecordTree widened(double factor) const;
   /// The same cells as columns.
   RecordIndex index() const;
 

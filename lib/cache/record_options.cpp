@@ -100,6 +100,10 @@ void RecordOptions::resolve(float diagonal_m) {
         ExitCode::usage, "--min-radius",
         text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
   }
+  if (gather_bounces == 0) {
+    throw Error(ExitCode::usage, "--gather-bounces",
+                "0 leaves no indirect light; give 1 for surfaces lit by lamps alone, or -1 for all");
+  }
   using G = GradientMode;
   const bool photons = estimate == Estimate::hull || estimate == Estimate::kernel;
   const std::vector<G> allowed =

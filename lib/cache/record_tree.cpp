@@ -120,6 +120,13 @@ RecordTree::RecordTree(const Bounds& bounds, double accuracy, const RayScene* le
   impl_->lo = centre - side / 2;
 }
 RecordTree::~RecordTree() = default;
+
+RecordTree RecordTree::widened(double factor) const {
+  RecordTree wide(Bounds(), factor * static_cast<double>(impl_->accuracy), impl_->leak_test);
+  wide.impl_->lo = impl_->lo, wide.impl_->side_m = impl_->side_m;
+  for (const IrradianceRecord& r : impl_->records) wide.insert(r);
+  return wide;
+}
 RecordTree::RecordTree(RecordTree&&) noexcept = default;
 
 void RecordTree::insert(const IrradianceRecord& r) {

@@ -34,7 +34,7 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 
 Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
                  const ShadingOptions& options)
-    : rays_(rays), lights_(lights), records_(records), options_(options) {
+    : rays_(rays), lights_(lights), records_(records), far_(records), options_(options) {
   for (std::size_t i = 0; i < lights.size(); ++i) extent_.push_back(extent_of(lights[i]));
 }
 
@@ -67,6 +67,13 @@ bool Shading::out_of_sight(const Extent& lamp, const SurfacePoint& point) const 
   if (glm::dot(way, point.normal) < -lamp.radius_m || glm::dot(way, point.geometric_normal) < -lamp.radius_m)
     return true;
   return glm::dot(way, lamp.front) > 1e-3f * lamp.radius_m;
+}
+
+Interpolated Shading::cached(const SurfacePoint& point, ShadingLog& log) const {
+  const Interpolated found = records_.interpolate(point.position, point.smooth_normal);
+  if (found.weight > 0) return found;
+  log.misses.push_back({point.position, point.smooth_normal});
+  return far_.interpolate(point.position, point.smooth_normal);
 }
 
 DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -176,11 +183,8 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   const Bsdf bsdf(rays_.scene(), point);
   Rgb light(0);
   if (bsdf.has_diffuse()) {
-    const Interpolated cached = records_.interpolate(point.position, point.smooth_normal);
-    if (cached.weight > 0)
-      light += cached.irradiance * bsdf.diffuse_reflectance() / kPi;
-    else
-      log.misses.push_back({point.position, point.smooth_normal});
+    const Interpolated found = cached(point, log);
+    if (found.weight > 0) light += found.irradiance * bsdf.diffuse_reflectance() / kPi;
   }
   const bool glossy = bsdf.has_gloss();
   const bool send_on = glossy && depth < kGlossDepth;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "cache/far_records.h"
 #include "cache/irradiance_cache.h"
 #include "core/counters.h"
 #include "core/random.h"
@@ -59,6 +60,10 @@ class Shading {
   Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
           const ShadingOptions& options);
 
+  /// Irradiance from the cache at a point, lx. Where no record reaches, a miss is noted, and farther ones
+  /// answer (FarRecords); weight 0: there are none.
+  Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
+
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
   /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct.
@@ -93,6 +98,7 @@ class Shading {
   const RayScene& rays_;
   const Luminaires& lights_;
   const RecordTree& records_;
+  FarRecords far_;
   ShadingOptions options_;
   std::vector<Extent> extent_;  // per light
 };

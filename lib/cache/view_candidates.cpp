@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 
 #include "cache/candidates.h"
+#include "core/parallel.h"
 #include "scene/bsdf.h"
 #include "scene/picture.h"
 
@@ -83,6 +85,36 @@ class Sight {
   std::vector<RecordSite>& sites_;
 };
 
+/// Placement comes by several times; the sites of a small picture are found once.
+constexpr std::size_t kRemembered = std::size_t{1} << 20;
+
+template <class Sites>
+Candidates remember(std::size_t count, const Sites& sites_of) {
+  struct Found {
+    std::vector<RecordSite> sites;
+    std::vector<std::uint32_t> end;  // of each place's sites
+  };
+  auto found = std::make_shared<Found>(parallel_reduce<Found>(
+      count, 4096, {},
+      [&](std::size_t begin, std::size_t end) {
+        Found part;
+        for (std::size_t i = begin; i < end; ++i) {
+          sites_of(i, part.sites);
+          part.end.push_back(static_cast<std::uint32_t>(part.sites.size()));
+        }
+        return part;
+      },
+      [](Found& all, const Found& part) {
+        const auto before = static_cast<std::uint32_t>(all.sites.size());
+        all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
+        for (const std::uint32_t end : part.end) all.end.push_back(before + end);
+      }));
+  return {count, [found](std::size_t i, std::vector<RecordSite>& out) {
+            const std::uint32_t begin = i == 0 ? 0 : found->end[i - 1];
+            out.insert(out.end(), found->sites.begin() + begin, found->sites.begin() + found->end[i]);
+          }};
+}
+
 float aspect_of(const View& view) { return static_cast<float>(view.width) / static_cast<float>(view.height); }
 
 }  // namespace
@@ -106,22 +138,23 @@ Candidates view_candidates(const RayScene& rays, const View& view) {
   const auto longer = static_cast<std::uint64_t>(std::max(view.width, view.height));
   const auto level = static_cast<int>(std::bit_width(longer - 1));
   const std::uint64_t square = std::uint64_t{1} << (2 * level);
-  return {kViewSamples * square, [&rays, view, level, square](std::size_t i, std::vector<RecordSite>& sites) {
-            std::int64_t x, y;
-            spread(i % square, level, x, y);
-            if (x >= view.width || y >= view.height) return;
-            const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-            const Vec2 st = (Vec2(static_cast<float>(x), static_cast<float>(y)) +
-                             subpixel_offset(static_cast<int>(i / square))) /
-                            size;
-            const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
-            const std::size_t first = sites.size();
-            Sight(rays, view, st, sites).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
-            // The first few of a pixel's sites have streams of their own; the rest, behind many mirrors,
-            // share.
-            for (std::size_t k = first; k < sites.size(); ++k)
-              sites[k].item = kViewItems + 16 * i + std::min<std::size_t>(k - first, 15);
-          }};
+  const auto sites = [&rays, view, level, square](std::size_t i, std::vector<RecordSite>& out) {
+    std::int64_t x, y;
+    spread(i % square, level, x, y);
+    if (x >= view.width || y >= view.height) return;
+    const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+    const Vec2 st =
+        (Vec2(static_cast<float>(x), static_cast<float>(y)) + subpixel_offset(static_cast<int>(i / square))) /
+        size;
+    const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
+    const std::size_t first = out.size();
+    Sight(rays, view, st, out).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
+    // The first few of a pixel's sites have streams of their own; the rest, behind many mirrors, share.
+    for (std::size_t k = first; k < out.size(); ++k)
+      out[k].item = kViewItems + 16 * i + std::min<std::size_t>(k - first, 15);
+  };
+  const std::size_t count = kViewSamples * square;
+  return count <= kRemembered ? remember(count, sites) : Candidates{count, sites};
 }
 
 }  // namespace phos

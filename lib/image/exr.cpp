@@ -209,12 +209,14 @@ Image decode_exr(std::string_view bytes, const std::string& where) {
   }
 }
 
-std::string encode_exr(const Image& image) {
+std::string encode_exr(const Image& image, ExrCompression compression) {
   PHOS_CHECK(image.pixels() > 0 && !image.channels().empty(), image.width(), " x ", image.height(),
              " pixels, ", image.channels().size(), " channels");
   use_our_threads();
   Imf::Header header(image.width(), image.height());
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = compression == ExrCompression::zip   ? Imf::ZIP_COMPRESSION
+                         : compression == ExrCompression::piz ? Imf::PIZ_COMPRESSION
+                                                              : Imf::NO_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;
   Imf::addWhiteLuminance(header, 1.0f);
   const auto xy = [](const Vec2& v) { return Imath::V2f(v.x, v.y); };

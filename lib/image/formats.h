@@ -16,7 +16,7 @@ namespace phos {
 /// of other chromaticities becomes Rec.709 and is multiplied by whiteLuminance (OpenEXR technical
 /// introduction: cd/m2 of RGB 1,1,1).
 Image decode_exr(std::string_view bytes, const std::string& where);
-std::string encode_exr(const Image& image);
+std::string encode_exr(const Image& image, ExrCompression compression = ExrCompression::zip);
 
 /// Radiance RGBE or XYZE: flat, old or new run lengths, any of the eight orientations.
 Image decode_hdr(std::string_view bytes, const std::string& where);

@@ -66,7 +66,9 @@ Image read_image(const std::string& path) {
               "neither an OpenEXR nor a Radiance .hdr image; convert it to one of these");
 }
 
-void write_exr(const std::string& path, const Image& image) { write_file(path, encode_exr(image)); }
+void write_exr(const std::string& path, const Image& image, ExrCompression compression) {
+  write_file(path, encode_exr(image, compression));
+}
 void write_hdr(const std::string& path, const Image& image) { write_file(path, encode_hdr(image)); }
 void write_png(const std::string& path, const Picture& picture) { write_file(path, encode_png(picture)); }
 Picture read_png(const std::string& path) { return decode_png(read_text(path), path); }

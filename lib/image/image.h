@@ -52,8 +52,10 @@ std::string channel_name(const std::string& layer, const std::string& component)
 /// files.
 Image read_image(const std::string& path);
 
-/// 32-bit float, ZIP, whiteLuminance 1, Rec.709 chromaticities; same image gives the same bytes. Atomic.
-void write_exr(const std::string& path, const Image& image);
+/// All are lossless: zip is read everywhere, piz is a third faster to write, none takes no time.
+enum class ExrCompression { zip, piz, none };
+/// 32-bit float, whiteLuminance 1, Rec.709 chromaticities; same image gives the same bytes. Atomic.
+void write_exr(const std::string& path, const Image& image, ExrCompression compression = ExrCompression::zip);
 /// Radiance RGBE of the beauty, divided by 179 lm/W, in Radiance primaries. Atomic.
 void write_hdr(const std::string& path, const Image& image);
 

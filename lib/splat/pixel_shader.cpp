@@ -8,9 +8,9 @@ void ShadingResult::join(const ShadingResult& other) {
   log.misses.insert(log.misses.end(), other.log.misses.begin(), other.log.misses.end());
 }
 
-PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RecordTree& records,
-                         const RenderOptions& options, bool cached_direct)
-    : rays_(rays), shading_(shading), records_(records), options_(options), cached_direct_(cached_direct) {}
+PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
+                         bool cached_direct)
+    : rays_(rays), shading_(shading), options_(options), cached_direct_(cached_direct) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                                const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const {
@@ -28,10 +28,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   light.albedo = bsdf.diffuse_reflectance();
   if (bsdf.has_diffuse()) {
     ++result.looked_up;
-    if (!from_cache(point, bsdf, splat, light)) {
-      ++result.missed;
-      result.log.misses.push_back({point.position, point.smooth_normal});
-    }
+    from_cache(point, bsdf, splat, light, result);
   }
   from_lights(sample, point, bsdf, wo, shadow_mapped, sequence, light);
   if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, sequence, random, light, result.log);
@@ -39,24 +36,28 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   return light;
 }
 
-bool PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
-                             PixelSample& light) const {
+void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
+                             PixelSample& light, ShadingResult& result) const {
   Vec4 sum = splat.light, error = splat.error;
+  light.weight = sum.w;
   if (!(sum.w > 0)) {
     // On the rim of a record rounding decides, and the lookup that places records has the last word: else
     // the loop over misses would ask for the same point for ever.
-    const Interpolated found = records_.interpolate(point.position, point.smooth_normal);
+    const std::size_t misses = result.log.misses.size();
+    const Interpolated found = shading_.cached(point, result.log);
+    if (result.log.misses.size() > misses)
+      ++result.missed;
+    else
+      light.weight = found.weight;
     sum = Vec4(found.irradiance * found.weight, found.weight);
     error = Vec4(found.stderr_lx * found.weight, 0);
   }
-  light.weight = sum.w;
-  if (!(sum.w > 0)) return false;
+  if (!(sum.w > 0)) return;
   const Rgb irradiance = Rgb(sum) / sum.w;
   const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
   light.indirect = irradiance * reflected;
   light.indirect_error = Rgb(error) / sum.w * reflected;
   light.illuminance_lx += luminance(irradiance);
-  return true;
 }
 
 /// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.

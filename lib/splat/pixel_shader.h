@@ -27,8 +27,7 @@ struct ShadingResult {
 /// Const, usable from any thread; holds references.
 class PixelShader {
  public:
-  PixelShader(const RayScene& rays, const Shading& shading, const RecordTree& records,
-              const RenderOptions& options, bool cached_direct);
+  PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct);
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
   struct Splat {
@@ -42,7 +41,8 @@ class PixelShader {
                     const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const;
 
  private:
-  bool from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light) const;
+  void from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,
+                  ShadingResult& result) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -52,7 +52,6 @@ class PixelShader {
 
   const RayScene& rays_;
   const Shading& shading_;
-  const RecordTree& records_;
   const RenderOptions& options_;
   bool cached_direct_;
 };

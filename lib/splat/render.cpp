@@ -165,7 +165,7 @@ class Painter {
         lights_(rays.scene()),
         records_(tree()),
         shading_(rays, lights_, records_, shading_options()),
-        shader_(rays, shading_, records_, options, cached_direct()),
+        shader_(rays, shading_, options, cached_direct()),
         layers_(width_, height_, LayerSet(options.layers)),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),

@@ -129,9 +129,14 @@ TEST(Irradiance, BadInputs) {
   const std::string out = folder() + "/bad.irradiance";
   expect_failure(irradiance({scene(), folder() + "/missing.photons", "-o", out}), 3, "missing.photons");
   expect_failure(irradiance({folder() + "/missing.glb", photons(), "-o", out}), 3, "missing.glb");
-  expect_failure(irradiance({scene(), scene(), "-o", out}), 2, "no photons");
-  expect_failure(irradiance({photons(), photons(), "-o", out}), 2, "no scene");
-  expect_failure(irradiance({scene(), "-o", out}), 2, "two inputs");
+  expect_failure(irradiance({scene(), scene(), "-o", out}), 2, "second scene");
+  expect_failure(irradiance({photons(), photons(), "-o", out}), 2, "second photon map");
+  expect_failure(irradiance({scene(), "-o", out}), 2, "count photons");
+  expect_failure(irradiance({photons(), "-o", out}), 2, "no scene");
+  expect_failure(irradiance({scene(), "--estimate", "gather", "-o", out}), 2, "earlier cache");
+  expect_failure(irradiance({scene(), photons(), "--estimate", "gather", "--gradients", "blend", "-o", out}), 2,
+                 "gradients");
+  expect_failure(irradiance({scene(), photons(), "--gather-bounces", "0", "-o", out}), 2, "gather-bounces");
   expect_failure(irradiance({data("spheres.glb"), photons(), "-o", out}), 4, "another scene");
   expect_failure(irradiance({scene(), photons(), "--accuracy", "0", "-o", out}), 2, "accuracy");
   expect_failure(irradiance({scene(), photons(), "--min-radius", "2", "--max-radius", "1", "-o", out}), 2,
