@@ -2,19 +2,10 @@
 
 #include <algorithm>
 
+#include "core/sampling.h"
+
 namespace phos {
 namespace {
-
-/// Point i of an additive (R2) sequence started at `shift`: low discrepancy in two dimensions.
-Vec2 r2_point(int i, const Vec2& shift) {
-  constexpr double kStep[2] = {0.7548776662466927, 0.5698402909980532};
-  Vec2 p;
-  for (int d = 0; d < 2; ++d) {
-    const double x = static_cast<double>(shift[d]) + i * kStep[d];
-    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
-  }
-  return p;
-}
 
 bool visible(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
   if (std::isfinite(light.distance_m)) return rays.visible(from, light.position, light.error_m);

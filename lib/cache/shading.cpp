@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/sampling.h"
+
 namespace phos {
 
 namespace {
@@ -11,17 +13,6 @@ constexpr float kLeastThroughput = 1e-4f;
 /// A glossy surface seen by a glossy ray sends on one ray, to this many reflections; beyond, its gloss is
 /// counted as lost.
 constexpr int kGlossDepth = 3;
-
-/// Point i of an additive (R2) sequence started at `shift`: low discrepancy in two dimensions.
-Vec2 r2_point(int i, const Vec2& shift) {
-  constexpr double kAlpha[2] = {0.7548776662466927, 0.5698402909980532};
-  Vec2 p;
-  for (int d = 0; d < 2; ++d) {
-    const double x = static_cast<double>(shift[d]) + i * kAlpha[d];
-    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
-  }
-  return p;
-}
 
 /// Balance heuristic weight of a light sample against `gloss_rays` rays of the gloss lobe.
 float light_weight(int light_samples, float light_density, int gloss_rays, float gloss_density) {

@@ -62,4 +62,14 @@ Vec2 sample_triangle(const Vec2& u) {
   return {1.f - root, u.y * root};
 }
 
+Vec2 r2_point(int i, const Vec2& shift) {
+  constexpr double kStep[2] = {0.7548776662466927, 0.5698402909980532};
+  Vec2 p;
+  for (int d = 0; d < 2; ++d) {
+    const double x = static_cast<double>(shift[d]) + i * kStep[d];
+    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
+  }
+  return p;
+}
+
 }  // namespace phos

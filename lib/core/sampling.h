@@ -20,5 +20,8 @@ Vec3 sample_power_cosine(const Vec2& u, float exponent);
 Vec2 sample_disc(const Vec2& u);
 /// Barycentric weights of the second and third vertex, uniform over a triangle.
 Vec2 sample_triangle(const Vec2& u);
+/// Point i of the additive R2 sequence (Roberts 2018) that starts at `shift`, in [0,1)^2: low discrepancy in
+/// two dimensions, however many points there will be.
+Vec2 r2_point(int i, const Vec2& shift);
 
 }  // namespace phos

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/sampling.h"
 
 namespace phos {
 
@@ -21,9 +22,6 @@ void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& 
   }
 }
 
-Vec2 subpixel_offset(int sample) {
-  const double x = 0.5 + 0.7548776662466927 * sample, y = 0.5 + 0.5698402909980532 * sample;
-  return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
-}
+Vec2 subpixel_offset(int sample) { return r2_point(sample, Vec2(0.5f)); }
 
 }  // namespace phos

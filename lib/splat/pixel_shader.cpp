@@ -13,7 +13,7 @@ PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const Ren
     : rays_(rays), shading_(shading), options_(options), cached_direct_(cached_direct) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
-                               const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const {
+                               const Splat& splat, const SharedLight* shared, ShadingResult& result) const {
   PixelSample light;
   const Bsdf bsdf(rays_.scene(), point);
   const Vec3 wo = -ray.direction;
@@ -30,7 +30,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
     ++result.looked_up;
     from_cache(point, bsdf, splat, light, result);
   }
-  from_lights(sample, point, bsdf, wo, shadow_mapped, sequence, light);
+  from_lights(sample, point, bsdf, wo, shared, sequence, light);
   if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
   return light;
@@ -79,14 +79,19 @@ SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixe
 }
 
 void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
-                              const Vec3& wo, const Rgb& shadow_mapped, RandomStream& sequence,
+                              const Vec3& wo, const SharedLight* shared, RandomStream& sequence,
                               PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
-  if (options_.direct == DirectBy::shadow_map && diffuse) {
-    light.direct += shadow_mapped * bsdf.diffuse_reflectance() / kPi;
-    light.illuminance_lx += luminance(shadow_mapped);
+  if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
+  if (shared && !(options_.direct == DirectBy::interleaved && bsdf.has_gloss())) {
+    if (!diffuse) return;
+    const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
+    light.direct += shared->illuminance * reflected;
+    light.variance += shared->variance * reflected * reflected;
+    if (options_.direct == DirectBy::interleaved) light.noisy += shared->illuminance * reflected;
+    light.illuminance_lx += luminance(shared->illuminance);
+    return;
   }
-  if (options_.direct != DirectBy::traced || !(diffuse || bsdf.has_gloss())) return;
   const DirectLight direct = shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
                                              range(sample, options_.gloss_samples).count, sequence);
   light.direct += direct.radiance;
@@ -99,8 +104,9 @@ void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& po
                              const Vec3& wo, RandomStream& sequence, RandomStream& random, PixelSample& light,
                              ShadingLog& log) const {
   // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
-  const int light_samples =
-      options_.direct == DirectBy::traced ? range(sample, options_.light_samples).count : 0;
+  const int light_samples = options_.direct == DirectBy::traced || options_.direct == DirectBy::interleaved
+                                ? range(sample, options_.light_samples).count
+                                : 0;
   const GlossLight gloss = shading_.gloss(point, bsdf, wo, range(sample, options_.gloss_samples),
                                           light_samples, 0, sequence, random, log);
   light.glossy += gloss.radiance;

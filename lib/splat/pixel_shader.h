@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cache/shading.h"
+#include "splat/interleaved.h"
 #include "splat/layers.h"
 #include "splat/render.h"
 
@@ -36,9 +37,10 @@ class PixelShader {
   /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a
   /// pixel's samples alone?
   bool single_rays(bool at_edge) const;
-  /// `shadow_mapped`: direct illuminance with options.direct = shadow_map, lx.
+  int lamp_rays_of_each() const { return rays_of_each(false, options_.light_samples); }
+  /// `shared`: direct light of a diffuse surface that is known already; null: rays find it.
   PixelSample shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
-                    const Splat& splat, const Rgb& shadow_mapped, ShadingResult& result) const;
+                    const Splat& splat, const SharedLight* shared, ShadingResult& result) const;
 
  private:
   void from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,
@@ -46,7 +48,7 @@ class PixelShader {
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                   const Rgb& shadow_mapped, RandomStream& sequence, PixelSample& light) const;
+                   const SharedLight* shared, RandomStream& sequence, PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                   RandomStream& sequence, RandomStream& random, PixelSample& light, ShadingLog& log) const;
 

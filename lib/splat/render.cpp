@@ -11,6 +11,7 @@
 #include "file/atomic_file.h"
 #include "scene/load.h"
 #include "splat/edges.h"
+#include "splat/interleaved.h"
 #include "splat/pixel_shader.h"
 #include "splat/splatter.h"
 
@@ -112,10 +113,16 @@ void declare_options(Options& options, RenderOptions& r) {
   options.integer("max-misses", r.max_misses, "N", "at most this many points go into --misses", kNotNegative,
                   Recorded::no);
   options.section("Direct light, gloss, mirrors and glass");
-  options.choice<DirectBy>(
-      "direct", r.direct,
-      {{"traced", DirectBy::traced}, {"shadow-map", DirectBy::shadow_map}, {"none", DirectBy::none}},
-      "direct light: by shadow rays, by shadow maps (fast preview, diffuse only), or left out");
+  options.choice<DirectBy>("direct", r.direct,
+                           {{"traced", DirectBy::traced},
+                            {"interleaved", DirectBy::interleaved},
+                            {"shadow-map", DirectBy::shadow_map},
+                            {"none", DirectBy::none}},
+                           "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one "
+                           "diffuse surface share theirs "
+                           "(a sixteenth of the rays for the same noise; blurs shadows over 4 pixels); by "
+                           "shadow maps (fast preview, "
+                           "diffuse only); or left out");
   options.integer("light-samples", r.light_samples, "N",
                   "shadow rays per area light and pixel, shared among its samples (one each at least); or "
                   "shadow maps per area light",
@@ -179,7 +186,7 @@ class Painter {
       const GBuffer gbuffer = see(s);
       if (s == 0 && options_.edge_samples > 0) find_edges(gbuffer);
       const SplatBuffer splats = light_from_cache(gbuffer);
-      shade(s, gbuffer, splats, shadow_mapped(gbuffer));
+      shade(s, gbuffer, splats, shared_light(s, gbuffer));
     }
     if (!edges_.empty()) shade_edges();
     finish();
@@ -222,11 +229,19 @@ class Painter {
   }
 
   /// Empty if direct light is had another way.
-  std::vector<Rgb> shadow_mapped(const GBuffer& gbuffer) {
-    if (options_.direct != DirectBy::shadow_map) return {};
+  std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
+    if (options_.direct == DirectBy::interleaved) {
+      const Stopwatch watch(result_.seconds, "interleaved direct light");
+      return interleaved_light(rays_, shading_, gbuffer, pixel_rays_, subpixel(s, samples_),
+                               shader_.lamp_rays_of_each(), s, samples_, options_.seed);
+    }
+    std::vector<SharedLight> shared;
+    if (options_.direct != DirectBy::shadow_map) return shared;
     const Stopwatch watch(result_.seconds, "shadow maps");
-    return gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
-                                   static_cast<int>(options_.shadow_map_size));
+    for (const Rgb& e : gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
+                                                static_cast<int>(options_.shadow_map_size)))
+      shared.push_back({e, Rgb(0)});
+    return shared;
   }
 
   void find_edges(const GBuffer& gbuffer) {
@@ -243,7 +258,8 @@ class Painter {
     return pixel_rays_(static_cast<int>(pixel % width), static_cast<int>(pixel / width), where);
   }
 
-  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const std::vector<Rgb>& mapped) {
+  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats,
+             const std::vector<SharedLight>& shared) {
     const Stopwatch watch(result_.seconds, "shading");
     const Vec2 where = subpixel(s, samples_);
     run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
@@ -251,7 +267,7 @@ class Painter {
       const Ray ray = ray_of(i, where);
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
       layers_.add(i, shader_.shade({i, s}, ray, point, {splats.light[i], splats.error[i]},
-                                   mapped.empty() ? Rgb(0) : mapped[i], result));
+                                   shared.empty() ? nullptr : &shared[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
     });
   }
@@ -265,7 +281,7 @@ class Painter {
         const Ray ray = ray_of(i, subpixel(s, most_samples()));
         SurfacePoint point;
         if (trace(rays_, ray, point))
-          layers_.add(i, shader_.shade({i, s - samples_, true}, ray, point, {}, Rgb(0), result));
+          layers_.add(i, shader_.shade({i, s - samples_, true}, ray, point, {}, nullptr, result));
       }
     });
   }

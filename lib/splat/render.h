@@ -20,7 +20,12 @@
 namespace phos {
 
 enum class SplatBy { gl, cpu };
-enum class DirectBy { traced, shadow_map, none };
+enum class DirectBy {
+  traced,
+  interleaved,  ///< shadow rays shared by neighbouring pixels of a diffuse surface
+  shadow_map,
+  none
+};
 
 struct RenderOptions {
   std::string camera;  ///< "" = the scene's first

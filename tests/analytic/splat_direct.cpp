@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/shading.h"
+#include "splat/interleaved.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {
@@ -66,6 +67,63 @@ TEST_P(SceneWithDarkSurfaces, ShadowMapsComeClose) {
   EXPECT_GT(a.pixels, 300) << s.name;
   EXPECT_GT(a.within, 0.9) << s.name;
   EXPECT_LT(std::fabs(a.relative_bias), 0.05) << s.name;
+}
+
+/// One pass of interleaved rays over a scene, as pixels of illuminance.
+struct Interleaved {
+  Interleaved(const AnalyticScene& s, int rays_of_each)
+      : rays(s.scene),
+        lights(s.scene),
+        no_records(s.scene.bounds, 0.2),
+        shading(rays, lights, no_records, {}) {
+    const Vec2 middle(0.5f);
+    gbuffer = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, middle);
+    light = interleaved_light(rays, shading, gbuffer, PixelRays(s.scene.camera[0], kSide, kSide), middle,
+                              rays_of_each, 0, 1, 1);
+    for (const SharedLight& l : light) {
+      value.push_back(static_cast<double>(l.illuminance.y));
+      error.push_back(std::sqrt(static_cast<double>(l.variance.y)));
+    }
+  }
+  RayScene rays;
+  Luminaires lights;
+  RecordTree no_records;
+  Shading shading;
+  GBuffer gbuffer;
+  std::vector<SharedLight> light;
+  std::vector<double> value, error;
+};
+
+/// Pixels share rays with their own surface alone: the mean holds, and what light changes over four pixels is
+/// all the blur there is.
+TEST_P(SceneWithDarkSurfaces, InterleavedRaysAgreeWithTheClosedForm) {
+  const AnalyticScene s = std::move(all_point_scenes()[GetParam()]);
+  const Interleaved four(s, 4);
+  const Agreement a = compare(s, four.gbuffer, four.value, four.error, 0.05);
+  EXPECT_GT(a.pixels, 300) << s.name;
+  EXPECT_GT(a.within, 0.97) << s.name;
+  EXPECT_LT(std::fabs(a.relative_bias), 0.01) << s.name;
+}
+
+/// Sixteen times as many rays' worth: the error of one ray each is well below that of single rays alone.
+TEST(Interleaved, SharesWhatNeighboursFind) {
+  const AnalyticScene s = rectangle_light_parallel();
+  const Interleaved shared(s, 1);
+  double own = 0, together = 0, n = 0;
+  for (std::size_t i = 0; i < shared.light.size(); ++i) {
+    if (!shared.gbuffer.covered(i)) continue;
+    const Vec3 p(shared.gbuffer.position[i]), normal(shared.gbuffer.normal[i]);
+    if (normal.y < 0.5f || p.y > 0.1f) continue;
+    const double truth = s.irradiance_lx(p, normal);
+    RandomStream random(1, Stage::test, i);
+    SurfacePoint point;
+    ASSERT_TRUE(trace(shared.rays, {p + 0.004f * normal, -normal}, point));
+    const DirectLight alone = shared.shading.direct(point, Bsdf(s.scene, point), normal, 1, 0, random);
+    own += std::pow(static_cast<double>(alone.illuminance.y) - truth, 2);
+    together += std::pow(shared.value[i] - truth, 2), n += 1;
+  }
+  ASSERT_GT(n, 300);
+  EXPECT_LT(std::sqrt(together / n), 0.4 * std::sqrt(own / n));
 }
 
 INSTANTIATE_TEST_SUITE_P(Most, SceneWithDarkSurfaces, testing::Values(0, 1, 2, 8, 9));
