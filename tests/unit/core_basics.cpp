@@ -108,6 +108,25 @@ TEST(Sampling, MeansMatchTheirDensities) {
   EXPECT_NEAR(cosine.x / n, 0, 4 * 0.5 / std::sqrt(n));
 }
 
+TEST(Sampling, R2PointsKeepApartFromAnyStart) {
+  // Roberts 2018: on the torus n points keep about 0.55 / sqrt(n) apart (random ones: 0.5 / n).
+  for (const Vec2& shift : {Vec2(0), Vec2(0.5f), Vec2(0x1.fffffep-1f)}) {
+    std::vector<Vec2> p;
+    for (int i = 0; i < 500; ++i) {
+      p.push_back(r2_point(i, shift));
+      ASSERT_TRUE(p.back().x >= 0 && p.back().x < 1 && p.back().y >= 0 && p.back().y < 1) << i;
+    }
+    EXPECT_EQ(p[0], shift);
+    float nearest = 1;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec2 way = glm::abs(p[i] - p[j]);
+        nearest = std::min(nearest, glm::length(glm::min(way, 1.f - way)));
+      }
+    EXPECT_GT(nearest, 0.5f / std::sqrt(500.f));
+  }
+}
+
 TEST(Parallel, ReduceJoinsInOrderForAnyThreads) {
   std::vector<double> results;
   for (const int threads : {1, 2, 5}) {
