@@ -8,8 +8,6 @@
 namespace phos {
 namespace {
 
-constexpr std::int64_t kLongerSide = 1000;  // of a view, pixels: as phos-splat's
-
 View view_of(const PlacementOptions& p, const Scene& scene) {
   return {find_camera(scene, p.camera), p.width, p.height, p.min_radius_pixels, p.max_radius_pixels};
 }
@@ -74,7 +72,7 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
   }
   if (p.max_radius_pixels > 0 && p.min_radius_pixels > p.max_radius_pixels)
     refuse("--min-radius-pixels", "is more than --max-radius-pixels; give a smaller one");
-  resolve_size(find_camera(scene, p.camera), kLongerSide, p.width, p.height);
+  resolve_size(find_camera(scene, p.camera), kPictureSide, p.width, p.height);
 }
 
 PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,

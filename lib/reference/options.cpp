@@ -1,7 +1,5 @@
-#include <cmath>
-
-#include "core/error.h"
 #include "reference/render.h"
+#include "scene/picture.h"
 
 namespace phos {
 
@@ -30,18 +28,8 @@ void declare_options(Options& options, ReferenceOptions& r) {
 }
 
 void resolve_size(ReferenceOptions& r, const Camera& camera) {
-  constexpr double kMostPixels = 268435456;  // 2^28
-  const double aspect =
-      camera.aspect > 0 && std::isfinite(camera.aspect) ? static_cast<double>(camera.aspect) : 1;
-  const auto rounded = [](double pixels) {
-    return static_cast<std::int64_t>(std::fmin(std::fmax(std::round(pixels), 1), 1e9));
-  };
-  if (r.width == 0 && r.height == 0) (aspect >= 1 ? r.width : r.height) = 512;
-  if (r.width == 0) r.width = rounded(static_cast<double>(r.height) * aspect);
-  if (r.height == 0) r.height = rounded(static_cast<double>(r.width) / aspect);
-  if (static_cast<double>(r.width) * static_cast<double>(r.height) > kMostPixels)
-    throw Error(ExitCode::usage, "--width",
-                text(r.width, " x ", r.height, " pixels are too many; at most 2^28"));
+  constexpr int kLongerSide = 512;  // pixels
+  resolve_size(camera, kLongerSide, r.width, r.height);
 }
 
 }  // namespace phos

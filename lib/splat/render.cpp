@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "file/atomic_file.h"
 #include "scene/load.h"
+#include "scene/picture.h"
 #include "splat/edges.h"
 #include "splat/interleaved.h"
 #include "splat/pixel_shader.h"
@@ -19,16 +20,7 @@ namespace phos {
 
 namespace {
 
-constexpr double kMaxPixels = 268435456.;  // 2^28
 constexpr std::size_t kChunk = 1024;
-
-/// Offsets inside the pixel: the centre for one sample, else the additive R2 sequence about it.
-Vec2 subpixel(int sample, int samples) {
-  if (samples == 1) return {0.5f, 0.5f};
-  const double x = 0.5 + 0.7548776662466927 * sample;
-  const double y = 0.5 + 0.5698402909980532 * sample;
-  return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
-}
 
 /// Adds its own life to an entry of a JSON object.
 class Stopwatch {
@@ -135,17 +127,7 @@ void declare_options(Options& options, RenderOptions& r) {
 }
 
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
-  const double aspect =
-      camera.aspect > 0 && std::isfinite(camera.aspect) ? static_cast<double>(camera.aspect) : 1;
-  const auto rounded = [](double pixels) {
-    return static_cast<std::int64_t>(std::fmin(std::fmax(std::round(pixels), 1), 1e9));
-  };
-  if (r.width == 0 && r.height == 0) (aspect >= 1 ? r.width : r.height) = 1000;
-  if (r.width == 0) r.width = rounded(static_cast<double>(r.height) * aspect);
-  if (r.height == 0) r.height = rounded(static_cast<double>(r.width) / aspect);
-  if (static_cast<double>(r.width) * static_cast<double>(r.height) > kMaxPixels)
-    throw Error(ExitCode::usage, "--width",
-                text(r.width, " x ", r.height, " pixels are too many; at most 2^28"));
+  resolve_size(camera, kPictureSide, r.width, r.height);
   if (!r.accuracy) r.accuracy = cache.accuracy;
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
@@ -213,7 +195,7 @@ class Painter {
 
   GBuffer see(int s) {
     const Stopwatch watch(result_.seconds, "visible surface");
-    const Vec2 where = subpixel(s, samples_);
+    const Vec2 where = subpixel_offset(s);
     return by_gl() ? gl_->rasterise(camera_, width_, height_, where)
                    : trace_gbuffer(rays_, camera_, width_, height_, where);
   }
@@ -232,7 +214,7 @@ class Painter {
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
     if (options_.direct == DirectBy::interleaved) {
       const Stopwatch watch(result_.seconds, "interleaved direct light");
-      return interleaved_light(rays_, shading_, gbuffer, pixel_rays_, subpixel(s, samples_),
+      return interleaved_light(rays_, shading_, gbuffer, pixel_rays_, subpixel_offset(s),
                                shader_.lamp_rays_of_each(), s, samples_, options_.seed);
     }
     std::vector<SharedLight> shared;
@@ -261,7 +243,7 @@ class Painter {
   void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats,
              const std::vector<SharedLight>& shared) {
     const Stopwatch watch(result_.seconds, "shading");
-    const Vec2 where = subpixel(s, samples_);
+    const Vec2 where = subpixel_offset(s);
     run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
       if (!gbuffer.covered(i)) return;
       const Ray ray = ray_of(i, where);
@@ -278,7 +260,7 @@ class Painter {
     run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
       const std::size_t i = edges_[e];
       for (int s = samples_; s < most_samples(); ++s) {
-        const Ray ray = ray_of(i, subpixel(s, most_samples()));
+        const Ray ray = ray_of(i, subpixel_offset(s));
         SurfacePoint point;
         if (trace(rays_, ray, point))
           layers_.add(i, shader_.shade({i, s - samples_, true}, ray, point, {}, nullptr, result));
