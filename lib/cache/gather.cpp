@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "cache/direct_light.h"
-#include "cache/record_of.h"
+#include "cache/hemisphere_record.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
@@ -15,9 +14,6 @@ constexpr std::int64_t kFirstPass = 64;  // rays; later passes have as many as a
 // Random streams number a pass and a ring in 16 bits.
 constexpr int kRingBits = 11;
 constexpr std::uint32_t kMostPasses = 1u << (16 - kRingBits);
-/// A ray that hits a surface of this cosine or more with the site's, before it has left the site's own
-/// rounding, has hit the site's own surface.
-constexpr float kOwnSurface = 0.5f;
 
 /// 16 random bits as a place in a cell, in (0, 1); 1/2 on the mean.
 float in_cell(std::uint32_t bits) { return (static_cast<float>(bits) + 0.5f) * 0x1p-16f; }
@@ -41,37 +37,20 @@ void each_in_tiles(const Hemisphere& h, const Visit& visit) {
         for (int k = slice; k < std::min(slice + kSide, h.slices); ++k) visit(h.at(j, k));
 }
 
-/// Parallel surfaces this far apart, in radii, are told apart by record_in_front (which allows half of it).
-constexpr float kNextSurface = 0.02f;
-
 }  // namespace
 
-struct GatherEstimator::Impl {
+struct GatherEstimator::Impl : HemisphereRecords {
+  using HemisphereRecords::HemisphereRecords;
   struct Worker;
-  const RayScene& rays;
-  const Luminaires& lights;
-  RecordOptions options;
-  std::uint64_t seed;
-  HitLight light;
-
-  Impl(const RayScene& r, const Luminaires& l, const GatherSource& source, const RecordOptions& resolved,
-       std::uint64_t own_seed)
-      : rays(r), lights(l), options(resolved), seed(own_seed), light(r, l, source, resolved, own_seed) {
-    PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");
-  }
 
   void aim(const RecordSite& site, std::int64_t count, std::uint32_t pass, Hemisphere& h) const;
-  void clear_own_surface(const RecordSite& site, float lift_m, Hemisphere& h) const;
   std::size_t sample_all(const GatherEstimator& self, const RecordSite& site, Worker& worker) const;
-  float above_next_surface_m(const RecordSite& site, float lift_m, float radius_m) const;
 };
 
-struct GatherEstimator::Impl::Worker : Estimator::Worker {
-  std::unique_ptr<HitLight::Worker> light;
+struct GatherEstimator::Impl::Worker : HemisphereWorker {
   std::vector<Ray> rays;         // tile by tile
   std::vector<Hit> found, hits;  // tile by tile; in order
   std::vector<Hemisphere> passes;
-  std::vector<LampSample> lamps;
 };
 
 /// Directions through the cells of equal projected solid angle, jittered within each.
@@ -105,15 +84,6 @@ void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std:
   }
 }
 
-/// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.
-void GatherEstimator::Impl::clear_own_surface(const RecordSite& site, float lift_m, Hemisphere& h) const {
-  for (std::size_t i = 0; i < h.size(); ++i) {
-    const float height_m = -glm::dot(h.direction[i], h.hit_normal[i]) * h.distance_m[i];
-    if (height_m > 2 * lift_m || glm::dot(h.hit_normal[i], site.normal) < kOwnSurface) continue;
-    h.radiance[i] = Rgb(0), h.distance_m[i] = kInfinity, h.hit_normal[i] = -h.direction[i];
-  }
-}
-
 void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h,
                              Estimator::Worker& worker) const {
   auto& w = static_cast<Impl::Worker&>(worker);
@@ -128,7 +98,7 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   const Hit* next = w.found.data();
   each_in_tiles(h, [&](std::size_t i) { w.hits[i] = *next++; });
   impl_->light.shade(origin, w.hits, site.item, pass, h, *w.light);
-  impl_->clear_own_surface(site, from.error_m, h);
+  clear_own_surface(from.error_m, h);
 }
 
 /// Hemispheres until they are rays enough; returns how many passes they are.
@@ -160,14 +130,6 @@ std::size_t GatherEstimator::Impl::sample_all(const GatherEstimator& self, const
   }
 }
 
-/// A lookup on a parallel surface not far below must be able to tell that this record lies in front of it.
-float GatherEstimator::Impl::above_next_surface_m(const RecordSite& site, float lift_m,
-                                                  float radius_m) const {
-  Hit hit;
-  const Ray ray{site.position, -site.normal, 2 * lift_m, kNextSurface * radius_m};
-  return ray.t_max_m > ray.t_min_m && rays.intersect(ray, hit) ? hit.distance_m / kNextSurface : radius_m;
-}
-
 GatherEstimator::GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
                                  const RecordOptions& resolved, std::uint64_t seed)
     : impl_(std::make_unique<Impl>(rays, lights, source, resolved, seed)) {}
@@ -181,29 +143,16 @@ std::unique_ptr<Estimator::Worker> GatherEstimator::make_worker() const {
 
 Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
   auto& w = static_cast<Impl::Worker&>(worker);
-  const RecordOptions& options = impl_->options;
   w.light->hidden_radiance = Rgb(0), w.light->hidden = 0;
   const std::size_t count = impl_->sample_all(*this, site, w);
   const std::span<const Hemisphere> passes(w.passes.data(), count);
-  PlaceLight light = light_of(passes, options);
+  PlaceLight light = light_of(passes, impl_->options);
   if (light.irradiance == Rgb(0) && w.light->hidden > 0) {
     float rays = 0;
     for (const Hemisphere& h : passes) rays += static_cast<float>(h.size());
     light.stderr_lx = w.light->hidden_radiance / static_cast<float>(w.light->hidden) * (kPi / rays);
   }
-  const SurfacePoint place = receiver(impl_->rays.scene(), site.position, site.normal);
-  if (options.paths == Quantity::all) {
-    RandomStream random(impl_->seed, Stage::direct_light, site.item);
-    const int samples = static_cast<int>(options.light_samples);
-    sample_lamps(impl_->rays, impl_->lights, place, samples, random, w.lamps);
-    add_lamps(w.lamps, samples, impl_->lights, site.normal, options, light);
-  }
-  Made made = record_of(site, light, options);
-  float& radius_m = made.record.radius_m;
-  radius_m = std::min(radius_m, impl_->above_next_surface_m(site, place.error_m, radius_m));
-  w.counters.merge(w.light->counters);
-  w.light->counters = Counters();
-  return made;
+  return impl_->record(site, light, w);
 }
 
 }  // namespace phos

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cache/next_surface.h"
 #include "core/error.h"
 
 namespace phos {
@@ -184,8 +185,8 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   if (s.gathered.zone.size() > 0) record.radius_m = std::min(record.radius_m, seen);
   fill(place, zone, narrow, s, record);
   const float least = std::min(record.radius_m, kReach * seen);
-  record.radius_m =
-      std::max(least, std::min(record.radius_m, surroundings_.above_next_surface_m(place, record.radius_m)));
+  const float next_m = height_over_next_m(rays_, p, place.frame.z, 4 * place.rounding_m, record.radius_m);
+  record.radius_m = std::max(least, std::min(record.radius_m, next_m * (1 / kNextSurface)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
   for (int c = 0; c < 3; ++c) {

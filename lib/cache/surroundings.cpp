@@ -94,10 +94,4 @@ float Surroundings::zone_radius_m(const ZonePlace& place, const NearPhotons& nea
   return std::max(radius, 64 * place.rounding_m);
 }
 
-float Surroundings::above_next_surface_m(const ZonePlace& place, float radius_m) const {
-  Hit hit;
-  const Ray ray{place.p, -place.frame.z, 4 * place.rounding_m, 0.02f * radius_m};
-  return ray.t_max_m > ray.t_min_m && rays_.intersect(ray, hit) ? 50 * hit.distance_m : radius_m;
-}
-
 }  // namespace phos

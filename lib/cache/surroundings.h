@@ -34,10 +34,6 @@ class Surroundings {
   /// promises.
   float zone_radius_m(const ZonePlace& place, const NearPhotons& near, float distance_m) const;
 
-  /// A lookup on a parallel surface not far below must be able to tell that a record lies in front of it
-  /// (record_in_front allows 1 % of R): the radius that a surface below leaves of radius_m.
-  float above_next_surface_m(const ZonePlace& place, float radius_m) const;
-
  private:
   float by_rays_m(const ZonePlace& place, std::uint64_t item) const;
   float by_photons_m(const ZonePlace& place, std::uint32_t left_out, float limit_m, NearPhotons& near) const;

@@ -1,0 +1,38 @@
+// What estimators that look over a hemisphere have in common: light where they look, and the record of it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cache/gather.h"
+#include "cache/record_of.h"
+
+namespace phos {
+
+/// Memory and counts of one thread.
+struct HemisphereWorker : Estimator::Worker {
+  std::unique_ptr<HitLight::Worker> light;
+  std::vector<LampSample> lamps;
+};
+
+/// Const, usable from any thread; holds references.
+struct HemisphereRecords {
+  const RayScene& rays;
+  const Luminaires& lights;
+  RecordOptions options;
+  std::uint64_t seed;
+  HitLight light;
+
+  HemisphereRecords(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                    const RecordOptions& resolved, std::uint64_t seed);
+
+  /// The record of what hemispheres at a site have shown; with paths = all, direct light is added from
+  /// samples of the lamps. Passes the counts of `worker.light` on to the worker.
+  Made record(const RecordSite& site, PlaceLight around, HemisphereWorker& worker) const;
+};
+
+/// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.
+/// Clears what lies no higher than twice `lift_m`, the rounding of the site, and faces about the same way.
+void clear_own_surface(float lift_m, Hemisphere& h);
+
+}  // namespace phos
