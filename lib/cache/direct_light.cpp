@@ -54,11 +54,8 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
   }
 }
 
-DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
-                                   const SurfacePoint& receiver, int samples, RandomStream& random) {
-  std::vector<LampSample> lamps;
-  sample_lamps(rays, lights, receiver, samples, random, lamps);
-  DVec3 sum(0), variance(0);
+LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights) {
+  LampSum sum;
   const double n = std::max(samples, 1);
   for (std::size_t i = 0; i < lamps.size();) {
     // The samples of one light follow each other; those that are dark or hidden count as zeros.
@@ -68,11 +65,19 @@ DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& light
       const DVec3 part(lamps[i].irradiance);
       mean += part, squares += part * part;
     }
-    sum += mean;
+    sum.irradiance += mean;
     if (n > 1 && lights[light].kind == Light::Kind::area)
-      variance += glm::max(n * squares - mean * mean, DVec3(0)) / (n - 1);
+      sum.variance += glm::max(n * squares - mean * mean, DVec3(0)) / (n - 1);
   }
-  return {Rgb(sum), Rgb(glm::sqrt(variance))};
+  return sum;
+}
+
+DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
+                                   const SurfacePoint& receiver, int samples, RandomStream& random) {
+  std::vector<LampSample> lamps;
+  sample_lamps(rays, lights, receiver, samples, random, lamps);
+  const LampSum sum = sum_of(lamps, samples, lights);
+  return {Rgb(sum.irradiance), Rgb(glm::sqrt(sum.variance))};
 }
 
 }  // namespace phos

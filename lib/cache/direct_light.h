@@ -1,6 +1,7 @@
 // Light straight from the lamps at a point.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/random.h"
@@ -26,9 +27,16 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
 
+/// Sum of such samples of one point, and its variance by channel: that of the area lights' samples, as if
+/// they were independent (it errs on the high side).
+struct LampSum {
+  DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
+};
+LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights);
+
 struct DirectIrradiance {
   Rgb irradiance{0};  ///< lx
-  Rgb stderr_lx{0};   ///< of the area lights' samples (as if they were independent: it errs on the high side)
+  Rgb stderr_lx{0};   ///< root of LampSum::variance
 };
 DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
                                    const SurfacePoint& receiver, int samples, RandomStream& random);

@@ -60,46 +60,35 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
 void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires& lights, const Vec3& n,
                const RecordOptions& resolved, PlaceLight& light) {
   const auto least_m = static_cast<float>(*resolved.min_radius_m);
-  const double count = std::max(samples, 1);
   Gradients gradients;
-  DVec3 sum(0), variance(0);
   double brightness_per_m = 0;
   float nearest_m = kInfinity;
-  for (std::size_t i = 0; i < lamps.size();) {
-    // The samples of one light follow each other; those that are dark or hidden count as zeros.
-    const std::uint32_t own = lamps[i].light;
-    const bool area = lights[own].kind == Light::Kind::area;
-    DVec3 mean(0), squares(0);
-    for (; i < lamps.size() && lamps[i].light == own; ++i) {
-      const LampSample& lamp = lamps[i];
-      const DVec3 part(lamp.irradiance);
-      mean += part, squares += part * part;
-      brightness_per_m +=
-          static_cast<double>(luminance(lamp.irradiance)) / static_cast<double>(lamp.distance_m);
-      nearest_m = std::min(nearest_m, lamp.distance_m);
-      const Vec3& w = lamp.direction;
-      Vec3 change = 3.f * w;
-      if (area) change = lamp.normal / std::max(kLeastCosine, -glm::dot(lamp.normal, w)) + 4.f * w;
-      const Vec3 translation = (change - glm::dot(change, n) * n) / std::max(lamp.distance_m, least_m);
-      const Vec3 rotation = glm::cross(n, w) / std::max(kLeastCosine, glm::dot(n, w));
-      for (int c = 0; c < 3; ++c) {
-        gradients.rotation[c] += lamp.irradiance[c] * rotation;
-        gradients.translation[c] += lamp.irradiance[c] * translation;
-      }
+  for (const LampSample& lamp : lamps) {
+    brightness_per_m +=
+        static_cast<double>(luminance(lamp.irradiance)) / static_cast<double>(lamp.distance_m);
+    nearest_m = std::min(nearest_m, lamp.distance_m);
+    const Vec3& w = lamp.direction;
+    Vec3 change = 3.f * w;
+    if (lights[lamp.light].kind == Light::Kind::area)
+      change = lamp.normal / std::max(kLeastCosine, -glm::dot(lamp.normal, w)) + 4.f * w;
+    const Vec3 translation = (change - glm::dot(change, n) * n) / std::max(lamp.distance_m, least_m);
+    const Vec3 rotation = glm::cross(n, w) / std::max(kLeastCosine, glm::dot(n, w));
+    for (int c = 0; c < 3; ++c) {
+      gradients.rotation[c] += lamp.irradiance[c] * rotation;
+      gradients.translation[c] += lamp.irradiance[c] * translation;
     }
-    sum += mean;
-    if (area && count > 1) variance += glm::max(count * squares - mean * mean, DVec3(0)) / (count - 1);
   }
+  const LampSum sum = sum_of(lamps, samples, lights);
   const double around = static_cast<double>(luminance(light.irradiance));
-  const double straight = static_cast<double>(luminance(Rgb(sum)));
+  const double straight = static_cast<double>(luminance(Rgb(sum.irradiance)));
   if (resolved.radius == RadiusRule::least) {
     light.distance_m = std::min(light.distance_m, nearest_m);
   } else if (straight > 0) {
     const double per_m = around / static_cast<double>(light.distance_m) + brightness_per_m;
     light.distance_m = static_cast<float>((around + straight) / per_m);
   }
-  light.irradiance += Rgb(sum);
-  light.stderr_lx = Rgb(glm::sqrt(DVec3(light.stderr_lx) * DVec3(light.stderr_lx) + variance));
+  light.irradiance += Rgb(sum.irradiance);
+  light.stderr_lx = Rgb(glm::sqrt(DVec3(light.stderr_lx) * DVec3(light.stderr_lx) + sum.variance));
   add(light.gradients, gradients, 1);
 }
 
