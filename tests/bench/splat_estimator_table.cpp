@@ -5,8 +5,10 @@
 // seed, so that its mean over the checks is one sample of the bias. '!' marks a bias beyond its interval (by
 // chance: one row in twenty). Of a bias of photons, "curvature" is known: the mean of the closed form over
 // their zone is not what it is in the middle; '!' in "unexplained" marks what is left when that is
-// subtracted. The last columns tell of the check of which most is left. All checks are well inside of
-// surfaces and far from shadow edges: photon_border_table tells what happens there.
+// subtracted. The last columns tell of the check of which most is left (by chance: one check in twenty is
+// marked). What rays state is their own error: noise of the photons behind their coarse cache is in the root
+// mean square, not in it. All checks are well inside of surfaces and far from shadow edges:
+// photon_border_table tells what happens there.
 //   build/tests/splat_estimator_table > estimators.csv
 #include <algorithm>
 #include <cmath>
