@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cache/next_surface.h"
+#include "cache/record_of.h"
 #include "core/error.h"
 
 namespace phos {
@@ -142,14 +143,8 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
   if (known.z2 > kOccludedZ2 && zone.kind != ZoneKind::kernel) {
     s.counters.count("records at an occlusion gradient");
   }
-  const float brightest = max_component(record.irradiance);
-  float within = record.radius_m;  // KBPv06: where the gradient would change a channel by itself
-  for (int c = 0; c < 3; ++c) {
-    const float slope = glm::length(known.analytic.translation[c]);
-    if (record.irradiance[c] > 0.01f * brightest && slope * within > record.irradiance[c]) {
-      within = record.irradiance[c] / slope;
-    }
-  }
+  const float within =
+      within_gradient_m(record.irradiance, known.analytic.translation, record.radius_m);  // KBPv06
   record.radius_m = std::max(within, kReach * zone_radius_m / a);
   const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
@@ -188,15 +183,8 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   const float next_m = height_over_next_m(rays_, p, place.frame.z, 4 * place.rounding_m, record.radius_m);
   record.radius_m = std::max(least, std::min(record.radius_m, next_m * (1 / kNextSurface)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
-  bool finite = is_finite(record.irradiance) && is_finite(record.stderr_lx);
-  for (int c = 0; c < 3; ++c) {
-    finite = finite && is_finite(record.rotation_gradient[c]) && is_finite(record.translation_gradient[c]);
-  }
-  if (!finite) {
-    throw Error(ExitCode::numerical, "",
-                text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
-                     ") m exceeds the range of numbers; give the lights or the scene other units"));
-  }
+  require_finite(p, record.irradiance, record.stderr_lx, record.rotation_gradient,
+                 record.translation_gradient);
   return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};
 }
 

@@ -13,12 +13,6 @@ constexpr float kChannelCounts = 0.01f;
 /// Samples of lamps hold the cosines that divide them here: only rounding is kept out.
 constexpr float kLeastCosine = 1e-6f;
 
-bool finite_gradients(const Gradients& g) {
-  bool finite = true;
-  for (int c = 0; c < 3; ++c) finite = finite && is_finite(g.rotation[c]) && is_finite(g.translation[c]);
-  return finite;
-}
-
 void add(Gradients& sum, const Gradients& g, float weight) {
   for (int c = 0; c < 3; ++c) {
     sum.rotation[c] += weight * g.rotation[c], sum.translation[c] += weight * g.translation[c];
@@ -92,24 +86,37 @@ void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires&
   add(light.gradients, gradients, 1);
 }
 
+float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient)[3], float radius_m) {
+  const float brightest = max_component(irradiance);
+  for (int c = 0; c < 3; ++c) {
+    const float slope = glm::length(translation_gradient[c]);
+    if (irradiance[c] > kChannelCounts * brightest && slope * radius_m > irradiance[c])
+      radius_m = irradiance[c] / slope;
+  }
+  return radius_m;
+}
+
+void require_finite(const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
+                    const Vec3 (&rotation_gradient)[3], const Vec3 (&translation_gradient)[3]) {
+  bool finite = is_finite(irradiance) && is_finite(stderr_lx);
+  for (int c = 0; c < 3; ++c)
+    finite = finite && is_finite(rotation_gradient[c]) && is_finite(translation_gradient[c]);
+  if (finite) return;
+  throw Error(ExitCode::numerical, "",
+              text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
+                   ") m exceeds the range of numbers; give the lights or the scene other units"));
+}
+
 Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved) {
   const Vec3& p = site.position;
-  if (!is_finite(light.irradiance) || !is_finite(light.stderr_lx) || !finite_gradients(light.gradients)) {
-    throw Error(ExitCode::numerical, "",
-                text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
-                     ") m exceeds the range of numbers; give the lights or the scene other units"));
-  }
+  require_finite(p, light.irradiance, light.stderr_lx, light.gradients.rotation, light.gradients.translation);
   IrradianceRecord record;
   record.position = p, record.normal = site.normal;
   record.irradiance = light.irradiance, record.stderr_lx = light.stderr_lx;
   record.distance_m = light.distance_m;
-  float radius_m = std::min(light.distance_m, static_cast<float>(*resolved.max_radius_m));
-  const float brightest = max_component(light.irradiance);
-  for (int c = 0; c < 3; ++c) {
-    const float slope = glm::length(light.gradients.translation[c]);
-    if (light.irradiance[c] > kChannelCounts * brightest && slope * radius_m > light.irradiance[c])
-      radius_m = light.irradiance[c] / slope;
-    if (resolved.gradients == GradientMode::none) continue;
+  const float most_m = std::min(light.distance_m, static_cast<float>(*resolved.max_radius_m));
+  const float radius_m = within_gradient_m(light.irradiance, light.gradients.translation, most_m);
+  for (int c = 0; c < 3 && resolved.gradients != GradientMode::none; ++c) {
     record.rotation_gradient[c] = light.gradients.rotation[c];
     record.translation_gradient[c] = light.gradients.translation[c];
   }

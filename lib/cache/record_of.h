@@ -30,6 +30,14 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
 void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires& lights, const Vec3& n,
                const RecordOptions& resolved, PlaceLight& light);
 
+/// How much of radius_m the gradient of irradiance leaves, m: to where it would change a channel by the
+/// channel's own value (A7). Channels much dimmer than the brightest have no say.
+float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient)[3], float radius_m);
+
+/// Throws Error(numerical) unless all that was found at p is finite.
+void require_finite(const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
+                    const Vec3 (&rotation_gradient)[3], const Vec3 (&translation_gradient)[3]);
+
 /// The record of such a place; its radius is the distance, at most max_radius_m, and no more than where the
 /// gradient would change a channel by its own value (A7). Throws Error(numerical) where a value exceeds the
 /// range of numbers.
