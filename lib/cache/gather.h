@@ -19,8 +19,9 @@ namespace phos {
 /// What lights the places that rays find, besides the lamps.
 struct GatherSource {
   const RecordTree* indirect = nullptr;  ///< cache of indirect light; null: none, rays show the first bounce
+  const FarRecords* far = nullptr;       ///< answers where that cache has no record near enough (counted)
   const Estimator* fallback =
-      nullptr;  ///< estimates indirect light where that cache has no record (counted); null: dark
+      nullptr;  ///< estimates indirect light where neither has a record (counted); null: dark
   bool holds_direct =
       false;  ///< the cache holds light straight from the lamps too: none is sampled where rays land
 };
@@ -53,7 +54,7 @@ class HitLight {
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
-    std::uint64_t without_record = 0;             // since counted
+    std::uint64_t beyond_reach = 0, without_record = 0;  // since counted
   };
   std::unique_ptr<Worker> make_worker() const;
 

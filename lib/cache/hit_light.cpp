@@ -13,6 +13,7 @@ namespace phos {
 namespace {
 
 constexpr const char* kWithoutRecord = "gathered places without a record";
+constexpr const char* kBeyondReach = "gathered places beyond the reach of records";
 // Walks over gloss and mirrors end by Russian roulette from this reflection on.
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
@@ -118,6 +119,11 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   if (source.indirect) {
     const Interpolated cached = source.indirect->interpolate(point.position, point.smooth_normal);
     if (cached.weight > 0) return cached.irradiance;
+    if (source.far) {
+      const Interpolated beyond = source.far->interpolate(point.position, point.smooth_normal);
+      ++worker.beyond_reach;
+      if (beyond.weight > 0) return beyond.irradiance;
+    }
     ++worker.without_record;
   }
   if (!source.fallback) return Rgb(0);
@@ -305,7 +311,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
       worker.hidden_radiance += radiance, ++worker.hidden;
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
-  worker.without_record = 0;
+  if (worker.beyond_reach > 0) worker.counters.count(kBeyondReach, worker.beyond_reach);
+  worker.without_record = worker.beyond_reach = 0;
   if (worker.fallback) {
     worker.counters.merge(worker.fallback->counters);
     worker.fallback->counters = Counters();

@@ -52,13 +52,13 @@ struct RecordOptions {
   std::int64_t distance_rays = 32;                     ///< 0: distances from photons alone
   std::int64_t probes = 128;
   // Rays.
-  std::int64_t rays = 1024;     ///< of a hemisphere, at most
+  std::int64_t rays = 512;      ///< of a hemisphere, at most
   std::optional<double> error;  ///< relative standard error at which a hemisphere has rays enough; empty: all
   std::int64_t gather_bounces =
       -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
   GatherFrom gather_from = GatherFrom::cache;
   double source_accuracy = 0.4;       ///< a of the coarse cache
-  std::int64_t source_photons = 300;  ///< that a zone of the coarse cache should hold at least
+  std::int64_t source_photons = 100;  ///< that a zone of the coarse cache should hold at least
   std::int64_t light_samples = 64;    ///< with paths = all: shadow rays to each area light
   std::int64_t raster_side = 64;      ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;

@@ -9,7 +9,7 @@ namespace phos {
 namespace {
 
 /// Photons tried as places: a coarse cache needs far fewer records than that.
-constexpr std::int64_t kCandidates = 50000;
+constexpr std::int64_t kCandidates = 400000;
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none.
 constexpr double kReadBeyond = 1.5;
 
@@ -20,7 +20,7 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   coarse.leak_test = LeakTest::none;
   coarse.accuracy = fine.source_accuracy;
   coarse.min_photons = fine.source_photons;
-  coarse.max_photons = std::max(fine.max_photons, 4 * fine.source_photons);
+  coarse.max_photons = 4 * fine.source_photons;
   coarse.paths = Quantity::indirect;
   return coarse;
 }
@@ -35,25 +35,30 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
   IrradianceCache cache;
   cache.accuracy = coarse.accuracy;
   Counters own;
-  place_records(cache, *photons_, rays, coarse, {},
+  // One pass: what neighbours uncover is within reach of records that are read beyond theirs.
+  place_records(cache, *photons_, rays, coarse, {.passes = 1},
                 photon_candidates(photons, coarse.paths, seed, kCandidates), own);
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
-  for (const IrradianceRecord& r : cache.records) tree_->insert(r);
+  read(rays, cache);
 }
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
                          const RecordOptions& resolved, std::uint64_t seed) {
   if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * earlier.accuracy);
-  for (const IrradianceRecord& r : earlier.records) tree_->insert(r);
+  read(rays, earlier);
   holds_direct_ = earlier.quantity == "all";
+}
+
+void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
+  for (const IrradianceRecord& r : cache.records) tree_->insert(r);
+  far_ = std::make_unique<FarRecords>(*tree_);
 }
 
 CoarseLevel::CoarseLevel() = default;
 CoarseLevel::~CoarseLevel() = default;
 CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
 
-GatherSource CoarseLevel::source() const { return {tree_.get(), photons_.get(), holds_direct_}; }
+GatherSource CoarseLevel::source() const { return {tree_.get(), far_.get(), photons_.get(), holds_direct_}; }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 
 }  // namespace phos

@@ -33,7 +33,9 @@ class CoarseLevel {
   std::size_t records() const;
 
  private:
+  void read(const RayScene& rays, const IrradianceCache& cache);
   std::unique_ptr<RecordTree> tree_;
+  std::unique_ptr<FarRecords> far_;
   std::unique_ptr<Estimator> photons_;
   bool holds_direct_ = false;
 };
