@@ -86,7 +86,7 @@ class Sight {
 };
 
 /// Placement comes by several times; the sites of a small picture are found once.
-constexpr std::size_t kRemembered = std::size_t{1} << 20;
+constexpr std::size_t kRemembered = std::size_t{1} << 22;
 
 template <class Sites>
 Candidates remember(std::size_t count, const Sites& sites_of) {
