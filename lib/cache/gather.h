@@ -79,6 +79,7 @@ Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const
 /// direct light at the record is added from samples of the lamps. A record whose rays found no light at all
 /// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
 /// what the rays hit tell; 0 where none was.
+/// The error stated is that of the rays: the noise of the photons behind the source is not in it.
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

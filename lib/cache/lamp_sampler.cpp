@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cache/lamp_extent.h"
 #include "core/sampling.h"
 #include "scene/offset.h"
 
@@ -41,24 +42,9 @@ LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   if (light.kind == Light::Kind::point) lamp.front = Vec3(0);
   if (light.kind == Light::Kind::spot) lamp.spot = light;
   if (light.kind != Light::Kind::area) return lamp;
-  const Instance& instance = scene.instance[light.instance];
-  const std::uint32_t end = instance.first_triangle + instance.triangle_count;
-  Bounds bounds;
-  for (std::uint32_t t = instance.first_triangle; t < end; ++t)
-    for (const std::uint32_t v : scene.triangle[t].v) bounds.include(scene.position[v]);
-  lamp.centre = bounds.centre();
-  lamp.radius_m = 0.501f * bounds.diagonal_m();
-  lamp.front = geometric_normal(scene, instance.first_triangle);
-  bool plane = !scene.material[instance.material].double_sided;
-  for (std::uint32_t t = instance.first_triangle; t < end && plane; ++t) {
-    plane = glm::dot(geometric_normal(scene, t), lamp.front) > 0.999f;
-    for (const std::uint32_t v : scene.triangle[t].v) {
-      const float off = std::fabs(glm::dot(scene.position[v] - lamp.centre, lamp.front));
-      plane = plane && off < 1e-4f * lamp.radius_m;
-    }
-  }
-  if (!plane) lamp.front = Vec3(0);
-  lamp.strength = luminance(light.flux_lm) / (plane ? kPi : 4 * kPi);
+  const LampExtent extent = extent_of(scene, light);
+  lamp.centre = extent.centre, lamp.radius_m = extent.radius_m, lamp.front = extent.front;
+  lamp.strength = luminance(light.flux_lm) / (lamp.front != Vec3(0) ? kPi : 4 * kPi);
   return lamp;
 }
 

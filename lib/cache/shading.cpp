@@ -26,34 +26,13 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
                  const ShadingOptions& options)
     : rays_(rays), lights_(lights), records_(records), far_(records), options_(options) {
-  for (std::size_t i = 0; i < lights.size(); ++i) extent_.push_back(extent_of(lights[i]));
-}
-
-Shading::Extent Shading::extent_of(const Light& light) const {
-  Extent extent;
-  if (light.kind != Light::Kind::area) return extent;
-  const Scene& scene = rays_.scene();
-  const Instance& instance = scene.instance[light.instance];
-  const std::uint32_t end = instance.first_triangle + instance.triangle_count;
-  Bounds bounds;
-  for (std::uint32_t t = instance.first_triangle; t < end; ++t)
-    for (const std::uint32_t v : scene.triangle[t].v) bounds.include(scene.position[v]);
-  extent.centre = bounds.centre();
-  extent.radius_m = 0.5f * bounds.diagonal_m() * 1.001f;
-  extent.front = geometric_normal(scene, instance.first_triangle);
-  float thickness_m = 0;
-  for (std::uint32_t t = instance.first_triangle; t < end; ++t) {
-    if (glm::dot(geometric_normal(scene, t), extent.front) < 0.999f) extent.front = Vec3(0);
-    for (const std::uint32_t v : scene.triangle[t].v)
-      thickness_m =
-          std::max(thickness_m, std::fabs(glm::dot(scene.position[v] - extent.centre, extent.front)));
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const bool area = lights[i].kind == Light::Kind::area;
+    extent_.push_back(area ? extent_of(rays.scene(), lights[i]) : LampExtent());
   }
-  if (thickness_m > 1e-4f * extent.radius_m || scene.material[instance.material].double_sided)
-    extent.front = Vec3(0);
-  return extent;
 }
 
-bool Shading::out_of_sight(const Extent& lamp, const SurfacePoint& point) const {
+bool Shading::out_of_sight(const LampExtent& lamp, const SurfacePoint& point) const {
   const Vec3 way = lamp.centre - point.position;
   if (glm::dot(way, point.normal) < -lamp.radius_m || glm::dot(way, point.geometric_normal) < -lamp.radius_m)
     return true;

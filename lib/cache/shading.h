@@ -6,6 +6,7 @@
 
 #include "cache/far_records.h"
 #include "cache/irradiance_cache.h"
+#include "cache/lamp_extent.h"
 #include "core/counters.h"
 #include "core/random.h"
 #include "scene/bsdf.h"
@@ -87,20 +88,14 @@ class Shading {
                RandomStream& random, ShadingLog& log) const;
 
  private:
-  /// Where a lamp lies: it lights nothing that looks away from all of it.
-  struct Extent {
-    Vec3 centre{0};
-    float radius_m = kInfinity;
-    Vec3 front{0};  ///< of a plane one-sided lamp; else 0
-  };
-  Extent extent_of(const Light& light) const;
-  bool out_of_sight(const Extent& lamp, const SurfacePoint& point) const;
+  /// A lamp lights nothing that looks away from all of it.
+  bool out_of_sight(const LampExtent& lamp, const SurfacePoint& point) const;
   const RayScene& rays_;
   const Luminaires& lights_;
   const RecordTree& records_;
   FarRecords far_;
   ShadingOptions options_;
-  std::vector<Extent> extent_;  // per light
+  std::vector<LampExtent> extent_;  // per light
 };
 
 }  // namespace phos

@@ -4,22 +4,13 @@
 #include "core/random.h"
 #include "splat/hemisphere_raster.h"
 #include "splat/raster_plane.h"
+#include "support/raster.h"
 #include "support/scenes.h"
 
 namespace phos::test {
 namespace {
 
 constexpr RasterBorder kBorders[] = {RasterBorder::none, RasterBorder::coverage, RasterBorder::stretch};
-
-RecordOptions options_of(const Scene& scene, Estimate estimate, RasterBorder border = RasterBorder::stretch) {
-  RecordOptions options;
-  options.estimate = estimate;
-  options.raster_border = border;
-  options.gather_bounces = 1;
-  options.rays = 8192;
-  options.resolve(scene.bounds.diagonal_m());
-  return options;
-}
 
 template <class OneEstimator>
 double irradiance_lx(const OneEstimator& estimator, Estimator::Worker& worker, const RecordSite& site) {
@@ -34,7 +25,7 @@ TEST(Raster, UniformLight) {
   const Luminaires lights(s.scene);
   const double truth = 50, covered = raster_plane(8, RasterBorder::none).covered;
   for (const RasterBorder border : kBorders) {
-    const RasterEstimator estimator(rays, lights, {}, options_of(s.scene, Estimate::raster, border), 1);
+    const RasterEstimator estimator(rays, lights, {}, raster_options(s.scene, Estimate::raster, border), 1);
     const auto worker = estimator.make_worker();
     double mean = 0;
     for (std::size_t i = 0; i < s.checks.size(); ++i)
@@ -64,7 +55,8 @@ TEST(Raster, AWallOnTheFloor) {
   const double truth = static_cast<double>(kAlbedo * kLux) * form;
   double error[3];
   for (int b = 0; b < 3; ++b) {
-    const RasterEstimator estimator(rays, lights, {}, options_of(scene, Estimate::raster, kBorders[b]), 1);
+    const RasterEstimator estimator(rays, lights, {}, raster_options(scene, Estimate::raster, kBorders[b]),
+                                    1);
     const auto worker = estimator.make_worker();
     error[b] = irradiance_lx(estimator, *worker, {{0, 0, kDistance}, {0, 1, 0}, 1}) / truth - 1;
   }
@@ -74,7 +66,7 @@ TEST(Raster, AWallOnTheFloor) {
   EXPECT_NEAR(error[2], 0, 0.02) << "stretched pixels see the wall";
   EXPECT_GT(std::fabs(error[1]), std::fabs(error[2]));
   // And rays agree with the closed form.
-  const GatherEstimator gather(rays, lights, {}, options_of(scene, Estimate::gather), 1);
+  const GatherEstimator gather(rays, lights, {}, raster_options(scene, Estimate::gather), 1);
   const auto worker = gather.make_worker();
   EXPECT_NEAR(irradiance_lx(gather, *worker, {{0, 0, kDistance}, {0, 1, 0}, 1}), truth, 0.02 * truth);
 }
@@ -85,7 +77,7 @@ TEST(Raster, StretchedBordersAreBest) {
   const Scene scene = cornell();
   const RayScene rays(scene);
   const Luminaires lights(scene);
-  const GatherEstimator gather(rays, lights, {}, options_of(scene, Estimate::gather), 1);
+  const GatherEstimator gather(rays, lights, {}, raster_options(scene, Estimate::gather), 1);
   const auto rays_worker = gather.make_worker();
   std::vector<RecordSite> sites;
   std::vector<double> truth;
@@ -100,7 +92,8 @@ TEST(Raster, StretchedBordersAreBest) {
   ASSERT_GT(sites.size(), 40u);
   double rms[3];
   for (int b = 0; b < 3; ++b) {
-    const RasterEstimator estimator(rays, lights, {}, options_of(scene, Estimate::raster, kBorders[b]), 1);
+    const RasterEstimator estimator(rays, lights, {}, raster_options(scene, Estimate::raster, kBorders[b]),
+                                    1);
     const auto worker = estimator.make_worker();
     double square = 0;
     for (std::size_t i = 0; i < sites.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "scene/load.h"
 #include "splat/hemisphere_raster.h"
+#include "support/raster.h"
 
 namespace {
 
@@ -37,22 +38,13 @@ struct Places {
         sites.push_back({point.position, point.smooth_normal, i});
     }
     truth_lx.resize(sites.size());
-    const GatherEstimator gather(*rays, *lights, {}, options(Estimate::gather, RasterBorder::none), 1);
+    const GatherEstimator gather(*rays, *lights, {},
+                                 test::raster_options(scene, Estimate::gather, RasterBorder::none), 1);
     parallel_chunks(sites.size(), 16, [&](std::size_t begin, std::size_t end) {
       const auto worker = gather.make_worker();
       for (std::size_t i = begin; i < end; ++i)
         truth_lx[i] = static_cast<double>(luminance(gather.make(sites[i], *worker).record.irradiance));
     });
-  }
-
-  RecordOptions options(Estimate estimate, RasterBorder border) const {
-    RecordOptions o;
-    o.estimate = estimate;
-    o.raster_border = border;
-    o.gather_bounces = 1;
-    o.rays = 8192;
-    o.resolve(scene.bounds.diagonal_m());
-    return o;
   }
 };
 
@@ -63,8 +55,9 @@ const Places& places() {
 
 void raster_border(benchmark::State& state) {
   const Places& p = places();
-  const RasterEstimator estimator(*p.rays, *p.lights, {},
-                                  p.options(Estimate::raster, static_cast<RasterBorder>(state.range(0))), 1);
+  const RasterEstimator estimator(
+      *p.rays, *p.lights, {},
+      test::raster_options(p.scene, Estimate::raster, static_cast<RasterBorder>(state.range(0))), 1);
   const auto worker = estimator.make_worker();
   double absolute = 0, relative = 0, truth = 0;  // sums of squares
   std::size_t lit = 0;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "image/image.h"
-#include "support/run.h"
+#include "support/refused.h"
 
 namespace {
 
@@ -14,16 +14,6 @@ using namespace phos;
 using namespace phos::test;
 
 const std::string kBox = data("cornell-measured.glb");
-
-void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& word) {
-  std::vector<std::string> words{"reference"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const auto run = run_tool(words);
-  EXPECT_EQ(run.code, code) << run.err;
-  EXPECT_TRUE(is_one_line(run.err)) << run.err;
-  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
-  EXPECT_TRUE(run.out.empty()) << run.out;
-}
 
 TEST(ReferenceTool, HelpAndVersion) {
   const auto help = run_tool({"reference", "--help"});
@@ -37,25 +27,25 @@ TEST(ReferenceTool, HelpAndVersion) {
 TEST(ReferenceTool, RefusesBadCommandLines) {
   const std::string out = scratch("reference-usage") + "/x.exr";
   EXPECT_EQ(run_tool({"reference"}).code, 2);
-  expect_refused({kBox}, 2, "-o");
-  expect_refused({kBox, "-o", out, "--samples", "0"}, 2, "samples");
-  expect_refused({kBox, "-o", out, "--error", "0"}, 2, "error");
-  expect_refused({kBox, "-o", out, "--no-such-option"}, 2, "no-such-option");
-  expect_refused({kBox, "-o", out, "--camera", "nobody", "--samples", "1"}, 2, "left-view");
+  expect_refused("reference", {kBox}, 2, "-o");
+  expect_refused("reference", {kBox, "-o", out, "--samples", "0"}, 2, "samples");
+  expect_refused("reference", {kBox, "-o", out, "--error", "0"}, 2, "error");
+  expect_refused("reference", {kBox, "-o", out, "--no-such-option"}, 2, "no-such-option");
+  expect_refused("reference", {kBox, "-o", out, "--camera", "nobody", "--samples", "1"}, 2, "left-view");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST(ReferenceTool, RefusesBadInput) {
   const std::string folder = scratch("reference-input"), out = folder + "/x.exr";
-  expect_refused({folder + "/none.glb", "-o", out}, 3, "none.glb");
+  expect_refused("reference", {folder + "/none.glb", "-o", out}, 3, "none.glb");
   spill(folder + "/text.glb", "not a scene at all\n");
-  expect_refused({folder + "/text.glb", "-o", out}, 3, "text.glb");
+  expect_refused("reference", {folder + "/text.glb", "-o", out}, 3, "text.glb");
   spill(folder + "/cut.glb", slurp(kBox).substr(0, 5000));
-  expect_refused({folder + "/cut.glb", "-o", out}, 3, "cut.glb");
-  expect_refused({kBox, "-o", folder + "/no/such/x.exr", "--samples", "1"}, 3, "x.exr");
+  expect_refused("reference", {folder + "/cut.glb", "-o", out}, 3, "cut.glb");
+  expect_refused("reference", {kBox, "-o", folder + "/no/such/x.exr", "--samples", "1"}, 3, "x.exr");
   spill(folder + "/p.csv", "1,2,3,0,1,0\n1,2\n");
-  expect_refused({kBox, "--points", folder + "/p.csv"}, 3, "p.csv:2");
-  expect_refused({kBox, "--points", folder + "/none.csv"}, 3, "none.csv");
+  expect_refused("reference", {kBox, "--points", folder + "/p.csv"}, 3, "p.csv:2");
+  expect_refused("reference", {kBox, "--points", folder + "/none.csv"}, 3, "none.csv");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

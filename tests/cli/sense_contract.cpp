@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "support/run.h"
+#include "support/refused.h"
 
 namespace {
 
@@ -15,16 +15,6 @@ using namespace phos::test;
 
 const std::string kBox = data("cornell-measured.glb");
 const std::string kHeader = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx\n";
-
-void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& word) {
-  std::vector<std::string> words{"sense"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const auto run = run_tool(words);
-  EXPECT_EQ(run.code, code) << run.err;
-  EXPECT_TRUE(is_one_line(run.err)) << run.err;
-  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
-  EXPECT_TRUE(run.out.empty()) << run.out;
-}
 
 /// The numbers of each line after the header.
 std::vector<std::vector<double>> rows_of(const std::string& csv) {
@@ -64,47 +54,52 @@ TEST(SenseTool, HelpAndVersion) {
 
 TEST(SenseTool, RefusesBadCommandLines) {
   EXPECT_EQ(run_tool({"sense"}).code, 2);
-  expect_refused({kBox, "--direct-only"}, 2, "--points");
-  expect_refused({kBox, "--direct-only", "--grid", "1"}, 2, "--mesh");
-  expect_refused({kBox, "--direct-only", "--grid", "1", "--mesh", "floor", "--height", "1"}, 2, "--mesh");
-  expect_refused({kBox, "--direct-only", "--grid", "0", "--height", "1"}, 2, "grid");
-  expect_refused({kBox, "--direct-only", "--points", "p", "--grid", "1", "--height", "1"}, 2, "--points");
-  expect_refused({kBox, "--direct-only", "--points", "p", "--height", "1"}, 2, "--height");
-  expect_refused({kBox, "--grid", "1", "--height", "1"}, 2, "no cache");
-  expect_refused({kBox, kBox, "--grid", "1", "--height", "1"}, 2, "one scene");
-  expect_refused({kBox, "--exact", "--direct-only", "--grid", "1", "--height", "1"}, 2, "--direct-only");
-  expect_refused({kBox, "--direct-only", "--grid", "0.1", "--mesh", "nobody"}, 2, "nobody");
-  expect_refused({kBox, "--direct-only", "--grid", "0.1", "--height", "1", "--samples", "9"}, 2, "samples");
+  expect_refused("sense", {kBox, "--direct-only"}, 2, "--points");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "1"}, 2, "--mesh");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "1", "--mesh", "floor", "--height", "1"}, 2,
+                 "--mesh");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0", "--height", "1"}, 2, "grid");
+  expect_refused("sense", {kBox, "--direct-only", "--points", "p", "--grid", "1", "--height", "1"}, 2,
+                 "--points");
+  expect_refused("sense", {kBox, "--direct-only", "--points", "p", "--height", "1"}, 2, "--height");
+  expect_refused("sense", {kBox, "--grid", "1", "--height", "1"}, 2, "no cache");
+  expect_refused("sense", {kBox, kBox, "--grid", "1", "--height", "1"}, 2, "one scene");
+  expect_refused("sense", {kBox, "--exact", "--direct-only", "--grid", "1", "--height", "1"}, 2,
+                 "--direct-only");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--mesh", "nobody"}, 2, "nobody");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "1", "--samples", "9"}, 2,
+                 "samples");
 }
 
 TEST(SenseTool, RefusesBadInput) {
   const std::string folder = scratch("sense-input"), p = folder + "/p.csv";
   const auto points = [&](const std::string& content, const std::string& word) {
     spill(p, content);
-    expect_refused({kBox, "--direct-only", "--points", p}, 3, word);
+    expect_refused("sense", {kBox, "--direct-only", "--points", p}, 3, word);
   };
   points("", "p.csv: is empty");
   points("x,y,z,nx,ny\n", "no column nz");
   points("x,y,z,nx,ny,nz\n1,2,3,0,1\n", "line 2");
   points("x,y,z,nx,ny,nz\r\n1,2,3,0,1,0\r\n1,2,nan,0,1,0\r\n", "line 3: column z");
   points("1 2 3 0 0 0\n", "normal is zero");
-  expect_refused({kBox, "--direct-only", "--points", "-"}, 3, "stdin: is empty");
-  expect_refused({kBox, "--direct-only", "--grid", "0.1", "--height", "0.3", "-o", "/dev/full"}, 3,
+  expect_refused("sense", {kBox, "--direct-only", "--points", "-"}, 3, "stdin: is empty");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "0.3", "-o", "/dev/full"}, 3,
                  "/dev/full");
-  expect_refused({kBox, "--direct-only", "--points", folder + "/none.csv"}, 3, "none.csv");
-  expect_refused({folder + "/none.glb", "--direct-only", "--points", p}, 3, "none.glb");
+  expect_refused("sense", {kBox, "--direct-only", "--points", folder + "/none.csv"}, 3, "none.csv");
+  expect_refused("sense", {folder + "/none.glb", "--direct-only", "--points", p}, 3, "none.glb");
 }
 
 TEST(SenseTool, RefusesWrongCaches) {
   const std::string& folder = box_folder();
-  expect_refused({kBox, folder + "/box.photons", "--grid", "0.1", "--height", "0.1"}, 3, "photons");
+  expect_refused("sense", {kBox, folder + "/box.photons", "--grid", "0.1", "--height", "0.1"}, 3, "photons");
   expect_refused(
-      {data("cornell-glossy22.glb"), folder + "/box.irradiance", "--grid", "0.1", "--height", "0.1"}, 4,
-      "scene");
-  expect_refused({kBox, folder + "/box.irradiance", "--direct-only", "--grid", "0.1", "--height", "0.1"}, 2,
+      "sense", {data("cornell-glossy22.glb"), folder + "/box.irradiance", "--grid", "0.1", "--height", "0.1"},
+      4, "scene");
+  expect_refused("sense",
+                 {kBox, folder + "/box.irradiance", "--direct-only", "--grid", "0.1", "--height", "0.1"}, 2,
                  "cache");
-  expect_refused({kBox, folder + "/box.irradiance", "--exact", "--grid", "0.1", "--height", "0.1"}, 2,
-                 "cache");
+  expect_refused("sense", {kBox, folder + "/box.irradiance", "--exact", "--grid", "0.1", "--height", "0.1"},
+                 2, "cache");
 }
 
 TEST(SenseTool, AHeaderAloneIsNoSensor) {
