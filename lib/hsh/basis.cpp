@@ -1,0 +1,1 @@
+#include "hsh/basis.h"

@@ -1,0 +1,27 @@
+// Between spherical and hemispherical harmonics.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace phos {
+
+/// C_ij = integral over the upper hemisphere of H_i Y_j dw, HSH order x SH order, nonzero for equal m alone.
+/// SH coefficients in the local frame to HSH: h = C s. HSH, zero below the horizon, to SH: s = C^T h.
+class HarmonicConversion {
+ public:
+  /// Throws Error(usage) for orders outside 1 .. HarmonicBasis::kMaxOrder.
+  HarmonicConversion(int hsh_order, int sh_order);
+  int hsh_order() const { return hsh_order_; }
+  int sh_order() const { return sh_order_; }
+  double at(int hsh_index, int sh_index) const;
+  /// Strides apart: coefficients of each index are `channels` numbers side by side (RGB: 3).
+  void sh_to_hsh(std::span<const float> sh, std::span<float> hsh, int channels = 1) const;
+  void hsh_to_sh(std::span<const float> hsh, std::span<float> sh, int channels = 1) const;
+
+ private:
+  int hsh_order_, sh_order_;
+  std::vector<std::vector<double>> block_;  // per |m|: rows l = |m| .., columns l' = |m| ..
+};
+
+}  // namespace phos

@@ -1,0 +1,1 @@
+#include "hsh/projection.h"

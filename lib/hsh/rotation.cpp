@@ -1,0 +1,1 @@
+#include "hsh/rotation.h"

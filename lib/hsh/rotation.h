@@ -1,0 +1,61 @@
+// Rotation of functions given by their harmonics.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "core/vector.h"
+#include "hsh/basis.h"
+
+namespace phos {
+
+/// Angles of R = Rz(gamma) Ry(beta) Rz(alpha), radians; Ry(beta) takes +z to (sin beta, 0, cos beta). beta in
+/// [0, pi]. Where beta is next to 0 (or pi) gamma is 0 and alpha holds all of it.
+struct ZyzAngles {
+  float alpha = 0, beta = 0, gamma = 0;
+};
+/// Of the rotation from one local frame to another: (R f)(w) = f(R^-1 w), R = to^T from (a direction's local
+/// coordinates in `from`, mapped to those in `to`).
+ZyzAngles rotation_angles(const Frame& from, const Frame& to);
+
+/// About z, SH or HSH, in place, O(coefficients). `channels` numbers side by side per index.
+void rotate_about_z(std::span<float> coefficients, float angle, int channels = 1);
+
+/// How HSH are rotated, and what the light is taken to be below the old horizon.
+enum class HshRotation : unsigned char {
+  via_sh,         ///< to SH of twice the order, rotated, and back: nothing below the horizon
+  digon,          ///< the digon that leaves the hemisphere deleted, then as SH, angle mapped (Gautron 2004)
+  zero_fill,      ///< precomputed matrices (Gautron 2004): nothing below the horizon
+  constant_fill,  ///< the default: what the horizon shows goes on below it; keeps a constant exactly
+  even_fill,      ///< mirrored at the horizon
+};
+
+/// Rotates HSH of one order. Tables of one degree steps up to `max_beta`, interpolated; beyond, the matrix is
+/// made anew (slow). Const, usable from any thread.
+class HshRotator {
+ public:
+  /// Throws Error(usage) for an order outside 1 .. 30, or max_beta outside [0, pi/2].
+  HshRotator(int order, HshRotation method = HshRotation::constant_fill, float max_beta = 0.55f);
+  ~HshRotator();
+  int order() const;
+  /// in and out [channels * order^2], not the same memory. A beta below 0.1 degrees only turns about z.
+  void rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
+              int channels = 1) const;
+
+ private:
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
+};
+
+/// Exact rotation of SH, band by band; made for one rotation and used for many functions.
+class ShRotation {
+ public:
+  ShRotation(int order, const ZyzAngles& angles);
+  void rotate(std::span<const float> in, std::span<float> out, int channels = 1) const;
+
+ private:
+  int order_;
+  std::vector<std::vector<double>> band_;  // (2l+1)^2 each
+};
+
+}  // namespace phos
