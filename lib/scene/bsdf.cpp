@@ -26,6 +26,20 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
   const Material& material = scene.material[point.material];
   Rgb base = material.kd * Rgb(point.colour);
   if (material.base_colour.used()) base *= Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
+  Vec4 texel(1);
+  if (material.metallic_roughness.used()) {
+    texel = look_up(scene, material.metallic_roughness, point.uv0, point.uv1);
+  }
+  resolve(material, base, texel);
+}
+
+Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
+    : frame_(frame), geometric_normal_(frame.z) {
+  const Material& m = scene.material[material];
+  resolve(m, m.kd * Rgb(mean_texel(scene, m.base_colour)), mean_texel(scene, m.metallic_roughness));
+}
+
+void Bsdf::resolve(const Material& material, const Rgb& base, const Vec4& metallic_roughness_texel) {
   specular_ = material.ks;
   ior_ = material.ior;
   switch (material.model) {
@@ -57,7 +71,7 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
       resolve_plastic(base);
       break;
     case Model::metallic_roughness:
-      resolve_metallic_roughness(scene, point, base);
+      resolve_metallic_roughness(material, base, metallic_roughness_texel);
       break;
   }
 }
@@ -96,14 +110,9 @@ void Bsdf::resolve_plastic(const Rgb& kd) {
   put_under_coat(kd, f0, 1, 1 / (eta * eta));
 }
 
-void Bsdf::resolve_metallic_roughness(const Scene& scene, const SurfacePoint& point, const Rgb& base) {
-  const Material& material = scene.material[point.material];
-  float roughness = material.roughness, metallic = material.metallic;
-  if (material.metallic_roughness.used()) {
-    const Vec4 texel = look_up(scene, material.metallic_roughness, point.uv0, point.uv1);
-    roughness *= texel.y, metallic *= texel.z;
-  }
-  roughness = std::clamp(roughness, 0.f, 1.f), metallic = std::clamp(metallic, 0.f, 1.f);
+void Bsdf::resolve_metallic_roughness(const Material& material, const Rgb& base, const Vec4& texel) {
+  const float roughness = std::clamp(material.roughness * texel.y, 0.f, 1.f);
+  const float metallic = std::clamp(material.metallic * texel.z, 0.f, 1.f);
   const Rgb f0 = material.specular * glm::min(normal_reflectance(ior_) * material.specular_colour, Rgb(1));
   // Schlick is linear in its ends, so glTF's mix of a metal and a dielectric is one lobe.
   specular_ = (1 - metallic) * f0 + metallic * base;

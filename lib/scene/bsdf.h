@@ -42,6 +42,10 @@ class Bsdf {
   static constexpr float kSmoothestAlpha = 1e-3f;
 
   Bsdf(const Scene& scene, const SurfacePoint& point);
+  /// A material away from any surface, its textures at their mean and no vertex colours. `frame` has the
+  /// normal as z and, for anisotropic materials, the tangent as x; with the default one, directions are
+  /// local.
+  Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame = {});
 
   /// f(wo, wi) in 1/sr, cosine NOT included, specular (delta) lobes not included; 0 for wi below the surface
   /// of a reflector. Reciprocal.
@@ -77,9 +81,9 @@ class Bsdf {
  private:
   enum class Lobe : std::uint8_t { none, phong, ward, ggx };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
-  struct Directions;  // wo and wi in the local frame
 
-  void resolve_metallic_roughness(const Scene& scene, const SurfacePoint& point, const Rgb& base);
+  void resolve(const Material& material, const Rgb& base, const Vec4& metallic_roughness_texel);
+  void resolve_metallic_roughness(const Material& material, const Rgb& base, const Vec4& texel);
   void resolve_plastic(const Rgb& kd);
   void resolve_rough(Lobe lobe, float alpha_x, float alpha_y);
   void put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/texture.h"
 
 namespace phos {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 constexpr float kDullRoughness = 0.9f;
 /// Sharper lobes than these are cheaper traced than kept as records of hemispherical harmonics.
 constexpr float kSharpExponent = 100, kSharpAlpha = 0.15f;
-
-double mean_luminance(const Scene& scene, const TextureUse& use) {
-  if (!use.used()) return 1;
-  const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
-  double sum = 0;
-  for (std::size_t i = 0; i < texture.size(); ++i) sum += luminance(Rgb(texture.texel(i)));
-  return texture.size() == 0 ? 1 : sum / static_cast<double>(texture.size());
-}
 
 void classify(MaterialSummary& s, double texture) {
   const Material& m = *s.material;
@@ -184,7 +177,7 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<MaterialSummary> out(scene.material.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].material = &scene.material[i];
-    classify(out[i], mean_luminance(scene, scene.material[i].base_colour));
+    classify(out[i], luminance(Rgb(mean_texel(scene, scene.material[i].base_colour))));
   }
   for (const Instance& instance : scene.instance) {
     MaterialSummary& s = out[instance.material];

@@ -92,6 +92,15 @@ Vec4 look_up(const Scene& scene, const TextureUse& use, const Vec2& uv0, const V
   return scene.texture[static_cast<std::size_t>(use.texture)].at(transformed(use, use.set == 0 ? uv0 : uv1));
 }
 
+Vec4 mean_texel(const Scene& scene, const TextureUse& use) {
+  if (!use.used()) return Vec4(1);
+  const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
+  if (texture.size() == 0) return Vec4(1);
+  glm::dvec4 sum(0);
+  for (std::size_t i = 0; i < texture.size(); ++i) sum += glm::dvec4(texture.texel(i));
+  return Vec4(sum / static_cast<double>(texture.size()));
+}
+
 Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, float u, float v) {
   const std::vector<Vec2>& uv = set == 0 ? scene.uv0 : scene.uv1;
   if (uv.empty()) return Vec2(0);

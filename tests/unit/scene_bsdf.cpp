@@ -210,6 +210,33 @@ TEST(Bsdf, TexturesAndVertexColoursMultiplyTheBase) {
   EXPECT_FALSE(Bsdf(scene, point).has_diffuse());
 }
 
+TEST(Bsdf, AwayFromASurfaceTexturesAreAtTheirMean) {
+  Material material = make_material(Model::metallic_roughness, Rgb(0.8f), Rgb(0));
+  material.base_colour.texture = 0, material.metallic_roughness.texture = 1;
+  material.metallic = 0.5f, material.roughness = 1;
+  Scene scene = scene_of(material);
+  Texture colour, rough;
+  colour.width = rough.width = 2, colour.height = rough.height = 1;
+  colour.texels = {Vec4(1, 0.5f, 0, 1), Vec4(0, 0.5f, 1, 1)};
+  rough.texels = {Vec4(1, 0.4f, 1, 1), Vec4(1, 0.8f, 1, 1)};
+  scene.texture = {colour, rough};
+  Material mean = material;
+  mean.base_colour.texture = mean.metallic_roughness.texture = -1;
+  mean.kd = Rgb(0.4f), mean.roughness = 0.6f;
+  const Scene plain = scene_of(mean);
+  const Bsdf a(scene, 0), b(plain, flat_point());
+  for (float z = 0.1f; z < 1; z += 0.2f) {
+    const Vec3 wo = direction(0.6f, 0.4f), wi = direction(z, 2);
+    EXPECT_LT(max_component(glm::abs(a.evaluate_gloss(wo, wi) - b.evaluate_gloss(wo, wi))), 1e-6f);
+    EXPECT_GT(max_component(a.evaluate_gloss(wo, wi)), 0);
+  }
+  // In a frame of its own, the same.
+  const Frame frame = make_frame(direction(0.3f, 1));
+  const Bsdf turned(scene, 0, frame);
+  const Vec3 wo = direction(0.6f, 0.4f), wi = direction(0.5f, 2);
+  EXPECT_NEAR(turned.evaluate(frame.to_world(wo), frame.to_world(wi)).x, a.evaluate(wo, wi).x, 1e-5f);
+}
+
 TEST(Dielectric, FollowsFresnelAndSnell) {
   Material material;
   material.model = Model::dielectric;
