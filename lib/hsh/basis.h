@@ -40,7 +40,6 @@ class HarmonicBasis {
 
  private:
   int order_;
-  std::vector<Real> a_, b_, d_;  // of the recurrences, by harmonic_index(l, |m|)
 };
 
 }  // namespace phos
