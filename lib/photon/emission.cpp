@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/sampling.h"
+#include "scene/environment.h"
 
 namespace phos {
 namespace {
@@ -104,7 +105,9 @@ EmittedPhoton Emitter::start(std::size_t i, RandomStream& random) const {
     case Light::Kind::spot:
       return from_spot(light, random);
     case Light::Kind::directional:
-      return from_infinity(light, random);
+      return from_infinity(light.direction, light.intensity, random);
+    case Light::Kind::environment:
+      return from_environment(random);
   }
   return from_area(i, random);
 }
@@ -148,18 +151,24 @@ EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const
   return photon;
 }
 
-EmittedPhoton Emitter::from_infinity(const Light& light, RandomStream& random) const {
+EmittedPhoton Emitter::from_environment(RandomStream& random) const {
+  const Environment::Sample sample = scene_->environment->sample(random.uniform2());
+  if (!(sample.density > 0)) return {};
+  return from_infinity(-sample.direction, sample.luminance / sample.density, random);
+}
+
+EmittedPhoton Emitter::from_infinity(const Vec3& direction, const Rgb& lux, RandomStream& random) const {
   const float radius_m = bounding_radius_m_;
-  const Frame frame = make_frame(light.direction);
+  const Frame frame = make_frame(direction);
   const Vec2 disc = radius_m * sample_disc(random.uniform2());
   EmittedPhoton photon;
   // A thousandth of the radius before the sphere, so that what touches the sphere is not behind the start.
   photon.ray.origin =
       scene_->bounds.centre() - 1.001f * radius_m * frame.z + disc.x * frame.x + disc.y * frame.y;
-  photon.ray.direction = light.direction;
-  photon.source_normal = light.direction;
+  photon.ray.direction = direction;
+  photon.source_normal = direction;
   photon.from_infinity = true;
-  photon.flux_lm = kPi * radius_m * radius_m * light.intensity;
+  photon.flux_lm = kPi * radius_m * radius_m * lux;
   return photon;
 }
 

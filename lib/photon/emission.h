@@ -15,7 +15,7 @@ struct EmittedPhoton {
   Rgb flux_lm{0};
   Vec3 source_normal{
       0, 0, 1};  ///< geometric, on the side it left; the flight direction where the light has no surface
-  bool from_infinity = false;  ///< directional light
+  bool from_infinity = false;  ///< directional light or environment
 };
 
 /// Emits path 0 .. paths-1 of a run. What a path starts with depends on its number and the seed alone.
@@ -44,7 +44,8 @@ class Emitter {
   EmittedPhoton from_area(std::size_t i, RandomStream& random) const;
   EmittedPhoton from_point(const Light& light, RandomStream& random) const;
   EmittedPhoton from_spot(const Light& light, RandomStream& random) const;
-  EmittedPhoton from_infinity(const Light& light, RandomStream& random) const;
+  EmittedPhoton from_environment(RandomStream& random) const;
+  EmittedPhoton from_infinity(const Vec3& direction, const Rgb& lux, RandomStream& random) const;
 
   const Scene* scene_;
   Luminaires luminaires_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/environment.h"
 #include "scene/texture.h"
 
 namespace phos {
@@ -75,7 +76,7 @@ std::string names_of(const std::vector<const Material*>& materials) {
 Json numbers(const Vec3& v) { return Json::Array{v.x, v.y, v.z}; }
 
 const char* kind_name(Light::Kind kind) {
-  constexpr const char* kNames[] = {"area", "point", "spot", "directional"};
+  constexpr const char* kNames[] = {"area", "point", "spot", "directional", "environment"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -91,6 +92,14 @@ Json describe_light(const Scene& scene, const Light& light) {
     j["triangles"] = instance.triangle_count;
     j["two_sided"] = scene.material[instance.material].double_sided;
     j["luminance_cd_m2"] = numbers(scene.material[instance.material].emission);
+    return j;
+  }
+  if (light.kind == Light::Kind::environment) {
+    const Environment& map = *scene.environment;
+    j["size"] = Json::Array{map.width(), map.height()};
+    j["rotation_deg"] = glm::degrees(map.rotation_rad());
+    j["mean_luminance_cd_m2"] = numbers(Rgb(map.integral_lx() / (4 * std::numbers::pi)));
+    j["horizontal_illuminance_lx"] = numbers(Rgb(map.irradiance_up_lx()));
     return j;
   }
   j[light.kind == Light::Kind::directional ? "illuminance_lx" : "intensity_cd"] = numbers(light.intensity);

@@ -44,6 +44,11 @@ std::string light_line(const Json& l) {
     if (at(l, "two_sided").as_bool()) line += ", both sides";
   }
   if (const Json* cd = l.find("intensity_cd")) line += text(", ", triple(*cd), " cd");
+  if (const Json* mean = l.find("mean_luminance_cd_m2")) {
+    line += text(", ", at(l, "size").as_array()[0].as_integer(), " x ",
+                 at(l, "size").as_array()[1].as_integer(), ", mean ", triple(*mean), " cd/m2, ",
+                 triple(at(l, "horizontal_illuminance_lx")), " lx on open ground");
+  }
   if (const Json* lx = l.find("illuminance_lx")) line += text(", ", triple(*lx), " lx");
   line += '\n';
   return line;

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "file/hash.h"
+#include "scene/environment.h"
 #include "scene/finalize.h"
 
 namespace phos {
@@ -97,9 +98,18 @@ void add_light(Hasher& hasher, const Light& light) {
   add_vector(hasher, light.flux_lm);
 }
 
+void add_environment(Hasher& hasher, const Environment& environment) {
+  hasher.add(environment.width());
+  hasher.add(environment.height());
+  const double rotation_rad = environment.rotation_rad() + 0.0;
+  hasher.add_bytes(&rotation_rad, sizeof rotation_rad);
+  add_vectors(hasher, environment.texels());
+}
+
 std::string hash_lights(const Scene& scene) {
   Hasher hasher;
   for (const Light& light : scene.light) add_light(hasher, light);
+  if (scene.environment) add_environment(hasher, *scene.environment);
   return hasher.finish().hex();
 }
 
@@ -123,7 +133,10 @@ Json hash_nodes(const Scene& scene) {
   }
   for (const auto& [name, list] : lights) {
     Hasher& hasher = hashers[name];
-    for (const Light* l : list) add_light(hasher, *l);
+    for (const Light* l : list) {
+      add_light(hasher, *l);
+      if (l->kind == Light::Kind::environment) add_environment(hasher, *scene.environment);
+    }
   }
   if (hashers.size() > kMaxNamedNodes) return Json();
   Json out = Json::Object{};

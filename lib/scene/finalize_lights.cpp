@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/texture.h"
 
@@ -67,7 +68,15 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
 }
 
 void fill_lights(Scene& scene) {
-  std::erase_if(scene.light, [](const Light& light) { return light.kind == Light::Kind::area; });
+  std::erase_if(scene.light, [](const Light& light) {
+    return light.kind == Light::Kind::area || light.kind == Light::Kind::environment;
+  });
+  if (scene.environment) {
+    Light light;
+    light.kind = Light::Kind::environment;
+    light.name = "environment";
+    scene.light.push_back(light);
+  }
   for (std::uint32_t i = 0; i < scene.instance.size(); ++i) {
     const Instance& instance = scene.instance[i];
     if (!scene.material[instance.material].emits()) continue;
@@ -83,10 +92,13 @@ void fill_lights(Scene& scene) {
     }
   }
   const float radius_m = bounding_radius_m(scene);
+  const float disc_m2 = kPi * radius_m * radius_m;
   for (Light& light : scene.light) {
     if (light.kind == Light::Kind::point) light.flux_lm = 4 * kPi * light.intensity;
     if (light.kind == Light::Kind::spot) light.flux_lm = spot_flux_lm(light);
-    if (light.kind == Light::Kind::directional) light.flux_lm = light.intensity * (kPi * radius_m * radius_m);
+    if (light.kind == Light::Kind::directional) light.flux_lm = light.intensity * disc_m2;
+    if (light.kind == Light::Kind::environment)
+      light.flux_lm = Rgb(scene.environment->integral_lx()) * disc_m2;
   }
   std::erase_if(scene.light, [&](const Light& light) {
     if (max_component(light.flux_lm) > 0) return false;

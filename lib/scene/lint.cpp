@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "scene/describe.h"
+#include "scene/environment.h"
 #include "scene/load_textures.h"
 
 namespace phos {
@@ -55,13 +56,20 @@ class Linter {
     if (scene_.light.empty()) {
       add(Level::error, "no-light", "the scene has no light",
           "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
-          "KHR_lights_punctual light");
+          "KHR_lights_punctual light, or give --environment");
       return;
     }
-    double lumens = 0, area = 0;
-    for (const Light& light : scene_.light) lumens += luminance(light.flux_lm);
+    // A surface turned any way receives a quarter of what an environment sends from all sides.
+    double lumens = 0, area = 0, mean_lx = 0;
+    for (const Light& light : scene_.light) {
+      if (light.kind == Light::Kind::environment) {
+        mean_lx = 0.25 * static_cast<double>(luminance(Rgb(scene_.environment->integral_lx())));
+      } else {
+        lumens += luminance(light.flux_lm);
+      }
+    }
     for (std::uint32_t t = 0; t < scene_.triangle.size(); ++t) area += area_m2(scene_, t);
-    const double mean_lx = lumens / area;
+    mean_lx += lumens / area;
     const std::string figure =
         text("all lights together give ", shortest(static_cast<float>(lumens)), " lm, ",
              shortest(static_cast<float>(mean_lx)), " lx if spread over every surface");

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "scene/environment.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
 #include "scene/obj_load.h"
@@ -27,11 +28,22 @@ void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS", "when animations are evaluated (default: 0)");
   options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
+  options.file(
+      "environment", scene.environment,
+      "light from all around: an equirectangular map, twice as wide as high, +Y up, its middle towards "
+      "+Z, Radiance .hdr (x 179 lm/W) or OpenEXR (cd/m2); give it to every stage");
+  options.number("environment-rotation", scene.environment_rotation_deg, "DEGREES",
+                 "turns the environment about +Y, counter-clockwise seen from above (default: 0)",
+                 {-360, 360});
+  options.number("environment-scale", scene.environment_scale, "X",
+                 "multiplies the luminance of the environment (default: 1)", kPositive);
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {
   if (options.time_s && options.frame)
     throw Error(ExitCode::usage, "--time", "give either --time or --frame");
+  if (options.environment.empty() && (options.environment_rotation_deg || options.environment_scale))
+    throw Error(ExitCode::usage, "--environment", "is missing; rotation and scale are of its map");
   const std::string bytes = scene_bytes(path);
   Scene scene;
   try {
@@ -43,11 +55,16 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
   } catch (const std::exception& e) {
     throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
   }
+  if (!options.environment.empty()) {
+    scene.environment = std::make_shared<const Environment>(
+        read_environment(options.environment, options.environment_scale.value_or(1),
+                         glm::radians(options.environment_rotation_deg.value_or(0))));
+  }
   finalize(scene);
   return scene;
 }
 
-std::vector<std::string> scene_files(const std::string& path) {
+std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options) {
   const std::string bytes = scene_bytes(path);
   std::vector<std::string> files =
       is_gltf(bytes) ? gltf_external_files(path, bytes) : obj_external_files(path, bytes);
@@ -58,6 +75,7 @@ std::vector<std::string> scene_files(const std::string& path) {
     return !std::filesystem::is_regular_file(file, ignored);
   });
   files.insert(files.begin(), path);
+  if (!options.environment.empty()) files.push_back(options.environment);
   return files;
 }
 

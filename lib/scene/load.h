@@ -14,16 +14,20 @@ namespace phos {
 struct SceneOptions {
   std::optional<double> time_s;  ///< where animations are evaluated
   std::optional<double> frame;   ///< the same, in frames
+  std::string environment;       ///< file of an environment map; "": none
+  std::optional<double> environment_rotation_deg, environment_scale;
 };
 void declare_options(Options& options, SceneOptions& scene);
 
-/// Loads and finalizes. The format is told from the content. Throws Error(bad_input): missing, not a scene,
-/// truncated, unknown required extension (named), glTF 1.0, index out of range, NaN vertex, no triangles, ...
+/// Loads and finalizes, with the environment map that the options name. The format is told from the content.
+/// Throws Error(bad_input): missing, not a scene, truncated, unknown required extension (named), glTF 1.0,
+/// index out of range, NaN vertex, no triangles, ...
 Scene load_scene(const std::string& path, const SceneOptions& options = {});
 
 /// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing
-/// ones are left out. Throws Error(bad_input) if the scene file itself cannot be read.
-std::vector<std::string> scene_files(const std::string& path);
+/// ones are left out; the environment map of the options comes last. Throws Error(bad_input) if the scene
+/// file itself cannot be read.
+std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options = {});
 
 /// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input)
 /// if none.

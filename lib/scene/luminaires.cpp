@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/sampling.h"
+#include "scene/environment.h"
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
 #include "scene/texture.h"
@@ -14,6 +15,10 @@ Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point) {
   const Material& material = scene.material[point.material];
   if (!material.emits() || !(point.front || material.double_sided)) return Rgb(0);
   return material.emission * Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
+}
+
+Rgb background_luminance(const Scene& scene, const Vec3& direction) {
+  return scene.environment ? scene.environment->luminance(direction) : Rgb(0);
 }
 
 float spot_falloff(const Light& light, float cos_angle) {
@@ -67,6 +72,7 @@ Luminaires::Luminaires(const Scene& scene) : scene_(&scene) {
   shape_.resize(scene.light.size());
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     const Light& light = scene.light[i];
+    if (light.kind == Light::Kind::environment) environment_ = static_cast<std::int32_t>(i);
     if (light.kind != Light::Kind::area) continue;
     instance_light_[light.instance] = static_cast<std::int32_t>(i);
     shape_[i] = make_shape(light);
@@ -166,6 +172,13 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     result.value = light.intensity;
     return true;
   }
+  if (light.kind == Light::Kind::environment) {
+    const Environment::Sample sample = scene_->environment->sample(u);
+    result.direction = sample.direction;
+    result.value = sample.luminance;
+    result.density = sample.density;
+    return result.density > 0;
+  }
   const bool area = light.kind == Light::Kind::area;
   if (area && shape_[i].cdf.empty()) return false;
   const EmissionPoint point = area ? sample_point(i, u_triangle, u) : EmissionPoint();
@@ -199,6 +212,10 @@ float Luminaires::density(std::size_t i, std::uint32_t triangle, float distance_
   const std::uint32_t k = triangle - instance.first_triangle;  // wraps for one before it
   if (k >= instance.triangle_count) return 0;
   return shape_[i].facet[k].density_per_m2 * distance_m * distance_m / cos_light;
+}
+
+float Luminaires::density_beyond(const Vec3& direction) const {
+  return environment_ >= 0 ? scene_->environment->density(direction) : 0.f;
 }
 
 std::int32_t Luminaires::light_of(std::uint32_t triangle) const {

@@ -12,6 +12,9 @@ namespace phos {
 /// Luminance leaving a surface point towards the side it is seen from, cd/m2 (0 behind a one-sided emitter).
 Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point);
 
+/// Luminance of what a ray that leaves the scene sees, cd/m2 (0 without an environment).
+Rgb background_luminance(const Scene& scene, const Vec3& direction);
+
 /// Factor of a spot light's intensity at an angle from its axis: glTF's ((c - outer) / (inner - outer))^2, 1
 /// inside the inner cone, 0 outside the outer one; a step where the two are equal.
 float spot_falloff(const Light& light, float cos_angle);
@@ -19,12 +22,12 @@ float spot_falloff(const Light& light, float cos_angle);
 /// Light arriving at a point from a light's sample, visibility not yet tested.
 struct Illumination {
   Vec3 direction{0};  ///< unit, from the point towards the light
-  Vec3 position{0};   ///< of the sample on the light (unused for directional)
+  Vec3 position{0};   ///< of the sample on the light (unused where it is infinitely far)
   Vec3 normal{0};     ///< of an area light there, on the side seen from the point; 0 for others
   float distance_m = kInfinity;
   float error_m = 0;  ///< rounding error at the far end, for RayScene::visible
-  Rgb value{0};       ///< area: luminance, cd/m2. Delta lights: illuminance on a surface facing it, lx
-  float density = 0;  ///< per sr; 0 for delta lights (value then needs only the cosine)
+  Rgb value{0};  ///< lights of an extent: luminance, cd/m2. Others: illuminance on a surface facing it, lx
+  float density = 0;  ///< per sr; 0 for lights without an extent (value then needs only the cosine)
 };
 
 /// A point from which a light emits.
@@ -46,11 +49,17 @@ class Luminaires {
   /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
   /// cone). Area lights: uniform over a triangle chosen by u_triangle in proportion to its power. A
   /// parallelogram of two triangles is sampled by `u` alone, so that strata of `u` are strata of the light.
+  /// Environment: in proportion to its luminance, by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
   /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m`
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
   float density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const;
+  /// The same for a ray that left the scene: density with which the environment's light is sampled there, 0
+  /// without one.
+  float density_beyond(const Vec3& direction) const;
+  /// Index of the environment among the lights, or -1.
+  std::int32_t environment() const { return environment_; }
   /// Index of the area light that a triangle belongs to, or -1.
   std::int32_t light_of(std::uint32_t triangle) const;
 
@@ -83,6 +92,7 @@ class Luminaires {
   Spot choose(const Light& light, const Shape& shape, float u_triangle, const Vec2& u) const;
 
   const Scene* scene_;
+  std::int32_t environment_ = -1;
   std::vector<Shape> shape_;  // per light; empty for one without area
   std::vector<std::int32_t> instance_light_;
 };

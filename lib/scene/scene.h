@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "core/vector.h"
 
 namespace phos {
+
+class Environment;
 
 /// Row 0 is at v = 0 (glTF). Texels are linear values, or the codes of an 8-bit image: a quarter of the
 /// memory, and of the cache misses.
@@ -92,16 +95,20 @@ struct Triangle {
 
 /// A luminaire: the unit of power sharing. Angles in radians, directions point the way light travels.
 struct Light {
-  enum class Kind : std::uint8_t { area, point, spot, directional };
+  enum class Kind : std::uint8_t { area, point, spot, directional, environment };
   Kind kind = Kind::point;
   std::string name;
   Vec3 position{0};
   Vec3 direction{0, 0, -1};
-  Rgb intensity{0};  ///< point, spot: cd (on the axis). directional: lx on a plane facing it. area: unused
+  Rgb intensity{0};  ///< point, spot: cd (on the axis). directional: lx on a plane facing it. Others: unused
   float cos_inner = 1, cos_outer = 0;  ///< spot cone, cosines of the half angles; glTF's smooth falloff
   std::uint32_t instance = 0;          ///< area: which instance shines
   float area_m2 = 0;                   ///< area: one side
-  Rgb flux_lm{0};  ///< total emitted; directional: through the scene's bounding disc (filled by finalize)
+  Rgb flux_lm{0};  ///< total emitted; directional, environment: through the scene's bounding disc (filled by
+                   ///< finalize)
+  /// Has an extent as seen from a point, so that more than one sample of it is worth while; else it lights
+  /// from a single direction.
+  bool extended() const { return kind == Kind::area || kind == Kind::environment; }
 };
 
 struct Camera {
@@ -141,6 +148,7 @@ struct Scene {
   std::vector<Material> material;
   std::vector<Texture> texture;
   std::vector<Light> light;
+  std::shared_ptr<const Environment> environment;  ///< null: black. One of the lights stands for it
   std::vector<Camera> camera;
   std::vector<Animation> animation;
   double time_s = 0;

@@ -1,0 +1,153 @@
+#include "scene/environment.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/sampling.h"
+#include "image/image.h"
+
+namespace phos {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// luminance() in double: the dimmest texel keeps a probability of its own.
+double luminous(const DVec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+/// The whole number below x, within [0, count); 0 for not a number.
+int cell_of(double x, int count) { return static_cast<int>(std::fmin(std::fmax(x, 0), count - 1)); }
+
+/// The cell of a cumulative distribution that holds u, and how far u is through it.
+template <class T>
+std::size_t invert(const T* cdf, std::size_t n, float u, double& fraction) {
+  const auto x = static_cast<T>(std::min(u, 0x1.fffffep-1f));
+  const auto i = std::min(static_cast<std::size_t>(std::upper_bound(cdf, cdf + n, x) - cdf), n - 1);
+  const double below = i > 0 ? static_cast<double>(cdf[i - 1]) : 0;
+  fraction = (static_cast<double>(x) - below) / (static_cast<double>(cdf[i]) - below);
+  return i;
+}
+
+bool valid(const Rgb& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
+
+}  // namespace
+
+Environment::Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad)
+    : width_(width), height_(height), rotation_rad_(rotation_rad), texels_(std::move(texels)) {
+  PHOS_CHECK(width > 0 && height > 0 &&
+                 texels_.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+             width, " x ", height, " of ", texels_.size(), " texels");
+  PHOS_CHECK(std::all_of(texels_.begin(), texels_.end(), valid), "texels that are no light");
+  for (int row = 0; row <= height; ++row) {
+    const double sine = std::sin(std::numbers::pi * row / (2.0 * height));
+    row_edge_.push_back(sine * sine);
+  }
+  make_distribution();
+}
+
+double Environment::texel_sr(int row) const {
+  const double middle = std::numbers::pi * (row + 0.5) / height_, half = std::numbers::pi / (2.0 * height_);
+  return kTurn / width_ * 2 * std::sin(middle) * std::sin(half);
+}
+
+void Environment::make_distribution() {
+  const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
+  column_cdf_.resize(texels_.size()), row_cdf_.resize(rows);
+  std::vector<double> sums(columns);
+  for (std::size_t row = 0; row < rows; ++row) {
+    DVec3 light(0);
+    double sum = 0;
+    for (std::size_t k = 0; k < columns; ++k) {
+      const DVec3 texel(texels_[row * columns + k]);
+      light += texel;
+      sums[k] = sum += luminous(texel);
+    }
+    const double sr = texel_sr(static_cast<int>(row));
+    integral_lx_ += sr * light;
+    row_cdf_[row] = luminous_lx_ += sr * sum;
+    for (std::size_t k = 0; k < columns && sum > 0; ++k)
+      column_cdf_[row * columns + k] = static_cast<float>(sums[k] / sum);
+  }
+  if (!(luminous_lx_ > 0)) {
+    row_cdf_.clear(), column_cdf_.clear();
+    return;
+  }
+  for (double& x : row_cdf_) x /= luminous_lx_;
+}
+
+std::size_t Environment::texel_at(const Vec3& direction) const {
+  const double x = direction.x, y = direction.y, z = direction.z;
+  const double theta = std::atan2(std::hypot(x, z), y);
+  const double turns = 0.5 - (std::atan2(x, z) - rotation_rad_) / kTurn;
+  const int row = cell_of(theta / std::numbers::pi * height_, height_);
+  const int column = cell_of((turns - std::floor(turns)) * width_, width_);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column);
+}
+
+float Environment::density_of(std::size_t texel) const {
+  return luminous_lx_ > 0 ? static_cast<float>(luminous(DVec3(texels_[texel])) / luminous_lx_) : 0.f;
+}
+
+Environment::Sample Environment::sample(const Vec2& u) const {
+  Sample sample;
+  if (row_cdf_.empty()) return sample;
+  const auto columns = static_cast<std::size_t>(width_);
+  double down = 0, along = 0;
+  const std::size_t row = invert(row_cdf_.data(), row_cdf_.size(), u.y, down);
+  const std::size_t column = invert(column_cdf_.data() + row * columns, columns, u.x, along);
+  const std::size_t texel = row * columns + column;
+  // Within a texel uniform over the solid angle: sin^2(theta / 2) is even in it, and exact near both poles.
+  const double edge = row_edge_[row], q = edge + down * (row_edge_[row + 1] - edge);
+  const double turns =
+      0.5 - (static_cast<double>(column) + along) / static_cast<double>(width_) + rotation_rad_ / kTurn;
+  const Vec2 around = cos_sin(static_cast<float>(turns - std::floor(turns)));
+  const auto sine = static_cast<float>(2 * std::sqrt(q * (1 - q)));
+  sample.direction = {sine * around.y, static_cast<float>(1 - 2 * q), sine * around.x};
+  sample.luminance = texels_[texel];
+  sample.density = density_of(texel);
+  return sample;
+}
+
+DVec3 Environment::irradiance_up_lx() const {
+  const auto columns = static_cast<std::size_t>(width_);
+  DVec3 sum(0);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(height_); ++row) {
+    DVec3 light(0);
+    for (std::size_t k = 0; k < columns; ++k) light += DVec3(texels_[row * columns + k]);
+    // The integral of cos(theta) sin(theta) is sin^2(theta) / 2, that is 2 q (1 - q), down to the horizon.
+    const auto lifted = [](double q) { return 2 * std::min(q, 0.5) * (1 - std::min(q, 0.5)); };
+    sum += light * (kTurn / width_ * (lifted(row_edge_[row + 1]) - lifted(row_edge_[row])));
+  }
+  return sum;
+}
+
+Environment read_environment(const std::string& path, double scale, double rotation_rad) {
+  const auto fail = [&](const std::string& message) -> Error { return {ExitCode::bad_input, path, message}; };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw fail("is a folder; give an environment map (.hdr or .exr)");
+  const Image image = read_image(path);
+  if (image.width() != 2 * image.height() || image.pixels() == 0)
+    throw fail(text("is ", image.width(), " x ", image.height(),
+                    " pixels; an environment map is equirectangular, twice as wide as high: convert it"));
+  if (!image.has_layer("")) throw fail("has no channels R, G and B; an environment map needs them");
+  std::vector<Rgb> texels = image.rgb("");
+  std::size_t bad = 0, first = 0;
+  for (std::size_t i = texels.size(); i-- > 0;) {
+    const Rgb scaled(scale * DVec3(texels[i]));
+    if (!valid(texels[i]) || !valid(scaled))
+      ++bad, first = i;
+    else
+      texels[i] = scaled;
+  }
+  if (bad > 0) {
+    const auto width = static_cast<std::size_t>(image.width());
+    const Rgb& c = texels[first];
+    throw fail(text(bad, " texels are negative, infinite or not a number, the first in column ",
+                    first % width, ", row ", first / width, " (", c.x, " ", c.y, " ", c.z,
+                    valid(c) ? "; too bright for this --environment-scale)" : "); mend the map"));
+  }
+  return {image.width(), image.height(), std::move(texels), rotation_rad};
+}
+
+}  // namespace phos

@@ -1,0 +1,67 @@
+// Light from infinitely far away, by direction: an environment map.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// Luminance over the sphere, constant over each texel of an equirectangular map: every sum over it is exact,
+/// and a sun of one texel is a sun of one texel. +Y is up: row 0 is the topmost. As in OpenEXR and Mitsuba,
+/// the middle of the picture shows +Z, and +X a quarter of the width to the left of it. The map is turned
+/// about +Y by `rotation_rad`, counter-clockwise seen from above: +Z goes towards +X.
+class Environment {
+ public:
+  /// cd/m2, row by row. There must be width x height texels, finite and not negative.
+  Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad = 0);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double rotation_rad() const { return rotation_rad_; }
+  const std::vector<Rgb>& texels() const { return texels_; }
+
+  /// Luminance seen in a direction (unit), cd/m2.
+  Rgb luminance(const Vec3& direction) const { return texels_[texel_at(direction)]; }
+
+  struct Sample {
+    Vec3 direction{0, 1, 0};  ///< unit, towards the environment
+    Rgb luminance{0};         ///< cd/m2
+    float density = 0;        ///< per sr
+  };
+  /// A direction with density in proportion to the luminance: rows by u.y, columns by u.x, both monotonous,
+  /// so that strata of `u` are strata of the sphere. Density 0 where the map is black.
+  Sample sample(const Vec2& u) const;
+  /// Density per sr with which sample() chooses a direction.
+  float density(const Vec3& direction) const { return density_of(texel_at(direction)); }
+
+  /// Integral of the luminance over the sphere, lx (cd/m2 sr).
+  const DVec3& integral_lx() const { return integral_lx_; }
+  /// Irradiance of an unoccluded surface that faces up, lx.
+  DVec3 irradiance_up_lx() const;
+
+ private:
+  std::size_t texel_at(const Vec3& direction) const;
+  float density_of(std::size_t texel) const;
+  double texel_sr(int row) const;
+  void make_distribution();
+
+  int width_, height_;
+  double rotation_rad_;
+  std::vector<Rgb> texels_;
+  std::vector<double>
+      row_edge_;  // sin^2(theta / 2) at the upper edge of each row, and at the last one's lower
+  std::vector<double> row_cdf_;    // ends at 1; empty for a black map
+  std::vector<float> column_cdf_;  // of each row, ends at 1
+  DVec3 integral_lx_{0};
+  double luminous_lx_ = 0;  // luminance of the integral
+};
+
+/// Reads an equirectangular map, twice as wide as high: Radiance .hdr (times 179 lm/W) or OpenEXR (taken as
+/// cd/m2), times `scale`. Throws Error(bad_input) for one that is missing, damaged, of another shape, or that
+/// has texels that are negative or not finite.
+Environment read_environment(const std::string& path, double scale = 1, double rotation_rad = 0);
+
+}  // namespace phos
