@@ -1,4 +1,4 @@
-// Golden tables of the estimators (data/golden/irradiance).
+// Golden tables: CSV with a header line.
 #pragma once
 
 #include <fstream>
@@ -9,9 +9,9 @@
 
 namespace phos::test {
 
-/// Rows of a table of data/golden/irradiance, by column name.
-inline std::vector<std::map<std::string, std::string>> golden(const std::string& name) {
-  std::ifstream in(std::string(PHOS_SOURCE) + "/data/golden/irradiance/" + name);
+/// Rows of a table, by column name; none where there is no such file.
+inline std::vector<std::map<std::string, std::string>> read_table(const std::string& path) {
+  std::ifstream in(path);
   std::vector<std::string> header;
   std::vector<std::map<std::string, std::string>> rows;
   for (std::string line; std::getline(in, line);) {
@@ -27,6 +27,11 @@ inline std::vector<std::map<std::string, std::string>> golden(const std::string&
     for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = i < cells.size() ? cells[i] : "";
   }
   return rows;
+}
+
+/// A table of data/golden/irradiance.
+inline std::vector<std::map<std::string, std::string>> golden(const std::string& name) {
+  return read_table(std::string(PHOS_SOURCE) + "/data/golden/irradiance/" + name);
 }
 
 }  // namespace phos::test

@@ -7,10 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "core/error.h"
-#include "hsh/quadrature.h"
+#include "hsh/basis_kernel.h"
+#include "support/harmonics.h"
+#include "support/run.h"
 
 using namespace phos;
+using namespace phos::test;
 
 namespace {
 
@@ -24,26 +26,9 @@ std::vector<Real> values(BasisKind kind, int order, Real x, Real y, Real z) {
   return out;
 }
 
-/// Largest entry of |B^T W B - I|: how far the basis is from orthonormal.
-template <class Real>
-double gram_residual(BasisKind kind, int order, const Quadrature& q) {
-  const HarmonicBasis<Real> basis(order);
-  const std::size_t n = static_cast<std::size_t>(basis.count());
-  std::vector<double> gram(n * n);
-  std::vector<Real> out(n);
-  for (std::size_t k = 0; k < q.size(); ++k) {
-    basis.evaluate(kind, static_cast<Real>(q.x[k]), static_cast<Real>(q.y[k]), static_cast<Real>(q.z[k]),
-                   out.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      const double weighted = q.weight[k] * static_cast<double>(out[i]);
-      for (std::size_t j = 0; j <= i; ++j) gram[i * n + j] += weighted * static_cast<double>(out[j]);
-    }
-  }
-  double worst = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) worst = std::max(worst, std::fabs(gram[i * n + j] - (i == j)));
-  }
-  return worst;
+void expect_below(const std::vector<double>& deviation, std::size_t bands, double limit, const char* what) {
+  ASSERT_EQ(deviation.size(), bands) << what;
+  for (std::size_t l = 0; l < bands; ++l) EXPECT_LT(deviation[l], limit) << what << ", band " << l;
 }
 
 }  // namespace
@@ -69,11 +54,31 @@ TEST(HshBasis, LowOrdersAreTheClosedForms) {
   EXPECT_NEAR(h2[3], -std::sqrt(3 / (2 * kPiD)) * 2 * h * x, 1e-15);
 }
 
+TEST(HshBasis, AgreesWithTheGoldenTables) {
+  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
+    expect_below(golden_value_deviation<double>(data("golden/hsh"), kind), 20, 1e-12, "value");
+    expect_below(golden_value_deviation<float>(data("golden/hsh"), kind), 20, 5e-5, "value, float");
+    expect_below(golden_gradient_deviation<double>(data("golden/hsh"), kind), 10, 1e-12, "gradient");
+    expect_below(golden_gradient_deviation<float>(data("golden/hsh"), kind), 10, 5e-5, "gradient, float");
+  }
+}
+
+TEST(HshBasis, AgreesWithTheWholeGoldenTables) {
+  const std::string folder = shared("golden/hsh");
+  if (folder.empty()) GTEST_SKIP() << "../shared/golden/hsh is not there";
+  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
+    expect_below(golden_value_deviation<double>(folder, kind), 20, 1e-12, "value");
+    expect_below(golden_value_deviation<float>(folder, kind), 20, 5e-5, "value, float");
+    expect_below(golden_gradient_deviation<double>(folder, kind), 10, 1e-12, "gradient");
+    expect_below(golden_gradient_deviation<float>(folder, kind), 10, 5e-5, "gradient, float");
+  }
+}
+
 TEST(HshBasis, IsOrthonormal) {
-  EXPECT_LT(gram_residual<double>(BasisKind::sh, 30, sphere_quadrature(30, 60)), 2e-13);
-  EXPECT_LT(gram_residual<double>(BasisKind::hsh, 30, hemisphere_quadrature(61, 60)), 2e-13);
-  EXPECT_LT(gram_residual<float>(BasisKind::sh, 30, sphere_quadrature(30, 60)), 3e-6);
-  EXPECT_LT(gram_residual<float>(BasisKind::hsh, 30, hemisphere_quadrature(61, 60)), 3e-6);
+  EXPECT_LT(gram_residual<double>(BasisKind::sh, 30, sphere_quadrature(30, 60)).back(), 1e-13);
+  EXPECT_LT(gram_residual<double>(BasisKind::hsh, 30, hemisphere_quadrature(61, 60)).back(), 1e-13);
+  EXPECT_LT(gram_residual<float>(BasisKind::sh, 30, sphere_quadrature(30, 60)).back(), 3e-6);
+  EXPECT_LT(gram_residual<float>(BasisKind::hsh, 30, hemisphere_quadrature(61, 60)).back(), 3e-6);
 }
 
 TEST(HshBasis, SquaresOfABasisAddUpToAConstant) {
@@ -120,16 +125,49 @@ TEST(HshBasis, GradientIsTheDerivativeAlongTheSphere) {
 
 TEST(HshBasis, BatchAndScalarGiveTheSameBits) {
   const Quadrature q = hemisphere_quadrature(7, 11);  // 77: no multiple of any vector's width
+  const std::size_t n = q.size();
+  const std::vector<float> x(q.x.begin(), q.x.end()), y(q.y.begin(), q.y.end()), z(q.z.begin(), q.z.end());
   for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
     for (const int order : {1, 2, 10, 31}) {
       const HarmonicBasis<double> basis(order);
+      const HarmonicBasis<float> basis_f(order);
       const std::size_t count = static_cast<std::size_t>(basis.count());
-      std::vector<double> batch(count * q.size());
-      basis.evaluate_batch(kind, q.size(), q.x.data(), q.y.data(), q.z.data(), batch.data());
-      for (std::size_t k = 0; k < q.size(); ++k) {
+      std::vector<double> batch(count * n);
+      std::vector<float> batch_f(count * n);
+      basis.evaluate_batch(kind, n, q.x.data(), q.y.data(), q.z.data(), batch.data());
+      basis_f.evaluate_batch(kind, n, x.data(), y.data(), z.data(), batch_f.data());
+      for (std::size_t k = 0; k < n; ++k) {
         const std::vector<double> one = values(kind, order, q.x[k], q.y[k], q.z[k]);
-        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(batch[i * q.size() + k], one[i]) << i << " " << k;
+        const std::vector<float> one_f = values(kind, order, x[k], y[k], z[k]);
+        for (std::size_t i = 0; i < count; ++i) {
+          ASSERT_EQ(batch[i * n + k], one[i]) << i << " " << k;
+          ASSERT_EQ(batch_f[i * n + k], one_f[i]) << i << " " << k;
+        }
       }
     }
   }
+}
+
+TEST(HshBasis, EveryMachineGetsTheSameBits) {
+#ifdef PHOS_HSH_AVX2
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) GTEST_SKIP() << "no AVX2 here";
+  const Quadrature q = sphere_quadrature(9, 17);
+  const int order = 20;
+  const std::size_t n = q.size(), values = static_cast<std::size_t>(harmonic_count(order)) * n;
+  const std::vector<float> x(q.x.begin(), q.x.end()), y(q.y.begin(), q.y.end()), z(q.z.begin(), q.z.end());
+  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
+    std::vector<double> plain(values), newer(values);
+    std::vector<float> plain_f(values), newer_f(values);
+    evaluate_batch_plain(basis_tables<double>(), kind, order, n, q.x.data(), q.y.data(), q.z.data(),
+                         plain.data());
+    evaluate_batch_avx2(basis_tables<double>(), kind, order, n, q.x.data(), q.y.data(), q.z.data(),
+                        newer.data());
+    evaluate_batch_plain(basis_tables<float>(), kind, order, n, x.data(), y.data(), z.data(), plain_f.data());
+    evaluate_batch_avx2(basis_tables<float>(), kind, order, n, x.data(), y.data(), z.data(), newer_f.data());
+    EXPECT_EQ(plain, newer);
+    EXPECT_EQ(plain_f, newer_f);
+  }
+#else
+  GTEST_SKIP() << "one kernel alone is built for this machine";
+#endif
 }

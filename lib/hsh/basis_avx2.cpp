@@ -1,0 +1,5 @@
+// Compiled for x86-64-v3 (CMakeLists.txt); called only where the machine has it.
+#ifdef PHOS_HSH_AVX2
+#define PHOS_HSH_KERNEL evaluate_batch_avx2
+#include "hsh/basis_kernel.inc"
+#endif
