@@ -7,7 +7,8 @@
 namespace phos {
 
 /// C_ij = integral over the upper hemisphere of H_i Y_j dw, HSH order x SH order, nonzero for equal m alone.
-/// SH coefficients in the local frame to HSH: h = C s. HSH, zero below the horizon, to SH: s = C^T h.
+/// SH coefficients in the local frame to HSH: h = C s. HSH, zero below the horizon, to SH: s = C^T h (least
+/// squares, not an inverse: HSH -> SH -> HSH loses what the SH order cannot show, less the higher it is).
 class HarmonicConversion {
  public:
   /// Throws Error(usage) for orders outside 1 .. HarmonicBasis::kMaxOrder.
@@ -15,13 +16,16 @@ class HarmonicConversion {
   int hsh_order() const { return hsh_order_; }
   int sh_order() const { return sh_order_; }
   double at(int hsh_index, int sh_index) const;
-  /// Strides apart: coefficients of each index are `channels` numbers side by side (RGB: 3).
+  /// The rows l = m .. hsh_order - 1 and columns l' = m .. sh_order - 1 of one m, row after row. C is the
+  /// same for m and -m.
+  std::span<const double> block(int m) const { return block_[static_cast<std::size_t>(m)]; }
+  /// Coefficients of each index are `channels` numbers side by side (RGB: 3).
   void sh_to_hsh(std::span<const float> sh, std::span<float> hsh, int channels = 1) const;
   void hsh_to_sh(std::span<const float> hsh, std::span<float> sh, int channels = 1) const;
 
  private:
   int hsh_order_, sh_order_;
-  std::vector<std::vector<double>> block_;  // per |m|: rows l = |m| .., columns l' = |m| ..
+  std::vector<std::vector<double>> block_;  // per |m|
 };
 
 }  // namespace phos

@@ -1,1 +1,208 @@
 #include "hsh/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "core/error.h"
+#include "hsh/turn.h"
+#include "hsh/turn_kernel.h"
+
+namespace phos {
+namespace {
+
+constexpr int kDegrees = 180;  // the last table
+constexpr float kPerDegree = kPi / 180;
+constexpr float kLeastBeta = 0.1f * kPerDegree;
+
+/// cos(m a) and sin(m a), m = 0 .. order - 1.
+struct Multiples {
+  Multiples(float angle, int order) {
+    const double a = angle, c = std::cos(a), s = std::sin(a);
+    double cm = 1, sm = 0;
+    for (int m = 0; m < order; ++m) {
+      cosine[m] = static_cast<float>(cm), sine[m] = static_cast<float>(sm);
+      const double next = c * cm - s * sm;
+      sm = s * cm + c * sm, cm = next;
+    }
+  }
+  float cosine[HarmonicBasis<float>::kMaxOrder], sine[HarmonicBasis<float>::kMaxOrder];
+};
+
+int order_of(std::size_t coefficients) {
+  return static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
+}
+
+}  // namespace
+
+ZyzAngles rotation_angles(const Frame& from, const Frame& to) {
+  const auto r = [&](const Vec3& row, const Vec3& column) { return glm::dot(DVec3(row), DVec3(column)); };
+  const double xz = r(to.x, from.z), yz = r(to.y, from.z), sine = std::hypot(xz, yz);
+  ZyzAngles angles;
+  const double beta = std::atan2(sine, r(to.z, from.z));
+  // Next to 0 and pi alpha and gamma are undefined one by one: their sum, or difference, is not.
+  const bool undefined = !(sine > 1e-6);
+  const double gamma = undefined ? 0 : std::atan2(yz, xz);
+  const double xx = r(to.x, from.x), xy = r(to.x, from.y), yx = r(to.y, from.x), yy = r(to.y, from.y);
+  const double alpha = beta <= std::numbers::pi / 2 ? std::atan2(yx - xy, xx + yy) - gamma
+                                                    : gamma - std::atan2(-(yx + xy), yy - xx);
+  angles.alpha = static_cast<float>(alpha), angles.beta = static_cast<float>(beta);
+  angles.gamma = static_cast<float>(gamma);
+  return angles;
+}
+
+void rotate_about_z(std::span<float> coefficients, float angle, int channels) {
+  PHOS_CHECK(channels > 0, "channels ", channels);
+  const auto width = static_cast<std::size_t>(channels);
+  const int order = order_of(coefficients.size() / width);
+  PHOS_CHECK(order <= HarmonicBasis<float>::kMaxOrder &&
+                 coefficients.size() == static_cast<std::size_t>(harmonic_count(order)) * width,
+             coefficients.size(), " coefficients");
+  const Multiples turn(angle, order);
+  for (int l = 1; l < order; ++l)
+    for (int m = 1; m <= l; ++m) {
+      float* plus = coefficients.data() + static_cast<std::size_t>(harmonic_index(l, m)) * width;
+      float* minus = coefficients.data() + static_cast<std::size_t>(harmonic_index(l, -m)) * width;
+      const float c = turn.cosine[m], s = turn.sine[m];
+      for (std::size_t k = 0; k < width; ++k) {
+        const float p = plus[k], q = minus[k];
+        plus[k] = p * c - q * s, minus[k] = p * s + q * c;
+      }
+    }
+}
+
+/// Matrices of the whole degrees, made when first asked for.
+struct HshRotator::Tables {
+  Tables(int of_order, HshRotation by) : order(of_order), method(by) {}
+  int order;
+  HshRotation method;
+
+  const PackedTurn& at_degree(int degree) const {
+    Entry& e = entries[degree];
+    std::call_once(e.made, [&] { e.turn = pack(hsh_turn(order, method, degree * std::numbers::pi / 180)); });
+    return e.turn;
+  }
+
+  static std::shared_ptr<const Tables> shared(int order, HshRotation method) {
+    static std::mutex mutex;
+    static std::map<std::pair<int, HshRotation>, std::shared_ptr<const Tables>> all;
+    const std::lock_guard lock(mutex);
+    auto& tables = all[{order, method}];
+    if (!tables) tables = std::make_shared<const Tables>(order, method);
+    return tables;
+  }
+
+ private:
+  struct Entry {
+    std::once_flag made;
+    PackedTurn turn;
+  };
+  mutable Entry entries[kDegrees + 1];
+};
+
+HshRotator::HshRotator(int order, HshRotation method, float max_beta) : max_beta_(max_beta) {
+  if (order < 1 || order > kMaxOrder)
+    throw Error(ExitCode::usage, "", text("order ", order, ": HSH are rotated to order 1 .. ", kMaxOrder));
+  if (!(max_beta >= 0 && max_beta <= std::numbers::pi_v<float> / 2))
+    throw Error(ExitCode::usage, "", text("max_beta ", max_beta, ": must be from 0 to pi/2 rad"));
+  tables_ = Tables::shared(order, method);
+}
+HshRotator::~HshRotator() = default;
+
+int HshRotator::order() const { return tables_->order; }
+
+void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
+                        int channels) const {
+  const int order = tables_->order;
+  const auto width = static_cast<std::size_t>(channels);
+  PHOS_CHECK(channels > 0, "channels ", channels);
+  PHOS_CHECK(in.size() == static_cast<std::size_t>(harmonic_count(order)) * width && out.size() == in.size(),
+             in.size(), " and ", out.size(), " coefficients");
+  PHOS_CHECK(std::isfinite(angles.alpha + angles.beta + angles.gamma) && angles.beta >= 0, "alpha ",
+             angles.alpha, " beta ", angles.beta, " gamma ", angles.gamma);
+  if (angles.beta < kLeastBeta) {
+    std::copy(in.begin(), in.end(), out.begin());
+    return rotate_about_z(out, angles.alpha + angles.gamma, channels);
+  }
+  const float degrees = std::min(angles.beta / kPerDegree, static_cast<float>(kDegrees));
+  const int below = std::min(static_cast<int>(degrees), kDegrees - 1);
+  PackedTurn exact;
+  const bool tabled = angles.beta <= max_beta_;
+  if (!tabled) exact = pack(hsh_turn(order, tables_->method, std::min<double>(angles.beta, std::numbers::pi)));
+  const PackedTurn& a = tabled ? tables_->at_degree(below) : exact;
+  const PackedTurn& b = tabled ? tables_->at_degree(below + 1) : exact;
+  const float of_b = tabled ? degrees - static_cast<float>(below) : 0, of_a = 1 - of_b;
+
+  const Multiples first(angles.alpha, order), last(angles.gamma, order);
+  for (int channel = 0; channel < channels; ++channel) {
+    float cosine[2][PackedTurn::kMaxRows], sine[2][PackedTurn::kMaxRows];
+    const float* from = in.data() + channel;
+    float *c = cosine[0], *s = sine[0];
+    for (int l = 0; l < order; ++l) {
+      const float* centre = from + static_cast<std::size_t>(harmonic_index(l, 0)) * width;
+      *c++ = *centre;
+      for (std::size_t m = 1; m <= static_cast<std::size_t>(l); ++m) {
+        const float p = centre[m * width], q = *(centre - m * width);
+        *c++ = p * first.cosine[m] - q * first.sine[m];
+        *s++ = p * first.sine[m] + q * first.cosine[m];
+      }
+    }
+    turn_interpolated(a.cosine.data(), b.cosine.data(), a.cosines, of_a, of_b, cosine[0], cosine[1]);
+    turn_interpolated(a.sine.data(), b.sine.data(), a.sines, of_a, of_b, sine[0], sine[1]);
+    float* to = out.data() + channel;
+    c = cosine[1], s = sine[1];
+    for (int l = 0; l < order; ++l) {
+      float* centre = to + static_cast<std::size_t>(harmonic_index(l, 0)) * width;
+      *centre = *c++;
+      for (std::size_t m = 1; m <= static_cast<std::size_t>(l); ++m) {
+        const float p = *c++, q = *s++;
+        centre[m * width] = p * last.cosine[m] - q * last.sine[m];
+        *(centre - m * width) = p * last.sine[m] + q * last.cosine[m];
+      }
+    }
+  }
+}
+
+ShRotation::ShRotation(int order, const ZyzAngles& angles) : order_(order) {
+  const HarmonicBasis<double> within_range(order);
+  const Multiples first(angles.alpha, order), last(angles.gamma, order);
+  std::size_t l = 0;
+  for (const BandTurn& band : sh_turn(order, angles.beta)) {
+    const std::size_t size = 2 * l + 1;
+    std::vector<double>& d = band_.emplace_back(size * size, 0.);
+    const auto at = [&](std::size_t row, std::size_t column) -> double& { return d[row * size + column]; };
+    for (std::size_t i = 0; i <= l; ++i)
+      for (std::size_t j = 0; j <= l; ++j) {
+        const double c = band.cosine[i * (l + 1) + j];
+        const double s = i > 0 && j > 0 ? band.sine[(i - 1) * l + j - 1] : 0;
+        // Rz(gamma) on the left, Rz(alpha) on the right; centre l, cosines to the right, sines to the left.
+        const double ci = last.cosine[i], si = last.sine[i], cj = first.cosine[j], sj = first.sine[j];
+        at(l + i, l + j) = ci * c * cj - si * s * sj;
+        if (j > 0) at(l + i, l - j) = -ci * c * sj - si * s * cj;
+        if (i > 0) at(l - i, l + j) = si * c * cj + ci * s * sj;
+        if (i > 0 && j > 0) at(l - i, l - j) = -si * c * sj + ci * s * cj;
+      }
+    ++l;
+  }
+}
+
+void ShRotation::rotate(std::span<const float> in, std::span<float> out, int channels) const {
+  PHOS_CHECK(channels > 0, "channels ", channels);
+  const auto width = static_cast<std::size_t>(channels);
+  PHOS_CHECK(in.size() == static_cast<std::size_t>(harmonic_count(order_)) * width && out.size() == in.size(),
+             in.size(), " and ", out.size(), " coefficients");
+  for (std::size_t l = 0; l < band_.size(); ++l) {
+    const double* d = band_[l].data();
+    for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i, d += 2 * l + 1)
+      for (std::size_t channel = 0; channel < width; ++channel) {
+        double sum = 0;
+        for (std::size_t j = 0; j <= 2 * l; ++j) sum += d[j] * in[(l * l + j) * width + channel];
+        out[i * width + channel] = static_cast<float>(sum);
+      }
+  }
+}
+
+}  // namespace phos

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/vector.h"
 #include "hsh/basis.h"
@@ -30,10 +31,13 @@ enum class HshRotation : unsigned char {
   even_fill,      ///< mirrored at the horizon
 };
 
-/// Rotates HSH of one order. Tables of one degree steps up to `max_beta`, interpolated; beyond, the matrix is
-/// made anew (slow). Const, usable from any thread.
+/// Rotates HSH of one order: whatever the method, two turns about z and a matrix between them. Matrices are
+/// made by whole degrees when first needed, once per order and method for the whole program, and
+/// interpolated; beyond `max_beta` the matrix of that very angle is made anew (slow). Const, usable from any
+/// thread; the same numbers on every machine and for any number of threads.
 class HshRotator {
  public:
+  static constexpr int kMaxOrder = 30;
   /// Throws Error(usage) for an order outside 1 .. 30, or max_beta outside [0, pi/2].
   HshRotator(int order, HshRotation method = HshRotation::constant_fill, float max_beta = 0.55f);
   ~HshRotator();
@@ -44,13 +48,16 @@ class HshRotator {
 
  private:
   struct Tables;
-  std::unique_ptr<Tables> tables_;
+  std::shared_ptr<const Tables> tables_;
+  float max_beta_;
 };
 
 /// Exact rotation of SH, band by band; made for one rotation and used for many functions.
 class ShRotation {
  public:
+  /// Throws Error(usage) for an order outside 1 .. HarmonicBasis::kMaxOrder.
   ShRotation(int order, const ZyzAngles& angles);
+  /// in and out [channels * order^2], not the same memory.
   void rotate(std::span<const float> in, std::span<float> out, int channels = 1) const;
 
  private:

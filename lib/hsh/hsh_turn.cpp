@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "hsh/basis.h"
+#include "hsh/conversion.h"
+#include "hsh/quadrature.h"
+#include "hsh/turn.h"
+
+namespace phos {
+namespace {
+
+constexpr double kPi64 = std::numbers::pi;
+
+/// The harmonics at one direction, cosines and sines apart.
+class Apart {
+ public:
+  explicit Apart(int order) : basis_(order), all_(static_cast<std::size_t>(basis_.count())), turn_(order) {
+    cosine.resize(turn_.cosines()), sine.resize(turn_.sines());
+  }
+  void evaluate(double x, double y, double z) {
+    basis_.evaluate(BasisKind::hsh, x, y, z, all_.data());
+    double *c = cosine.data(), *s = sine.data();
+    for (int l = 0; l < basis_.order(); ++l) {
+      const double* centre = all_.data() + harmonic_index(l, 0);
+      for (int m = 0; m <= l; ++m) *c++ = centre[m];
+      for (int m = 1; m <= l; ++m) *s++ = centre[-m];
+    }
+  }
+  std::vector<double> cosine, sine;
+
+ private:
+  HarmonicBasis<double> basis_;
+  std::vector<double> all_;
+  Turn turn_;
+};
+
+void add_product(std::vector<double>& matrix, double weight, const std::vector<double>& a,
+                 const std::vector<double>& b) {
+  double* row = matrix.data();
+  for (const double ai : a) {
+    const double f = weight * ai;
+    for (std::size_t j = 0; j < b.size(); ++j) row[j] += f * b[j];
+    row += b.size();
+  }
+}
+
+/// A range of psi for quadrature: [0, 1] is mapped to angles by psi.
+struct PsiMap {
+  int points;
+  std::function<double(double)> psi, derivative;
+};
+
+/// Angles about the y axis: w = (sin theta cos psi, cos theta, sin theta sin psi). What comes from R^-1 w has
+/// psi + beta. All is even in y (products of cosines and products of sines are), so theta goes from 0 to pi/2
+/// alone; theta = pi/2 u^2 makes the roots of z that harmonics hold smooth in u. Calls at(sin theta,
+/// cos theta, psi, weight).
+template <class At>
+void integrate_lune(int order, const PsiMap& map, const At& at) {
+  std::vector<double> u, u_weight, v, v_weight;
+  gauss_legendre(2 * order + 16, u, u_weight);
+  gauss_legendre(map.points, v, v_weight);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double s = 0.5 * (u[i] + 1), theta = kPi64 / 2 * s * s;
+    const double rho = std::sin(theta), y = std::cos(theta);
+    const double theta_weight = 2 * 0.5 * u_weight[i] * kPi64 * s * rho;  // twice: y and -y
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const double t = 0.5 * (v[k] + 1);
+      at(rho, y, map.psi(t), theta_weight * 0.5 * v_weight[k] * map.derivative(t));
+    }
+  }
+}
+
+/// From a horizon (`psi` = distance from it) to `beta`, with the roots of z at both horizons made smooth:
+/// psi = pi sin^2.
+PsiMap from_horizon(int order, double beta) {
+  const double end = std::asin(std::sqrt(std::min(1., beta / kPi64)));
+  return {2 * order + 16 + static_cast<int>(20 * end),
+          [=](double t) { return kPi64 * std::sin(end * t) * std::sin(end * t); },
+          [=](double t) { return end * kPi64 * std::sin(2 * end * t); }};
+}
+
+/// What was and stays above the horizon: psi in (0, pi - beta). The mirror image x -> -x, which swaps the two
+/// horizons, gives one half from the other. psi = beta sinh^2 makes the roots of z here (psi) and before the
+/// turn (psi + beta) smooth.
+Turn kept(int order, double beta) {
+  Turn turn(order);
+  if (beta >= kPi64) return turn;
+  Apart here(order), before(order);
+  const double end = std::asinh(std::sqrt((kPi64 - beta) / (2 * beta)));
+  const PsiMap map{2 * order + 8 + static_cast<int>(12 * end),
+                   [=](double t) { return beta * std::sinh(end * t) * std::sinh(end * t); },
+                   [=](double t) { return end * beta * std::sinh(2 * end * t); }};
+  integrate_lune(order, map, [&](double rho, double y, double psi, double w) {
+    here.evaluate(rho * std::cos(psi), y, rho * std::sin(psi));
+    before.evaluate(rho * std::cos(psi + beta), y, rho * std::sin(psi + beta));
+    add_product(turn.cosine, w, here.cosine, before.cosine);
+    add_product(turn.sine, w, here.sine, before.sine);
+  });
+  const auto add_mirrored = [&](std::vector<double>& matrix, int least_m) {
+    std::vector<int> parity;
+    for (int l = 0; l < order; ++l)
+      for (int m = least_m; m <= l; ++m) parity.push_back(m % 2);
+    const std::size_t n = parity.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double sign = parity[i] == parity[j] ? 1 : -1;
+        const double a = matrix[i * n + j], b = matrix[j * n + i];
+        matrix[i * n + j] = a + sign * b, matrix[j * n + i] = b + sign * a;
+      }
+  };
+  add_mirrored(turn.cosine, 0), add_mirrored(turn.sine, 1);
+  return turn;
+}
+
+/// Adds what is now above the horizon and was below: psi in (pi - beta, pi), filled with the function's value
+/// on the old horizon, one for all of it: H_l0 = (-1)^l sqrt((2l+1) / 2 pi), the others 0.
+void fill_constant(Turn& turn, double beta) {
+  Apart here(turn.order);
+  const std::size_t n = turn.cosines();
+  std::vector<double> seen(n, 0.);
+  integrate_lune(turn.order, from_horizon(turn.order, beta), [&](double rho, double y, double psi, double w) {
+    here.evaluate(-rho * std::cos(psi), y, rho * std::sin(psi));
+    for (std::size_t i = 0; i < n; ++i) seen[i] += w * here.cosine[i];
+  });
+  for (int l = 0; l < turn.order; ++l) {
+    const double horizon = (l % 2 == 0 ? 1 : -1) * std::sqrt((2 * l + 1) / (2 * kPi64));
+    for (std::size_t i = 0; i < n; ++i) turn.cosine[i * n + Turn::cosine_index(l, 0)] += seen[i] * horizon;
+  }
+}
+
+/// The same with the function mirrored at the old horizon. sin^2 makes the roots at both horizons smooth.
+void fill_even(Turn& turn, double beta) {
+  Apart here(turn.order), before(turn.order);
+  const PsiMap map{2 * turn.order + 16 + static_cast<int>(12 * beta),
+                   [=](double t) { return beta * std::sin(kPi64 / 2 * t) * std::sin(kPi64 / 2 * t); },
+                   [=](double t) { return beta * kPi64 / 2 * std::sin(kPi64 * t); }};
+  integrate_lune(turn.order, map, [&](double rho, double y, double psi, double w) {
+    here.evaluate(-rho * std::cos(psi), y, rho * std::sin(psi));
+    before.evaluate(-rho * std::cos(beta - psi), y, rho * std::sin(beta - psi));
+    add_product(turn.cosine, w, here.cosine, before.cosine);
+    add_product(turn.sine, w, here.sine, before.sine);
+  });
+}
+
+/// The function less what will go below the horizon: psi in (0, beta).
+Turn without_digon(int order, double beta) {
+  Turn turn(order);
+  Apart here(order);
+  for (std::size_t i = 0; i < turn.cosines(); ++i) turn.cosine[i * turn.cosines() + i] = 1;
+  for (std::size_t i = 0; i < turn.sines(); ++i) turn.sine[i * turn.sines() + i] = 1;
+  integrate_lune(order, from_horizon(order, beta), [&](double rho, double y, double psi, double w) {
+    here.evaluate(rho * std::cos(psi), y, rho * std::sin(psi));
+    add_product(turn.cosine, -w, here.cosine, here.cosine);
+    add_product(turn.sine, -w, here.sine, here.sine);
+  });
+  return turn;
+}
+
+/// HSH follow SH on the mapped sphere; the angle mapped likewise is right at the pole alone.
+Turn digon(int order, double beta) {
+  const double mapped = 2 * std::asin(std::min(1., std::numbers::sqrt2 * std::sin(beta / 2)));
+  const std::vector<BandTurn> bands = sh_turn(order, mapped);
+  const Turn cut = without_digon(order, beta);
+  Turn turn(order);
+  const auto multiply = [](const std::vector<double>& band, std::size_t size, std::size_t first,
+                           const std::vector<double>& from, std::size_t n, std::vector<double>& to) {
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t k = 0; k < size; ++k)
+        for (std::size_t j = 0; j < n; ++j)
+          to[(first + i) * n + j] += band[i * size + k] * from[(first + k) * n + j];
+  };
+  for (int l = 0; l < order; ++l) {
+    const BandTurn& band = bands[static_cast<std::size_t>(l)];
+    const auto size = static_cast<std::size_t>(l);
+    multiply(band.cosine, size + 1, Turn::cosine_index(l, 0), cut.cosine, cut.cosines(), turn.cosine);
+    multiply(band.sine, size, Turn::sine_index(l, 1), cut.sine, cut.sines(), turn.sine);
+  }
+  return turn;
+}
+
+/// C D C^T: to SH, turned, and back.
+Turn via_sh(int order, double beta) {
+  const int sh_order = std::min(2 * order, HarmonicBasis<double>::kMaxOrder);
+  const HarmonicConversion c(order, sh_order);
+  const std::vector<BandTurn> bands = sh_turn(sh_order, beta);
+  Turn turn(order);
+  for (int m = 0; m < order; ++m)
+    for (int n = 0; n < order; ++n)
+      for (int l = m; l < order; ++l)
+        for (int k = n; k < order; ++k) {
+          double cosine = 0, sine = 0;
+          for (int s = std::max(m, n); s < sh_order; ++s) {
+            const BandTurn& band = bands[static_cast<std::size_t>(s)];
+            const double cc = c.block(m)[static_cast<std::size_t>((l - m) * (sh_order - m) + s - m)] *
+                              c.block(n)[static_cast<std::size_t>((k - n) * (sh_order - n) + s - n)];
+            cosine += cc * band.cosine[static_cast<std::size_t>(m * (s + 1) + n)];
+            if (m > 0 && n > 0) sine += cc * band.sine[static_cast<std::size_t>((m - 1) * s + n - 1)];
+          }
+          turn.cosine[Turn::cosine_index(l, m) * turn.cosines() + Turn::cosine_index(k, n)] = cosine;
+          if (m > 0 && n > 0)
+            turn.sine[Turn::sine_index(l, m) * turn.sines() + Turn::sine_index(k, n)] = sine;
+        }
+  return turn;
+}
+
+}  // namespace
+
+Turn hsh_turn(int order, HshRotation method, double beta) {
+  if (method == HshRotation::via_sh) return via_sh(order, beta);
+  if (method == HshRotation::digon) return digon(order, beta);
+  if (beta <= 0) return without_digon(order, 0);  // the identity
+  Turn turn = kept(order, beta);
+  if (method == HshRotation::constant_fill) fill_constant(turn, beta);
+  if (method == HshRotation::even_fill) fill_even(turn, beta);
+  return turn;
+}
+
+}  // namespace phos
