@@ -54,7 +54,8 @@ std::vector<double> project_samples(BasisKind kind, int order, std::span<const d
   std::size_t left_out = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double weighted = value[k] / pdf[k];
-    if (!(pdf[k] > 0) || !std::isfinite(weighted)) {
+    if (!(pdf[k] > 0) || !std::isfinite(weighted) || !std::isfinite(x[k]) || !std::isfinite(y[k]) ||
+        !std::isfinite(z[k])) {
       ++left_out;
       continue;
     }
