@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "scene/merl.h"
 #include "scene/microfacet.h"
 #include "scene/texture.h"
 
@@ -19,6 +20,12 @@ float normal_reflectance(float ior) {
 
 // What the material is, at this point.
 
+struct Bsdf::Looked {
+  Rgb base;
+  Vec4 metallic_roughness;
+  float anisotropy;
+};
+
 Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
     : frame_{point.tangent, glm::cross(point.normal, point.tangent), point.normal},
       geometric_normal_(point.geometric_normal),
@@ -26,20 +33,24 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
   const Material& material = scene.material[point.material];
   Rgb base = material.kd * Rgb(point.colour);
   if (material.base_colour.used()) base *= Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
-  Vec4 texel(1);
-  if (material.metallic_roughness.used()) {
-    texel = look_up(scene, material.metallic_roughness, point.uv0, point.uv1);
-  }
-  resolve(material, base, texel);
+  const auto texel = [&](const TextureUse& use) {
+    return use.used() ? look_up(scene, use, point.uv0, point.uv1) : Vec4(1);
+  };
+  const float anisotropy =
+      material.anisotropy > 0 ? material.anisotropy * texel(material.anisotropy_map).z : 0;
+  resolve(scene, material, {base, texel(material.metallic_roughness), anisotropy});
 }
 
 Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
     : frame_(frame), geometric_normal_(frame.z) {
   const Material& m = scene.material[material];
-  resolve(m, m.kd * Rgb(mean_texel(scene, m.base_colour)), mean_texel(scene, m.metallic_roughness));
+  resolve(scene, m,
+          {m.kd * Rgb(mean_texel(scene, m.base_colour)), mean_texel(scene, m.metallic_roughness),
+           m.anisotropy * mean_texel(scene, m.anisotropy_map).z});
 }
 
-void Bsdf::resolve(const Material& material, const Rgb& base, const Vec4& metallic_roughness_texel) {
+void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
+  const Rgb& base = looked.base;
   specular_ = material.ks;
   ior_ = material.ior;
   switch (material.model) {
@@ -67,11 +78,16 @@ void Bsdf::resolve(const Material& material, const Rgb& base, const Vec4& metall
       if (!(ior_ > 0)) ior_ = 1;
       break;
     case Model::plastic:
-      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_x);
+      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
       resolve_plastic(base);
       break;
     case Model::metallic_roughness:
-      resolve_metallic_roughness(material, base, metallic_roughness_texel);
+      resolve_metallic_roughness(material, looked);
+      break;
+    case Model::measured:
+      measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
+      diffuse_ = measured_->lambert();
+      lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
       break;
   }
 }
@@ -88,7 +104,8 @@ void Bsdf::resolve_rough(Lobe lobe, float alpha_x, float alpha_y) {
 }
 
 void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection) {
-  const float transmitted = 1 - ggx_mean_albedo(coat_alpha_, f0, f90);
+  coat_f0_ = f0, coat_f90_ = f90;
+  const float transmitted = coat_mean_ = mean_coat_transmittance();
   if (!(max_component(base) > 0) || !(transmitted > 0)) return;
   coated_ = true;
   // k_interreflection is 1/eta^2 of the coat, or 0 for a base whose colour already is what leaves the coat.
@@ -106,21 +123,21 @@ void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interref
 void Bsdf::resolve_plastic(const Rgb& kd) {
   const float eta = std::max(ior_, 1.f), f0 = normal_reflectance(eta);
   specular_ = Rgb(f0);
-  coat_f0_ = f0, coat_f90_ = 1, coat_alpha_ = alpha_x_;
   put_under_coat(kd, f0, 1, 1 / (eta * eta));
 }
 
-void Bsdf::resolve_metallic_roughness(const Material& material, const Rgb& base, const Vec4& texel) {
-  const float roughness = std::clamp(material.roughness * texel.y, 0.f, 1.f);
-  const float metallic = std::clamp(material.metallic * texel.z, 0.f, 1.f);
+void Bsdf::resolve_metallic_roughness(const Material& material, const Looked& looked) {
+  const Rgb& base = looked.base;
+  const float roughness = std::clamp(material.roughness * looked.metallic_roughness.y, 0.f, 1.f);
+  const float metallic = std::clamp(material.metallic * looked.metallic_roughness.z, 0.f, 1.f);
   const Rgb f0 = material.specular * glm::min(normal_reflectance(ior_) * material.specular_colour, Rgb(1));
   // Schlick is linear in its ends, so glTF's mix of a metal and a dielectric is one lobe.
   specular_ = (1 - metallic) * f0 + metallic * base;
   f90_ = (1 - metallic) * material.specular + metallic;
-  resolve_rough(Lobe::ggx, roughness * roughness, roughness * roughness);
-  coat_f0_ = max_component(f0), coat_f90_ = material.specular, coat_alpha_ = alpha_x_;
+  const float alpha = roughness * roughness;
+  resolve_rough(Lobe::ggx, alpha + (1 - alpha) * looked.anisotropy * looked.anisotropy, alpha);
   const Rgb beneath = (1 - metallic) * base;
-  put_under_coat((1 - material.transmission) * beneath, coat_f0_, coat_f90_, 0);
+  put_under_coat((1 - material.transmission) * beneath, max_component(f0), material.specular, 0);
   sheet_ = material.transmission * beneath;
   if (max_component(sheet_) > 0 && delta_ == Delta::none) delta_ = Delta::sheet;
 }
@@ -150,10 +167,9 @@ Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count
   Choice p;
   p.diffuse = luminance(diffuse_);
   if (coated_) {
-    // diffuse_ / base_ is the square of the coat's mean transmittance.
-    p.diffuse *= coat_transmittance(o.z) / (1 - ggx_mean_albedo(coat_alpha_, coat_f0_, coat_f90_));
+    p.diffuse *= coat_transmittance(o) / coat_mean_;  // diffuse_ / base_ is coat_mean_^2
   }
-  if (lobe_ != Lobe::none) p.gloss = luminance(lobe_ == Lobe::ggx ? schlick(o.z) : specular_);
+  p.gloss = lobe_albedo(o.z);
   for (int b = 0; b < count; ++b) p.delta[b] = luminance(branches[b].weight);
   const float sum = p.diffuse + p.gloss + p.delta[0] + p.delta[1];
   if (!(sum > 0)) return {};
@@ -246,10 +262,10 @@ int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMod
       break;
     case Delta::schlick:
       add(reflected, schlick(o.z), false);
-      add(-o, coat_transmittance(o.z) * sheet_, true);
+      add(-o, coat_transmittance(o) * sheet_, true);
       break;
     case Delta::sheet:
-      add(-o, coat_transmittance(o.z) * sheet_, true);
+      add(-o, coat_transmittance(o) * sheet_, true);
       break;
     case Delta::dielectric: {
       const float eta = front_ ? ior_ : 1 / ior_;
@@ -276,8 +292,7 @@ int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMod
 float Bsdf::broad_share(const Vec3& o) const {
   if (!coated_) return 0;
   if (lobe_ == Lobe::none) return 1;
-  const float mean = 1 - ggx_mean_albedo(coat_alpha_, coat_f0_, coat_f90_);
-  const float broad = luminance(base_) * mean * (std::fabs(coat_transmittance(o.z) - mean) + 0.04f);
+  const float broad = luminance(base_) * coat_mean_ * (std::fabs(coat_transmittance(o) - coat_mean_) + 0.04f);
   // Never more than half, as a narrow lobe sees more contrast than a broad one.
   return std::clamp(broad / (broad + luminance(schlick(o.z))), 0.1f, 0.5f);
 }

@@ -23,7 +23,8 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// The material at one point, textures looked up. `wo` and `wi` are unit, world space, and point away from
 /// the surface. Reflection is two-sided; wo and wi must both lie above the surface and above its shading
 /// normal's horizon, else the value is 0 (no light leaks through bumps). Albedo is at most 1 for every wo,
-/// except that phong and ward add kd and their lobe as the scene states them.
+/// except that phong and ward add kd and their lobe as the scene states them, and that measured data may gain
+/// energy.
 ///
 /// | model | smooth part | Lambert part |
 /// | phong | modified Phong, (n+2)/(2 pi) ks cos^n (Lafortune and Willems 1994) | kd |
@@ -31,12 +32,15 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// | conductor | GGX, Schlick with f0 | none |
 /// | plastic | GGX, Schlick from ior | kd under the coat |
 /// | metallic_roughness | GGX, glTF 2.0 appendix B | base colour under the coat |
+/// | measured | the table less its Lambert part, signed | see MerlBrdf |
 ///
-/// GGX has height-correlated Smith shadowing. A base under a coat reflects k kd/pi T(wo) T(wi), T = 1 -
-/// albedo of the coat, which is reciprocal and conserves energy; k = 1/T_mean for metallic_roughness, and
-/// 1/(T_mean + interreflection below the coat) for plastic (`kd` is then the pigment's own reflectance, as in
-/// the physical model of a coat of refractive index ior). A GGX or Ward roughness below kSmoothestAlpha is a
-/// mirror.
+/// GGX has height-correlated Smith shadowing. Ward and GGX lobes may be anisotropic: alpha_x along the
+/// point's tangent. A base under a coat reflects k kd/pi T(wo) T(wi), T = 1 - albedo of the coat, which is
+/// reciprocal and conserves energy (an anisotropic coat is taken as one of the roughness across the lobe's
+/// plane, ax cos^2 phi + ay sin^2 phi, which may return 3 % too much of a white base near grazing); k =
+/// 1/T_mean for metallic_roughness, and 1/(T_mean + interreflection below the coat) for plastic (`kd` is then
+/// the pigment's own reflectance, as in the physical model of a coat of refractive index ior). A GGX or Ward
+/// roughness below kSmoothestAlpha is a mirror.
 class Bsdf {
  public:
   static constexpr float kSmoothestAlpha = 1e-3f;
@@ -79,21 +83,25 @@ class Bsdf {
   float density_gloss(const Vec3& wo, const Vec3& wi) const;
 
  private:
-  enum class Lobe : std::uint8_t { none, phong, ward, ggx };
+  enum class Lobe : std::uint8_t { none, phong, ward, ggx, measured };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
 
-  void resolve(const Material& material, const Rgb& base, const Vec4& metallic_roughness_texel);
-  void resolve_metallic_roughness(const Material& material, const Rgb& base, const Vec4& texel);
+  struct Looked;  // what the textures say
+
+  void resolve(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_metallic_roughness(const Material& material, const Looked& looked);
   void resolve_plastic(const Rgb& kd);
   void resolve_rough(Lobe lobe, float alpha_x, float alpha_y);
   void put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection);
 
   bool above(const Vec3& wo, const Vec3& wi, Vec3& o, Vec3& i) const;
-  float coat_transmittance(float cos_theta) const;
+  float coat_transmittance(const Vec3& w) const;
+  float mean_coat_transmittance() const;
   Rgb schlick(float cos_theta) const;
   Rgb base_value(const Vec3& o, const Vec3& i) const;
   Rgb lobe_value(const Vec3& o, const Vec3& i) const;
   float lobe_density(const Vec3& o, const Vec3& i) const;
+  float lobe_albedo(float cos_theta) const;
   bool sample_lobe(const Vec3& o, const Vec2& u, Vec3& i) const;
   /// Probabilities of the diffuse, glossy and two delta lobes; they add up to 1 or are all 0.
   struct Choice {
@@ -110,10 +118,11 @@ class Bsdf {
   Rgb specular_{0};  // ks, or reflectance at normal incidence (GGX, delta)
   Rgb base_{0};      // under a coat: k kd
   Rgb sheet_{0};     // transmitted straight through
-  float f90_ = 1, coat_f0_ = 0, coat_f90_ = 1, coat_alpha_ = 0;
+  float f90_ = 1, coat_f0_ = 0, coat_f90_ = 1, coat_mean_ = 1;  // coat_mean_: transmittance
   float alpha_x_ = 0, alpha_y_ = 0, exponent_ = 1, ior_ = 1.5f;
   Lobe lobe_ = Lobe::none;
   Delta delta_ = Delta::none;
+  const MerlBrdf* measured_ = nullptr;
   bool coated_ = false, front_ = true;
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/merl.h"
 #include "scene/microfacet.h"
 
 namespace phos {
@@ -19,9 +20,26 @@ float ward_exponential(const Vec3& h, float alpha_x, float alpha_y) {
 
 }  // namespace
 
-float Bsdf::coat_transmittance(float cos_theta) const {
-  if (coat_alpha_ > 0) return 1 - ggx_albedo(cos_theta, coat_alpha_, coat_f0_, coat_f90_);
-  return 1 - (coat_f0_ + (coat_f90_ - coat_f0_) * schlick_power(cos_theta));
+float Bsdf::coat_transmittance(const Vec3& w) const {
+  if (lobe_ == Lobe::none) return 1 - (coat_f0_ + (coat_f90_ - coat_f0_) * schlick_power(w.z));
+  float alpha = alpha_x_;
+  if (alpha_x_ != alpha_y_) {
+    const float x2 = w.x * w.x, y2 = w.y * w.y;
+    alpha = x2 + y2 > 0 ? (alpha_x_ * x2 + alpha_y_ * y2) / (x2 + y2) : 0.5f * (alpha_x_ + alpha_y_);
+  }
+  return 1 - ggx_albedo(w.z, alpha, coat_f0_, coat_f90_);
+}
+
+float Bsdf::mean_coat_transmittance() const {
+  if (alpha_x_ == alpha_y_) return 1 - ggx_mean_albedo(alpha_x_, coat_f0_, coat_f90_);
+  // Over a quarter of the azimuths, by the midpoint rule: cos^2 at the middles of 8 equal angles.
+  constexpr float kCos2[8] = {0.990393f, 0.915735f, 0.777785f, 0.597545f,
+                              0.402455f, 0.222215f, 0.084265f, 0.009607f};
+  float sum = 0;
+  for (const float c2 : kCos2) {
+    sum += 1 - ggx_mean_albedo(alpha_x_ * c2 + alpha_y_ * (1 - c2), coat_f0_, coat_f90_);
+  }
+  return sum / 8;
 }
 
 Rgb Bsdf::schlick(float cos_theta) const {
@@ -31,7 +49,7 @@ Rgb Bsdf::schlick(float cos_theta) const {
 Rgb Bsdf::base_value(const Vec3& o, const Vec3& i) const {
   constexpr float kOverPi = 1 / kPi;
   if (!coated_) return kOverPi * diffuse_;
-  return kOverPi * coat_transmittance(o.z) * coat_transmittance(i.z) * base_;
+  return kOverPi * coat_transmittance(o) * coat_transmittance(i) * base_;
 }
 
 Rgb Bsdf::lobe_value(const Vec3& o, const Vec3& i) const {
@@ -55,8 +73,23 @@ Rgb Bsdf::lobe_value(const Vec3& o, const Vec3& i) const {
       const Vec3 h = glm::normalize(o + i);
       return schlick(glm::dot(o, h)) * (ggx.distribution(h) * ggx.visibility(o, i));
     }
+    case Lobe::measured:
+      return measured_->gloss(o, i);
   }
   return Rgb(0);
+}
+
+float Bsdf::lobe_albedo(float cos_theta) const {
+  switch (lobe_) {
+    case Lobe::none:
+      return 0;
+    case Lobe::ggx:
+      return luminance(schlick(cos_theta));
+    case Lobe::measured:
+      return measured_->gloss_albedo(cos_theta);
+    default:
+      return luminance(specular_);
+  }
 }
 
 float Bsdf::lobe_density(const Vec3& o, const Vec3& i) const {
@@ -74,6 +107,8 @@ float Bsdf::lobe_density(const Vec3& o, const Vec3& i) const {
     }
     case Lobe::ggx:
       return Ggx{alpha_x_, alpha_y_}.density(o, i);
+    case Lobe::measured:
+      return measured_->gloss_density(o, i);
   }
   return 0;
 }
@@ -94,6 +129,8 @@ bool Bsdf::sample_lobe(const Vec3& o, const Vec2& u, Vec3& i) const {
     case Lobe::ggx:
       h = Ggx{alpha_x_, alpha_y_}.sample_visible(o, u);
       break;
+    case Lobe::measured:
+      return measured_->sample_gloss(o, u, i);
   }
   const float cosine = glm::dot(o, h);
   i = glm::normalize(2 * cosine * h - o);

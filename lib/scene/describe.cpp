@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/environment.h"
+#include "scene/merl.h"
 #include "scene/texture.h"
 
 namespace phos {
@@ -17,8 +18,9 @@ constexpr float kDullRoughness = 0.9f;
 /// Sharper lobes than these are cheaper traced than kept as records of hemispherical harmonics.
 constexpr float kSharpExponent = 100, kSharpAlpha = 0.15f;
 
-void classify(MaterialSummary& s, double texture) {
+void classify(const Scene& scene, MaterialSummary& s) {
   const Material& m = *s.material;
+  const double texture = luminance(Rgb(mean_texel(scene, m.base_colour)));
   const double kd = luminance(m.kd) * texture, ks = luminance(m.ks);
   switch (m.model) {
     case Model::metallic_roughness:
@@ -56,6 +58,13 @@ void classify(MaterialSummary& s, double texture) {
     case Model::thin_dielectric:
       s.specular = true;
       break;
+    case Model::measured: {
+      const MerlBrdf& measured = *scene.measured[static_cast<std::size_t>(m.measured)];
+      s.reflectance = luminance(measured.mean_albedo());
+      s.diffuse = max_component(measured.lambert()) > 0;
+      s.glossy = measured.glossy();
+      break;
+    }
   }
 }
 
@@ -126,13 +135,9 @@ Json describe_material(const MaterialSummary& s) {
   if (s.glossy && m.model != Model::phong) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
   if (m.emits()) j["luminance_cd_m2"] = numbers(m.emission);
   Json textures = Json::Array{};
-  const std::array<std::pair<const char*, const TextureUse*>, 4> uses = {
-      {{"base colour", &m.base_colour},
-       {"metallic-roughness", &m.metallic_roughness},
-       {"normal", &m.normal},
-       {"emissive", &m.emissive}}};
-  for (const auto& [name, use] : uses) {
-    if (use->used()) textures.push_back(name);
+  constexpr const char* kNames[] = {"base colour", "metallic-roughness", "normal", "emissive", "anisotropy"};
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    if (m.texture_uses()[i]->used()) textures.push_back(kNames[i]);
   }
   j["textures"] = textures;
   return j;
@@ -171,14 +176,15 @@ std::uint64_t scene_bytes(const Scene& s) {
                     bytes_of(s.tangent) + bytes_of(s.colour) + bytes_of(s.triangle) +
                     bytes_of(s.triangle_instance);
   for (const Texture& t : s.texture) n += bytes_of(t.texels) + bytes_of(t.codes);
+  for (const auto& measured : s.measured) n += measured->memory_bytes();
   return n;
 }
 
 }  // namespace
 
 const char* model_name(Model model) {
-  constexpr const char* kNames[] = {"metallic-roughness", "lambert",    "phong",          "ward",  "plastic",
-                                    "conductor",          "dielectric", "thindielectric", "mirror"};
+  constexpr const char* kNames[] = {"metallic-roughness", "lambert",    "phong",          "ward",   "plastic",
+                                    "conductor",          "dielectric", "thindielectric", "mirror", "merl"};
   return kNames[static_cast<int>(model)];
 }
 
@@ -186,7 +192,7 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<MaterialSummary> out(scene.material.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].material = &scene.material[i];
-    classify(out[i], luminance(Rgb(mean_texel(scene, scene.material[i].base_colour))));
+    classify(scene, out[i]);
   }
   for (const Instance& instance : scene.instance) {
     MaterialSummary& s = out[instance.material];

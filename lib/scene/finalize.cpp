@@ -62,10 +62,14 @@ void check_arrays(const Scene& scene) {
   check(scene.tangent.size(), "tangent");
   check(scene.colour.size(), "colour");
   for (const Material& m : scene.material) {
-    for (const TextureUse* use : {&m.base_colour, &m.metallic_roughness, &m.normal, &m.emissive}) {
+    for (const TextureUse* use : m.texture_uses()) {
       if (use->texture >= static_cast<std::int64_t>(scene.texture.size())) {
         fail(scene, text("material \"", m.name, "\" uses a texture that is not there"));
       }
+    }
+    const bool there = m.measured >= 0 && m.measured < static_cast<std::int64_t>(scene.measured.size());
+    if (m.model == Model::measured && !there) {
+      fail(scene, text("material \"", m.name, "\" has no measured data"));
     }
   }
 }

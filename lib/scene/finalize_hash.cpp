@@ -4,6 +4,7 @@
 #include "file/hash.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
+#include "scene/merl.h"
 
 namespace phos {
 namespace {
@@ -52,6 +53,12 @@ void add_material(Hasher& hasher, const Material& m) {
   }
   for (const TextureUse* use : {&m.base_colour, &m.metallic_roughness, &m.normal, &m.emissive})
     add_use(hasher, *use);
+  if (m.anisotropy > 0) {
+    hasher.add(m.anisotropy);
+    hasher.add(m.anisotropy_rad);
+    add_use(hasher, m.anisotropy_map);
+  }
+  if (m.measured >= 0) hasher.add(m.measured);
   hasher.add(m.double_sided);
   hasher.add(m.alpha_mode);
 }
@@ -85,6 +92,7 @@ std::string hash_materials(const Scene& scene) {
     hasher.add_span(std::span<const Texture::Code>(t.codes));
     hasher.add(t.srgb);
   }
+  for (const auto& measured : scene.measured) hasher.add(measured->contents());
   return hasher.finish().hex();
 }
 

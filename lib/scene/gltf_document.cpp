@@ -15,9 +15,10 @@ namespace phos {
 namespace {
 
 constexpr const char* kExtensions[] = {
-    "KHR_animation_pointer",      "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_unlit",   "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_mesh_quantization", "KHR_texture_transform",
+    "KHR_animation_pointer",           "KHR_lights_punctual", "KHR_materials_anisotropy",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",   "KHR_materials_specular",
+    "KHR_materials_transmission",      "KHR_materials_unlit", "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 constexpr const char* kVersion1 = "glTF 1.0 is not supported; convert it to 2.0";
@@ -206,6 +207,12 @@ std::vector<std::string> gltf_external_files(const std::string& path, std::strin
       if (!uri || !uri->is_string() || is_data_uri(uri->as_string())) continue;
       if (std::optional<std::string> file = uri_file(path, uri->as_string())) files.push_back(*file);
     }
+  }
+  for (std::size_t i = 0; i < count_at(document, "materials"); ++i) {
+    const Json* phos = find_path(element(document, "materials", i), "extras/phos");
+    const Json* file = phos && phos->is_object() ? phos->find("file") : nullptr;
+    if (!file || !file->is_string()) continue;
+    if (std::optional<std::string> there = file_below(path, file->as_string())) files.push_back(*there);
   }
   return files;
 }

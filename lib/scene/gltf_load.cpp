@@ -140,7 +140,8 @@ class SceneReader {
         to_world = glm::dmat4(1);
       }
       const std::uint32_t material = material_of(from.primitives[p].material);
-      const bool tangents = scene_.material[material].normal.used();
+      const Material& m = scene_.material[material];
+      const bool tangents = m.normal.used() || m.anisotropic();
       add_instance(scene_, std::move(*data), to_world, node_name(node), material, tangents, what);
     }
   }

@@ -6,12 +6,15 @@
 
 #include "file/atomic_file.h"
 #include "scene/gltf_uri.h"
+#include "scene/merl.h"
 
 namespace phos {
 namespace {
 
 /// GGX roughness below which transmission counts as smooth glass.
 constexpr double kSmoothRoughness = 0.1;
+
+constexpr const char* kAnisotropy = "extensions/KHR_materials_anisotropy";
 
 struct ImageBytes {
   std::string name, bytes, missing;
@@ -183,6 +186,20 @@ class MaterialReader {
     if (!(t >= 0 && t <= 1)) fail("transmissionFactor must be between 0 and 1");
     material_.transmission = static_cast<float>(t);
     if (t > 0) read_transmission();
+    if (const Json* anisotropy = find_path(*json_, kAnisotropy)) read_anisotropy(*anisotropy);
+  }
+
+  void read_anisotropy(const Json& anisotropy) {
+    const double strength = number_at(anisotropy, "anisotropyStrength", 0);
+    if (!(strength >= 0 && strength <= 1)) fail("anisotropyStrength must be between 0 and 1");
+    if (strength == 0 || find_path(*json_, "extras/phos/brdf")) return;
+    material_.anisotropy = static_cast<float>(strength);
+    material_.anisotropy_rad = static_cast<float>(number_at(anisotropy, "anisotropyRotation", 0));
+    material_.alpha_x += (1 - material_.alpha_x) * material_.anisotropy * material_.anisotropy;
+    const double texture = number_at(anisotropy, "anisotropyTexture/index", -1);
+    const double set = number_at(anisotropy, "anisotropyTexture/texCoord", 0);
+    material_.anisotropy_map = use((std::string(kAnisotropy) + "/anisotropyTexture").c_str(),
+                                   static_cast<int>(texture), static_cast<int>(set), false);
   }
 
   /// KHR_materials_transmission is an infinitely thin pane unless KHR_materials_volume gives it a body.
@@ -252,6 +269,7 @@ class MaterialReader {
         {"dielectric", Model::dielectric},
         {"thindielectric", Model::thin_dielectric},
         {"mirror", Model::mirror},
+        {"merl", Model::measured},
     };
     const auto model = kModels.find(brdf->as_string());
     if (model == kModels.end())
@@ -279,6 +297,9 @@ class MaterialReader {
           warn("rough glass is not modelled: it is read as smooth");
         material_.alpha_x = material_.alpha_y = 0;
         break;
+      case Model::measured:
+        read_measured(phos);
+        break;
       default:
         break;
     }
@@ -286,6 +307,34 @@ class MaterialReader {
     if (model->second == Model::ward && !(material_.alpha_x > 0 && material_.alpha_y > 0)) {
       fail("extras.phos: ward needs ax and ay above 0");
     }
+  }
+
+  /// The table, once for each file. It is the whole material: textures and colours do not change it.
+  void read_measured(const Json& phos) {
+    const Json* file = phos.find("file");
+    if (!file || !file->is_string()) fail("extras.phos: merl needs a \"file\"");
+    const std::optional<std::string> path = file_below(document_.path, file->as_string());
+    if (!path) {
+      fail("extras.phos.file must be a relative path to a file beside the scene or in a folder below it");
+    }
+    auto [known, first] = measured_.try_emplace(*path, static_cast<std::int32_t>(scene_.measured.size()));
+    if (first) scene_.measured.push_back(std::make_shared<const MerlBrdf>(read_merl(*path)));
+    const MerlBrdf& measured = *scene_.measured[static_cast<std::size_t>(known->second)];
+    material_.measured = known->second;
+    material_.kd = measured.lambert();
+    material_.alpha_x = material_.alpha_y = measured.alpha();
+    if (material_.base_colour.used()) warn("its base colour texture is not used with measured data");
+    material_.base_colour = TextureUse();
+    if (const std::string gain = measured.energy_gain(); !gain.empty()) warn(gain);
+    if (first) count_cells(measured);
+  }
+
+  void count_cells(const MerlBrdf& measured) {
+    const auto count = [&](const char* event, std::uint64_t n) {
+      if (n > 0) scene_.events[event] += n;
+    };
+    count("measured angles that reflect more than they get", measured.gaining_angles());
+    count("measured cells without data, filled from the nearest", measured.empty_reachable_cells());
   }
 
   void check_colour(const std::string& what, const Rgb& c) const {
@@ -304,6 +353,7 @@ class MaterialReader {
   TexturePool& textures_;
   Scene& scene_;
   Material material_;
+  std::map<std::string, std::int32_t> measured_;  // by file
   const Json* json_ = nullptr;
   std::size_t index_ = 0;
 };

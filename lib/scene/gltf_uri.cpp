@@ -72,4 +72,10 @@ std::optional<std::string> uri_file(const std::string& scene_path, const std::st
   return beside(scene_path, name);
 }
 
+std::optional<std::string> file_below(const std::string& scene_path, const std::string& uri) {
+  const std::filesystem::path normal = std::filesystem::path(decode_percent(uri)).lexically_normal();
+  if (!normal.empty() && *normal.begin() == "..") return std::nullopt;
+  return uri_file(scene_path, uri);
+}
+
 }  // namespace phos

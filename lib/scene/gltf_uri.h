@@ -13,6 +13,8 @@ std::optional<std::string> decode_data_uri(const std::string& uri);
 /// Path of the file a relative URI names, from the folder of `scene_path`; nothing for an absolute path,
 /// another scheme, or an empty URI. %20 and the like are decoded.
 std::optional<std::string> uri_file(const std::string& scene_path, const std::string& uri);
+/// The same for a file in the scene's folder or below it: nothing for one that climbs out ("../x").
+std::optional<std::string> file_below(const std::string& scene_path, const std::string& uri);
 /// Path of `name` in the folder of `scene_path`.
 std::string beside(const std::string& scene_path, const std::string& name);
 

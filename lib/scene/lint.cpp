@@ -9,6 +9,7 @@
 #include "scene/describe.h"
 #include "scene/environment.h"
 #include "scene/load_textures.h"
+#include "scene/merl.h"
 
 namespace phos {
 namespace {
@@ -26,6 +27,7 @@ class Linter {
     check_light();
     check_lamps();
     check_materials();
+    check_tangents();
     check_geometry();
     check_warnings();
     check_names();
@@ -154,13 +156,42 @@ class Linter {
       const std::string name = "material \"" + m.material->name + "\"";
       const std::string figure =
           text(name, " reflects ", shortest(static_cast<float>(m.reflectance)), " of the light");
-      if (m.reflectance > 1.0001) {
+      if (m.material->model == Model::measured) {
+        check_measured(name, *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
+      } else if (m.reflectance > 1.0001) {
         add(Level::warning, "reflectance-above-one", figure + ", more than it gets",
             "lower kd or ks until kd + ks is at most 1");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
         add(Level::info, "reflectance-high", figure + "; white paint reflects 0.8",
             "lower it unless it is meant");
       }
+    }
+  }
+
+  void check_measured(const std::string& name, const MerlBrdf& measured) {
+    if (const std::string gain = measured.energy_gain(); !gain.empty()) {
+      add(Level::warning, "gains-energy", name + " " + gain,
+          "the measurement is off there, or is in other units; light is not scaled down");
+    }
+    if (const std::uint64_t n = measured.empty_reachable_cells(); n > 0) {
+      add(Level::info, "measured-without-data",
+          text(name, " has ", n, " cells without data that light can reach; the nearest ones stand in"),
+          "measure them, if it matters");
+    }
+  }
+
+  /// Stretched highlights need to know along what.
+  void check_tangents() {
+    for (const Instance& instance : scene_.instance) {
+      const Material& m = scene_.material[instance.material];
+      if (!m.anisotropic()) continue;
+      const std::uint32_t v = scene_.triangle[instance.first_triangle].v[0];
+      const bool tangent = !scene_.tangent.empty() && Vec3(scene_.tangent[v]) != Vec3(0);
+      if (tangent || !scene_.uv0.empty()) continue;
+      add(Level::warning, "anisotropic-without-tangents",
+          text("\"", instance.node, "\" has the anisotropic material \"", m.name,
+               "\", but neither tangents nor texture coordinates; horizontal stands in"),
+          "export tangents or texture coordinates");
     }
   }
 
@@ -194,8 +225,9 @@ class Linter {
 
   void check_warnings() {
     for (const std::string& warning : scene_.warnings) {
-      if (warning.find(": kd + ks is above 1") != std::string::npos)
-        continue;  // reflectance-above-one says it
+      // reflectance-above-one and gains-energy say it.
+      if (warning.find(": kd + ks is above 1") != std::string::npos) continue;
+      if (warning.find(MerlBrdf::kGainsEnergy) != std::string::npos) continue;
       if (warning.rfind(kTextureNotFound, 0) == 0) {
         add(Level::warning, "texture-not-found", warning,
             "put the image beside the scene, or pack it into a .glb");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "scene/shading_frame.h"
 
 namespace phos {
 namespace {
@@ -151,7 +152,7 @@ void make_tangents_from_uv(MeshData& mesh) {
     const DVec3 t = along_u[i] - glm::dot(along_u[i], n) * n;
     const double length = glm::length(t);
     const bool known = length > 0 && std::isfinite(length);
-    const Vec3 unit = known ? Vec3(t / length) : make_frame(mesh.normal[i]).x;
+    const Vec3 unit = known ? Vec3(t / length) : level_tangent(mesh.normal[i]);
     const bool left = known && glm::dot(glm::cross(n, t), along_v[i]) < 0;
     mesh.tangent[i] = Vec4(unit, left ? -1.0f : 1.0f);
   }

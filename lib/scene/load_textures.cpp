@@ -144,8 +144,7 @@ void TexturePool::decode(Scene& scene) {
     }
   }
   for (Material& m : scene.material) {
-    for (TextureUse* use : {&m.base_colour, &m.metallic_roughness, &m.normal, &m.emissive})
-      remap(*use, place);
+    for (TextureUse* use : m.texture_uses()) remap(*use, place);
   }
 }
 

@@ -28,7 +28,7 @@ struct SurfacePoint {
   Vec3 geometric_normal{0, 0, 1};  ///< on the side it is seen from
   Vec3 smooth_normal{0, 0, 1};     ///< interpolated vertex normal on the same side; what caches use
   Vec3 normal{0, 0, 1};            ///< smooth_normal with the normal map applied; what BSDFs use
-  Vec3 tangent{1, 0, 0};           ///< orthogonal to normal; along growing u where the material needs it
+  Vec3 tangent{1, 0, 0};           ///< orthogonal to normal; of an anisotropic material, x of its frame
   Vec2 uv0{0}, uv1{0};             ///< of the sets that the material's textures use; else 0
   Vec4 colour{1};
   std::uint32_t triangle = 0, instance = 0, material = 0;

@@ -15,6 +15,7 @@
 namespace phos {
 
 class Environment;
+class MerlBrdf;
 
 /// Row 0 is at v = 0 (glTF). Texels are linear values, or the codes of an 8-bit image: a quarter of the
 /// memory, and of the cache misses.
@@ -50,11 +51,12 @@ enum class Model : std::uint8_t {
   lambert,             ///< kd
   phong,               ///< kd, ks, exponent; normalised lobe (n+2)/(2 pi) cos^n about the mirror direction
   ward,                ///< kd, ks, ax, ay
-  plastic,             ///< kd under a rough dielectric coat: alpha, ior
-  conductor,           ///< f0, alpha (0: mirror-like)
+  plastic,             ///< kd under a rough dielectric coat: alpha (or ax, ay), ior
+  conductor,           ///< f0, alpha (or ax, ay; 0: mirror-like)
   dielectric,          ///< smooth glass: ior
   thin_dielectric,     ///< smooth pane: ior, no bending
   mirror,              ///< ks
+  measured,            ///< isotropic table in MERL layout
 };
 
 struct Material {
@@ -70,7 +72,11 @@ struct Material {
   float specular = 1;      ///< KHR_materials_specular
   Rgb specular_colour{1};  ///< KHR_materials_specular
   float transmission = 0;  ///< KHR_materials_transmission
-  TextureUse base_colour, metallic_roughness, normal, emissive;
+  /// KHR_materials_anisotropy: alpha along the tangent, turned by `anisotropy_rad` towards the bitangent, is
+  /// mix(alpha, 1, anisotropy^2). The map's red and green hold a direction, its blue a factor of `anisotropy`.
+  float anisotropy = 0, anisotropy_rad = 0;
+  std::int32_t measured = -1;  ///< of Scene::measured
+  TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map;
   float normal_scale = 1;
   Rgb emission{0};            ///< luminance, cd/m2; multiplied by the emissive texture
   bool double_sided = false;  ///< emission from both sides; reflection is two-sided always
@@ -79,6 +85,19 @@ struct Material {
   float alpha = 1, alpha_cutoff = 0.5f;
 
   bool emits() const { return max_component(emission) > 0; }
+  /// Does its reflection depend on where the tangent points?
+  bool anisotropic() const {
+    if (model == Model::metallic_roughness) return anisotropy > 0;
+    const bool rough = model == Model::ward || model == Model::plastic || model == Model::conductor;
+    return rough && alpha_x != alpha_y;
+  }
+  /// All that it may look up.
+  std::array<TextureUse*, 5> texture_uses() {
+    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map};
+  }
+  std::array<const TextureUse*, 5> texture_uses() const {
+    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map};
+  }
 };
 
 /// One placed mesh primitive: a contiguous run of triangles with one material.
@@ -147,6 +166,7 @@ struct Scene {
   std::vector<Instance> instance;
   std::vector<Material> material;
   std::vector<Texture> texture;
+  std::vector<std::shared_ptr<const MerlBrdf>> measured;
   std::vector<Light> light;
   std::shared_ptr<const Environment> environment;  ///< null: black. One of the lights stands for it
   std::vector<Camera> camera;

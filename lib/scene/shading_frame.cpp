@@ -78,19 +78,40 @@ Vec3 mapped_normal(const Scene& scene, const Material& material, const Vec4& tan
   return mapped == Vec3(0) ? point.smooth_normal : side * mapped;
 }
 
+/// The tangent turned as KHR_materials_anisotropy says, in the frame of the front side.
+Vec3 turned_tangent(const Scene& scene, const Material& material, const Vec4& tangent,
+                    const SurfacePoint& point) {
+  const Vec3 n = point.front ? point.normal : -point.normal;
+  const Vec3 t = normalized_or_zero(Vec3(tangent) - glm::dot(Vec3(tangent), n) * n);
+  Vec2 along(1, 0);
+  if (material.anisotropy_map.used()) {
+    const Vec2 d = 2.f * Vec2(look_up(scene, material.anisotropy_map, point.uv0, point.uv1)) - 1.f;
+    if (glm::dot(d, d) > 0) along = d;
+  }
+  const float c = std::cos(material.anisotropy_rad), s = std::sin(material.anisotropy_rad);
+  along = {c * along.x - s * along.y, s * along.x + c * along.y};
+  return along.x * t + along.y * tangent.w * glm::cross(n, t);
+}
+
 }  // namespace
+
+Vec3 level_tangent(const Vec3& normal) {
+  // Flatter surfaces than this slope are floors and ceilings: no direction on them is more level than others.
+  constexpr float kFlatSlope = 1e-3f;
+  const Vec3 across(normal.z, 0, -normal.x);  // cross(+y, normal)
+  const float length = glm::length(across);
+  return length > kFlatSlope ? across / length : Vec3(1, 0, 0);
+}
 
 Reads reads_of(const Scene& scene, const Material& material) {
   Reads reads;
-  for (const TextureUse* use :
-       {&material.base_colour, &material.metallic_roughness, &material.normal, &material.emissive}) {
+  for (const TextureUse* use : material.texture_uses()) {
     if (!use->used()) continue;
     reads.uv0 |= use->set == 0 && !scene.uv0.empty();
     reads.uv1 |= use->set == 1 && !scene.uv1.empty();
   }
-  const bool anisotropic = material.alpha_x != material.alpha_y && material.model == Model::ward;
   reads.normal_map = material.normal.used();
-  reads.tangent = reads.normal_map || anisotropic;
+  reads.anisotropic = material.anisotropic();
   reads.colour = !scene.colour.empty();
   return reads;
 }
@@ -114,7 +135,10 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
   point.normal = point.smooth_normal;
 
   Vec4 tangent(0);
-  if (reads.tangent) tangent = tangent_of(scene, point, weight, material.normal.set);
+  if (reads.normal_map || reads.anisotropic) {
+    const TextureUse& map = reads.normal_map ? material.normal : material.anisotropy_map;
+    tangent = tangent_of(scene, point, weight, map.set);
+  }
   if (reads.normal_map) {
     point.normal =
         bent_towards(mapped_normal(scene, material, tangent, point), point.geometric_normal, 0.05f);
@@ -124,8 +148,10 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
     point.normal = bent_towards(point.normal, towards_eye, std::fmin(kLeastCosine, grazing));
   }
   point.tangent = make_frame(point.normal).x;
-  if (reads.tangent) {
-    const Vec3 t(tangent);
+  if (reads.anisotropic) {
+    if (Vec3(tangent) == Vec3(0)) tangent = Vec4(level_tangent(point.normal), 1);
+    const bool turned = material.model == Model::metallic_roughness;
+    const Vec3 t = turned ? turned_tangent(scene, material, tangent, point) : Vec3(tangent);
     const Vec3 along = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
     if (along != Vec3(0)) point.tangent = along;
   }

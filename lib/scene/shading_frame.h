@@ -9,14 +9,17 @@ namespace phos {
 /// What a material needs to know of a point beyond its normals, so that plain ones pay for nothing.
 struct Reads {
   bool uv0 = false, uv1 = false;
-  bool tangent = false;  ///< normal map, or anisotropic
-  bool normal_map = false;
+  bool normal_map = false, anisotropic = false;
   bool colour = false;
 };
 Reads reads_of(const Scene& scene, const Material& material);
 
 /// Unit normal by winding; +z for a triangle without area.
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// What stands in for the direction of growing u where a surface has neither tangents nor usable texture
+/// coordinates: horizontal (+y is up), as a lathe brushes; +x on floors and ceilings.
+Vec3 level_tangent(const Vec3& normal);
 
 /// Fills smooth_normal, normal, tangent, uv and colour of a point whose other fields are set. `weight` are
 /// the barycentric weights; `towards_eye` is the unit direction it is seen from; `flat` says that the
