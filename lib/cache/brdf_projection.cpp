@@ -1,0 +1,221 @@
+// From reflection models to tables of coefficients.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cache/brdf_table.h"
+#include "cache/lobe_points.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/sampling.h"
+#include "hsh/basis.h"
+#include "scene/bsdf.h"
+#include "scene/describe.h"
+
+namespace phos {
+
+namespace {
+
+/// Directions taken at once: their harmonics of order 10 stay in the first cache.
+constexpr std::size_t kBlock = 64;
+/// An albedo beyond this gains energy, whatever the quadrature's error.
+constexpr float kMostAlbedo = 1.001f;
+/// Two values of f are the same if they differ by less: a narrow lobe's rounding.
+constexpr float kSame = 0.02f;
+
+Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
+
+/// Is f(turn wo, turn wi) = f(wo, wi)? Asked of directions wi at all distances from the mirror direction, as
+/// lobes have all widths.
+template <class Turn>
+bool unchanged_by(const Bsdf& bsdf, const Turn& turn) {
+  constexpr int kDirections = 24, kDistances = 11;
+  for (int i = 0; i < kDirections * kDistances; ++i) {
+    const Vec3 wo = sample_cosine_hemisphere(r2_point(i / kDistances, {0.5f, 0.5f}));
+    const float distance = std::ldexp(1.f, -(i % kDistances));
+    const Vec3 aside = sample_uniform_sphere(r2_point(i, {0.25f, 0.75f}));
+    const Vec3 wi = glm::normalize(mirrored(wo) + distance * aside);
+    const Rgb before = bsdf.evaluate_gloss(wo, wi), after = bsdf.evaluate_gloss(turn(wo), turn(wi));
+    const Rgb most = glm::max(glm::abs(before), glm::abs(after));
+    if (max_component(glm::abs(after - before)) > kSame * max_component(most)) return false;
+  }
+  return true;
+}
+
+/// What a lobe keeps when directions are turned or mirrored.
+struct Symmetry {
+  bool isotropic, quadrants;
+
+  explicit Symmetry(const Bsdf& bsdf) {
+    const auto turned = [](float angle) {
+      return [c = std::cos(angle), s = std::sin(angle)](const Vec3& w) {
+        return Vec3(c * w.x - s * w.y, s * w.x + c * w.y, w.z);
+      };
+    };
+    quadrants = unchanged_by(bsdf, [](const Vec3& w) { return Vec3(w.x, -w.y, w.z); }) &&
+                unchanged_by(bsdf, [](const Vec3& w) { return Vec3(-w.x, w.y, w.z); });
+    isotropic = quadrants && unchanged_by(bsdf, turned(0.7f)) && unchanged_by(bsdf, turned(1.9f));
+  }
+};
+
+/// One direction of view.
+struct Projected {
+  std::vector<float> coefficients;  ///< [order^2][3]
+  int order = 0;
+  float error = 0, albedo = 0;
+  bool resolved = true;
+  std::size_t rejected = 0;
+};
+
+/// Integrals of the lobe times each harmonic, RGB side by side: products are summed in kLanes partial sums,
+/// which vectorises and keeps the order of the sums.
+std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float>& basis) {
+  constexpr std::size_t kLanes = 8;
+  const auto count = static_cast<std::size_t>(basis.count());
+  std::vector<float> harmonics(count * kBlock), out(3 * count);
+  std::vector<double> sums(3 * count);
+  std::array<std::array<float, kBlock>, 6> block;  // x, y, z, RGB
+  for (std::size_t first = 0; first < points.size(); first += kBlock) {
+    const std::size_t n = std::min(kBlock, points.size() - first);
+    const std::array<const std::vector<float>*, 6> columns{
+        &points.x, &points.y, &points.z, &points.value[0], &points.value[1], &points.value[2]};
+    for (std::size_t c = 0; c < 6; ++c) {
+      std::copy_n(columns[c]->begin() + static_cast<std::ptrdiff_t>(first), n, block[c].begin());
+      // What fills a block up weighs nothing.
+      std::fill(block[c].begin() + static_cast<std::ptrdiff_t>(n), block[c].end(), c == 2 ? 1.f : 0.f);
+    }
+    basis.evaluate_batch(BasisKind::hsh, kBlock, block[0].data(), block[1].data(), block[2].data(),
+                         harmonics.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* h = &harmonics[i * kBlock];
+      std::array<std::array<float, kLanes>, 3> lanes{};
+      for (std::size_t k = 0; k < kBlock; k += kLanes) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          for (std::size_t c = 0; c < 3; ++c) lanes[c][lane] += h[k + lane] * block[3 + c][k + lane];
+        }
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (const float v : lanes[c]) sum += v;
+        sums[3 * i + c] += static_cast<double>(sum);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(sums[i]);
+  return out;
+}
+
+Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis, double tolerance) {
+  const LobePoints points =
+      lobe_points([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, mirrored(wo), basis.order());
+  Projected p;
+  p.resolved = points.resolved, p.rejected = points.rejected;
+  p.albedo = max_component(points.albedo + bsdf.diffuse_reflectance());
+  p.coefficients = integrate(points, basis);
+  double left = points.energy;
+  for (int n = 1; n <= basis.order(); ++n) {
+    for (std::size_t i = 3 * static_cast<std::size_t>(harmonic_count(n - 1));
+         i < 3 * static_cast<std::size_t>(harmonic_count(n)); ++i) {
+      const auto c = static_cast<double>(p.coefficients[i]);
+      left -= c * c;
+    }
+    p.error = points.energy > 0 ? static_cast<float>(std::max(left, 0.0) / points.energy) : 0.f;
+    if (left > tolerance * points.energy) continue;
+    p.order = n;
+    break;
+  }
+  // A lobe that the points do not resolve has no error that can be relied on.
+  if (!p.resolved) p.order = 0;
+  p.coefficients.resize(3 * static_cast<std::size_t>(harmonic_count(p.order)));
+  return p;
+}
+
+/// Coefficients of the same lobe with x, y or both mirrored: mirrored in y, sin(m phi) changes its sign; in
+/// x, cos(m phi) for odd m and sin(m phi) for even m.
+void mirror(std::vector<float>& coefficients, int order, bool in_x, bool in_y) {
+  for (int l = 0; l < order; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      const bool odd = (m & 1) != 0, sine = m < 0;
+      const bool negative = (in_y && sine) != (in_x && odd != sine);
+      if (!negative) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& v = coefficients[3 * static_cast<std::size_t>(harmonic_index(l, m)) + c];
+        v = -v;
+      }
+    }
+  }
+}
+
+void require(bool valid, const char* option, const std::string& message) {
+  if (!valid) throw Error(ExitCode::usage, option, message);
+}
+
+std::string note_of(const Material& material) {
+  if (material.base_colour.used() || material.metallic_roughness.used()) return "textures at their mean";
+  return "";
+}
+
+}  // namespace
+
+BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTableOptions& options,
+                       Counters& counters) {
+  require(options.max_order >= 1 && options.max_order <= 30, "--max-order",
+          text(options.max_order, " is not from 1 to 30"));
+  require(options.resolution >= 2 && options.resolution <= 1024, "--resolution",
+          text(options.resolution, " is not from 2 to 1024"));
+  require(options.error >= 0 && options.error <= 1, "--error", text(options.error, " is not from 0 to 1"));
+  const Bsdf bsdf(scene, material);
+  const Symmetry symmetry(bsdf);
+  BrdfTable table;
+  table.material = scene.material[material].name;
+  table.material_index = material;
+  table.note = note_of(scene.material[material]);
+  table.isotropic = symmetry.isotropic;
+  table.resolution = static_cast<int>(options.resolution);
+  const auto side = static_cast<std::size_t>(table.resolution);
+  const std::size_t entries = table.isotropic ? side : side * side;
+  table.orders.resize(entries), table.error.resize(entries);
+
+  // The entry whose lobe, perhaps mirrored, is the entry's own.
+  const auto source = [&](std::size_t entry) {
+    if (table.isotropic || !symmetry.quadrants) return entry;
+    const std::size_t j = entry / side, i = entry % side;
+    return std::max(j, side - 1 - j) * side + std::max(i, side - 1 - i);
+  };
+  const HarmonicBasis<float> basis(static_cast<int>(options.max_order));
+  std::vector<Projected> projected(entries);
+  parallel_for(entries, 1, [&](std::size_t e) {
+    if (source(e) == e && table.used(e))
+      projected[e] = project(bsdf, table.direction(e), basis, options.error);
+  });
+
+  for (const Projected& p : projected) table.order = std::max(table.order, p.order);
+  const std::size_t stride = 3 * static_cast<std::size_t>(harmonic_count(table.order));
+  table.coefficients.assign(entries * stride, 0.f);
+  std::size_t intricate = 0, gaining = 0, rejected = 0;
+  for (std::size_t e = 0; e < entries; ++e) {
+    const std::size_t from = source(e);
+    const Projected& p = projected[from];
+    table.orders[e] = static_cast<std::uint8_t>(p.order), table.error[e] = p.error;
+    table.albedo = std::max(table.albedo, p.albedo);
+    intricate += !p.resolved, gaining += p.albedo > kMostAlbedo, rejected += p.rejected;
+    std::vector<float> coefficients = p.coefficients;
+    if (from != e) mirror(coefficients, p.order, from % side != e % side, from / side != e / side);
+    std::copy(coefficients.begin(), coefficients.end(),
+              table.coefficients.begin() + static_cast<std::ptrdiff_t>(e * stride));
+  }
+  if (intricate > 0) counters.count(kIntricateLobeEvent, intricate);
+  if (gaining > 0) counters.count(kGainsEnergyEvent, gaining);
+  if (rejected > 0) counters.count("non-finite BRDF value", rejected);
+  return table;
+}
+
+std::vector<std::uint32_t> glossy_materials(const Scene& scene) {
+  std::vector<std::uint32_t> out;
+  const std::vector<MaterialSummary> all = summarize_materials(scene);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].glossy && all[i].triangles > 0) out.push_back(static_cast<std::uint32_t>(i));
+  return out;
+}
+
+}  // namespace phos
