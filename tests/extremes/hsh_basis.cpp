@@ -18,12 +18,17 @@ constexpr BasisKind kKinds[] = {BasisKind::sh, BasisKind::hsh};
 
 template <class Real>
 struct Values {
-  std::vector<Real> v, gx, gy, gz;
+  std::vector<Real> v, gx, gy, gz, batch;
   Values(BasisKind kind, int order, Real x, Real y, Real z) {
     const HarmonicBasis<Real> basis(order);
     v.resize(static_cast<std::size_t>(basis.count()));
-    gx = gy = gz = v;
+    gx = gy = gz = batch = v;
+    basis.evaluate(kind, x, y, z, batch.data());
     basis.evaluate(kind, x, y, z, v.data(), gx.data(), gy.data(), gz.data());
+    const bool a_number = !std::isnan(x) && !std::isnan(y) && !std::isnan(z);
+    EXPECT_TRUE(!a_number || batch == v);
+    basis.evaluate_batch(kind, 1, &x, &y, &z, batch.data());
+    EXPECT_TRUE(!a_number || batch == v);
   }
   bool finite() const {
     for (const auto* list : {&v, &gx, &gy, &gz})
