@@ -10,7 +10,8 @@ using namespace phos::test;
 
 namespace {
 
-constexpr float kCosines[] = {0.95f, 0.5f, 0.15f};
+/// Along the normal, 45 and 85 degrees from it.
+constexpr float kCosines[] = {1.f, 0.70710678f, 0.08715574f};
 constexpr int kSamples = 200000;
 
 }  // namespace

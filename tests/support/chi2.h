@@ -71,7 +71,7 @@ inline double least_p(double significance, int tests) { return 1 - std::pow(1 - 
 
 /// A grid of equal solid angles over the sphere about z.
 struct SphereGrid {
-  int cosines = 24, azimuths = 48, fine = 20;
+  int cosines = 24, azimuths = 48, fine = 20;  ///< fine: even
   std::size_t size() const { return static_cast<std::size_t>(cosines * azimuths); }
   std::size_t cell(const Vec3& d) const {
     const double phi = std::atan2(static_cast<double>(d.y), static_cast<double>(d.x));
@@ -80,14 +80,16 @@ struct SphereGrid {
     const int j = std::clamp(static_cast<int>(turn * azimuths), 0, azimuths - 1);
     return static_cast<std::size_t>(i * azimuths + j);
   }
-  /// Integral of f(direction) over each cell, midpoint rule with fine x fine points.
+  /// Integral of f(direction) over each cell with fine x fine points: midpoints of azimuths, Gauss's pairs of
+  /// cosines, which resolve a sharp lobe about the pole.
   template <class F>
   std::vector<double> integrate(const F& f) const {
     std::vector<double> sums(size(), 0.0);
     const int rows = cosines * fine, columns = azimuths * fine;
     const double solid_angle = 4 * M_PI / rows / columns;
     for (int r = 0; r < rows; ++r) {
-      const double z = -1 + 2 * (r + 0.5) / rows, s = std::sqrt(1 - z * z);
+      const double middle = r / 2 * 2 + 1, z = -1 + 2 * (middle + (r % 2 ? 1 : -1) / std::sqrt(3.0)) / rows;
+      const double s = std::sqrt(1 - z * z);
       for (int c = 0; c < columns; ++c) {
         const double phi = 2 * M_PI * (c + 0.5) / columns;
         const Vec3 d(static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)),

@@ -1,11 +1,13 @@
 // A scene of one material and a point on it, to look at reflection models alone.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scene/bsdf.h"
 #include "scene/scene.h"
+#include "support/merl_bytes.h"
 
 namespace phos::test {
 
@@ -14,9 +16,25 @@ struct Named {
   Material material;
 };
 
+/// Material::measured of the tables that scene_of gives a scene.
+enum MeasuredTable : std::int32_t { kMeasuredLambert, kMeasuredHalfLobe, kMeasuredMirrorLobe };
+
+/// Made once in a process: they take a while.
+inline const std::vector<std::shared_ptr<const MerlBrdf>>& measured_tables() {
+  const auto table = [](const std::string& bytes) {
+    return std::make_shared<const MerlBrdf>(bytes, "measured.binary");
+  };
+  static const std::vector<std::shared_ptr<const MerlBrdf>> tables = {
+      table(merl_bytes(HalfLobe{Rgb(0.8f, 0.5f, 0.2f)})),
+      table(merl_bytes(HalfLobe{Rgb(0.5f, 0.3f, 0.1f), Rgb(0.2f, 0.25f, 0.3f), 60})),
+      table(merl_bytes(MirrorLobe{Rgb(0.4f), Rgb(0.5f, 0.4f, 0.3f), 15}))};
+  return tables;
+}
+
 inline Scene scene_of(const Material& material) {
   Scene scene;
   scene.material = {material};
+  if (material.model == Model::measured) scene.measured = measured_tables();
   return scene;
 }
 
@@ -48,6 +66,7 @@ inline std::vector<Named> models() {
   add("ward", make_material(Model::ward, Rgb(0.3f), Rgb(0.7f), 0.2f, 0.2f));
   add("ward, anisotropic", make_material(Model::ward, Rgb(0), Rgb(1), 0.15f, 0.5f));
   add("plastic 0.1", make_material(Model::plastic, Rgb(1, 0.8f, 0.2f), Rgb(0), 0.1f, 0.1f));
+  add("plastic 0.1 0.4", make_material(Model::plastic, Rgb(1), Rgb(0), 0.1f, 0.4f));
   add("plastic 0.6", make_material(Model::plastic, Rgb(1), Rgb(0), 0.6f, 0.6f));
   add("conductor 0.15", make_material(Model::conductor, Rgb(0), Rgb(1, 0.7f, 0.3f), 0.15f, 0.15f));
   add("conductor 0.15 0.6", make_material(Model::conductor, Rgb(0), Rgb(1), 0.15f, 0.6f));
@@ -59,9 +78,19 @@ inline std::vector<Named> models() {
       add("metallic " + std::to_string(metallic) + " roughness " + std::to_string(roughness), m);
     }
   }
+  for (const float metallic : {0.f, 1.f}) {
+    Material m = make_material(Model::metallic_roughness, Rgb(1, 0.9f, 0.5f), Rgb(0));
+    m.metallic = metallic, m.roughness = 0.5f, m.anisotropy = 0.6f;
+    add("brushed, metallic " + std::to_string(metallic), m);
+  }
   Material clear = make_material(Model::metallic_roughness, Rgb(1), Rgb(0));
   clear.transmission = 0.6f, clear.roughness = 0.5f;
   add("transmission", clear);
+  for (const MeasuredTable table : {kMeasuredLambert, kMeasuredHalfLobe, kMeasuredMirrorLobe}) {
+    Material m = make_material(Model::measured, Rgb(0), Rgb(0));
+    m.measured = table;
+    add("measured " + std::to_string(table), m);
+  }
   return all;
 }
 
