@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -18,9 +18,9 @@ constexpr int kDegrees = 180;  // the last table
 constexpr float kPerDegree = kPi / 180;
 constexpr float kLeastBeta = 0.1f * kPerDegree;
 
-/// cos(m a) and sin(m a), m = 0 .. order - 1.
-struct Multiples {
-  Multiples(float angle, int order) {
+/// A turn about z: cos(m a) and sin(m a), m = 0 .. order - 1.
+struct ZTurn {
+  ZTurn(float angle, int of_order) : order(of_order) {
     const double a = angle, c = std::cos(a), s = std::sin(a);
     double cm = 1, sm = 0;
     for (int m = 0; m < order; ++m) {
@@ -29,7 +29,31 @@ struct Multiples {
       sm = s * cm + c * sm, cm = next;
     }
   }
+  int order;
   float cosine[HarmonicBasis<float>::kMaxOrder], sine[HarmonicBasis<float>::kMaxOrder];
+
+  /// Coefficients `width` apart, turned, to cosines and sines.
+  void split(const float* from, std::ptrdiff_t width, float* to_cosine, float* to_sine) const {
+    for (int l = 0; l < order; ++l) {
+      const float* centre = from + harmonic_index(l, 0) * width;
+      *to_cosine++ = *centre;
+      for (int m = 1; m <= l; ++m) {
+        const float p = centre[m * width], q = centre[-m * width];
+        *to_cosine++ = p * cosine[m] - q * sine[m], *to_sine++ = p * sine[m] + q * cosine[m];
+      }
+    }
+  }
+  /// The same the other way.
+  void join(const float* from_cosine, const float* from_sine, float* to, std::ptrdiff_t width) const {
+    for (int l = 0; l < order; ++l) {
+      float* centre = to + harmonic_index(l, 0) * width;
+      *centre = *from_cosine++;
+      for (int m = 1; m <= l; ++m) {
+        const float p = *from_cosine++, q = *from_sine++;
+        centre[m * width] = p * cosine[m] - q * sine[m], centre[-m * width] = p * sine[m] + q * cosine[m];
+      }
+    }
+  }
 };
 
 int order_of(std::size_t coefficients) {
@@ -61,7 +85,7 @@ void rotate_about_z(std::span<float> coefficients, float angle, int channels) {
   PHOS_CHECK(order <= HarmonicBasis<float>::kMaxOrder &&
                  coefficients.size() == static_cast<std::size_t>(harmonic_count(order)) * width,
              coefficients.size(), " coefficients");
-  const Multiples turn(angle, order);
+  const ZTurn turn(angle, order);
   for (int l = 1; l < order; ++l)
     for (int m = 1; m <= l; ++m) {
       float* plus = coefficients.data() + static_cast<std::size_t>(harmonic_index(l, m)) * width;
@@ -131,44 +155,30 @@ void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std:
   const int below = std::min(static_cast<int>(degrees), kDegrees - 1);
   PackedTurn exact;
   const bool tabled = angles.beta <= max_beta_;
-  if (!tabled) exact = pack(hsh_turn(order, tables_->method, std::min<double>(angles.beta, std::numbers::pi)));
+  if (!tabled)
+    exact = pack(hsh_turn(order, tables_->method, std::min<double>(angles.beta, std::numbers::pi)));
   const PackedTurn& a = tabled ? tables_->at_degree(below) : exact;
   const PackedTurn& b = tabled ? tables_->at_degree(below + 1) : exact;
   const float of_b = tabled ? degrees - static_cast<float>(below) : 0, of_a = 1 - of_b;
 
-  const Multiples first(angles.alpha, order), last(angles.gamma, order);
-  for (int channel = 0; channel < channels; ++channel) {
-    float cosine[2][PackedTurn::kMaxRows], sine[2][PackedTurn::kMaxRows];
-    const float* from = in.data() + channel;
-    float *c = cosine[0], *s = sine[0];
-    for (int l = 0; l < order; ++l) {
-      const float* centre = from + static_cast<std::size_t>(harmonic_index(l, 0)) * width;
-      *c++ = *centre;
-      for (std::size_t m = 1; m <= static_cast<std::size_t>(l); ++m) {
-        const float p = centre[m * width], q = *(centre - m * width);
-        *c++ = p * first.cosine[m] - q * first.sine[m];
-        *s++ = p * first.sine[m] + q * first.cosine[m];
-      }
-    }
-    turn_interpolated(a.cosine.data(), b.cosine.data(), a.cosines, of_a, of_b, cosine[0], cosine[1]);
-    turn_interpolated(a.sine.data(), b.sine.data(), a.sines, of_a, of_b, sine[0], sine[1]);
-    float* to = out.data() + channel;
-    c = cosine[1], s = sine[1];
-    for (int l = 0; l < order; ++l) {
-      float* centre = to + static_cast<std::size_t>(harmonic_index(l, 0)) * width;
-      *centre = *c++;
-      for (std::size_t m = 1; m <= static_cast<std::size_t>(l); ++m) {
-        const float p = *c++, q = *s++;
-        centre[m * width] = p * last.cosine[m] - q * last.sine[m];
-        *(centre - m * width) = p * last.sine[m] + q * last.cosine[m];
-      }
-    }
+  const ZTurn first(angles.alpha, order), last(angles.gamma, order);
+  static TurnKernel* const turn = best_turn_kernel();
+  constexpr int kStride = PackedTurn::kMaxRows;
+  float cosine[2][3 * kStride], sine[2][3 * kStride];  // before and after the turn about y
+  for (int channel = 0, vectors; channel < channels; channel += vectors) {
+    vectors = channels - channel >= 3 ? 3 : 1;
+    for (int v = 0; v < vectors; ++v)
+      first.split(in.data() + channel + v, channels, cosine[0] + v * kStride, sine[0] + v * kStride);
+    turn(a.cosine.data(), b.cosine.data(), a.cosines, of_a, of_b, vectors, cosine[0], cosine[1]);
+    turn(a.sine.data(), b.sine.data(), a.sines, of_a, of_b, vectors, sine[0], sine[1]);
+    for (int v = 0; v < vectors; ++v)
+      last.join(cosine[1] + v * kStride, sine[1] + v * kStride, out.data() + channel + v, channels);
   }
 }
 
 ShRotation::ShRotation(int order, const ZyzAngles& angles) : order_(order) {
   const HarmonicBasis<double> within_range(order);
-  const Multiples first(angles.alpha, order), last(angles.gamma, order);
+  const ZTurn first(angles.alpha, order), last(angles.gamma, order);
   std::size_t l = 0;
   for (const BandTurn& band : sh_turn(order, angles.beta)) {
     const std::size_t size = 2 * l + 1;

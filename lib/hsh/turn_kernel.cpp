@@ -23,15 +23,13 @@ PackedTurn pack(const Turn& turn) {
   return p;
 }
 
-void turn_interpolated(const float* a, const float* b, int n, float of_a, float of_b, const float* x,
-                       float* y) {
-  constexpr int kPanel = PackedTurn::kPanel;
-  for (int row = 0; row < n; row += kPanel, y += kPanel) {
-    float sum[kPanel] = {};
-    for (int column = 0; column < n; ++column, a += kPanel, b += kPanel)
-      for (int r = 0; r < kPanel; ++r) sum[r] += (of_a * a[r] + of_b * b[r]) * x[column];
-    for (int r = 0; r < kPanel; ++r) y[r] = sum[r];
+TurnKernel* best_turn_kernel() {
+#ifdef PHOS_HSH_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
+    return turn_avx2;
   }
+#endif
+  return turn_plain;
 }
 
 }  // namespace phos

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "hsh/projection.h"
 #include "hsh/turn.h"
+#include "hsh/turn_kernel.h"
 #include "support/golden_table.h"
 
 namespace phos {
@@ -293,6 +294,36 @@ TEST(HshRotator, InterpolatesWell) {
   EXPECT_NEAR(mean[0.5f], 1.5e-3, 1e-3);  // the matrix grows as beta + beta^(3/2) at 0
   for (const float degrees : {1.5f, 10.5f, 20.5f, 30.5f}) EXPECT_LT(mean[degrees], 1.5e-3) << degrees;
   EXPECT_LT(mean[17.f], 1e-6);
+}
+
+/// The product of a packed matrix, by every kernel, is that of the sums written out, to the bit.
+TEST(TurnKernel, GivesTheSameBitsOnEveryMachine) {
+  const PackedTurn a = pack(hsh_turn(9, HshRotation::constant_fill, 0.2)),
+                   b = pack(hsh_turn(9, HshRotation::constant_fill, 0.3));
+  constexpr std::size_t kStride = PackedTurn::kMaxRows, kPanel = PackedTurn::kPanel;
+  const std::size_t n = static_cast<std::size_t>(a.cosines);
+  std::vector<float> x(3 * kStride, 0.f);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(static_cast<float>(i));
+  std::vector<TurnKernel*> kernels{turn_plain, best_turn_kernel()};
+#ifdef PHOS_HSH_AVX2
+  EXPECT_TRUE(best_turn_kernel() == turn_avx2 || best_turn_kernel() == turn_plain);
+#endif
+  for (TurnKernel* const kernel : kernels) {
+    for (const int vectors : {1, 3}) {
+      std::vector<float> y(3 * kStride, -1.f);
+      kernel(a.cosine.data(), b.cosine.data(), a.cosines, 0.3f, 0.7f, vectors, x.data(), y.data());
+      for (std::size_t v = 0; v < static_cast<std::size_t>(vectors); ++v) {
+        for (std::size_t row = 0; row < n; ++row) {
+          float sum = 0;
+          for (std::size_t column = 0; column < n; ++column) {
+            const std::size_t at = (row / kPanel * n + column) * kPanel + row % kPanel;
+            sum += (0.3f * a.cosine[at] + 0.7f * b.cosine[at]) * x[v * kStride + column];
+          }
+          EXPECT_EQ(y[v * kStride + row], sum);
+        }
+      }
+    }
+  }
 }
 
 TEST(HshRotator, GivesEachChannelTheSameBits) {
