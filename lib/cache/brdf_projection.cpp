@@ -1,14 +1,13 @@
 // From reflection models to tables of coefficients.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "cache/brdf_table.h"
-#include "cache/lobe_points.h"
+#include "cache/lobe_projection.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/sampling.h"
-#include "hsh/basis.h"
 #include "scene/bsdf.h"
 #include "scene/describe.h"
 
@@ -16,8 +15,6 @@ namespace phos {
 
 namespace {
 
-/// Directions taken at once: their harmonics of order 10 stay in the first cache.
-constexpr std::size_t kBlock = 64;
 /// An albedo beyond this gains energy, whatever the quadrature's error.
 constexpr float kMostAlbedo = 1.001f;
 /// Two values of f are the same if they differ by less: a narrow lobe's rounding.
@@ -67,65 +64,15 @@ struct Projected {
   std::size_t rejected = 0;
 };
 
-/// Integrals of the lobe times each harmonic, RGB side by side: products are summed in kLanes partial sums,
-/// which vectorises and keeps the order of the sums.
-std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float>& basis) {
-  constexpr std::size_t kLanes = 8;
-  const auto count = static_cast<std::size_t>(basis.count());
-  std::vector<float> harmonics(count * kBlock), out(3 * count);
-  std::vector<double> sums(3 * count);
-  std::array<std::array<float, kBlock>, 6> block;  // x, y, z, RGB
-  for (std::size_t first = 0; first < points.size(); first += kBlock) {
-    const std::size_t n = std::min(kBlock, points.size() - first);
-    const std::array<const std::vector<float>*, 6> columns{
-        &points.x, &points.y, &points.z, &points.value[0], &points.value[1], &points.value[2]};
-    for (std::size_t c = 0; c < 6; ++c) {
-      std::copy_n(columns[c]->begin() + static_cast<std::ptrdiff_t>(first), n, block[c].begin());
-      // What fills a block up weighs nothing.
-      std::fill(block[c].begin() + static_cast<std::ptrdiff_t>(n), block[c].end(), c == 2 ? 1.f : 0.f);
-    }
-    basis.evaluate_batch(BasisKind::hsh, kBlock, block[0].data(), block[1].data(), block[2].data(),
-                         harmonics.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const float* h = &harmonics[i * kBlock];
-      std::array<std::array<float, kLanes>, 3> lanes{};
-      for (std::size_t k = 0; k < kBlock; k += kLanes) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          for (std::size_t c = 0; c < 3; ++c) lanes[c][lane] += h[k + lane] * block[3 + c][k + lane];
-        }
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        float sum = 0;
-        for (const float v : lanes[c]) sum += v;
-        sums[3 * i + c] += static_cast<double>(sum);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(sums[i]);
-  return out;
-}
-
 Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis, double tolerance) {
-  const LobePoints points =
-      lobe_points([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, mirrored(wo), basis.order());
+  LobeProjection lobe =
+      project_lobe([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, mirrored(wo), basis);
   Projected p;
-  p.resolved = points.resolved, p.rejected = points.rejected;
-  p.albedo = max_component(points.albedo + bsdf.diffuse_reflectance());
-  p.coefficients = integrate(points, basis);
-  double left = points.energy;
-  for (int n = 1; n <= basis.order(); ++n) {
-    for (std::size_t i = 3 * static_cast<std::size_t>(harmonic_count(n - 1));
-         i < 3 * static_cast<std::size_t>(harmonic_count(n)); ++i) {
-      const auto c = static_cast<double>(p.coefficients[i]);
-      left -= c * c;
-    }
-    p.error = points.energy > 0 ? static_cast<float>(std::max(left, 0.0) / points.energy) : 0.f;
-    if (left > tolerance * points.energy) continue;
-    p.order = n;
-    break;
-  }
-  // A lobe that the points do not resolve has no error that can be relied on.
+  p.resolved = lobe.resolved, p.rejected = lobe.rejected;
+  p.albedo = max_component(lobe.albedo + bsdf.diffuse_reflectance());
+  p.order = lobe.lowest_order(tolerance, p.error);
   if (!p.resolved) p.order = 0;
+  p.coefficients = std::move(lobe.coefficients);
   p.coefficients.resize(3 * static_cast<std::size_t>(harmonic_count(p.order)));
   return p;
 }

@@ -1,0 +1,25 @@
+// One lobe of reflection as coefficients.
+#pragma once
+
+#include "cache/lobe_points.h"
+#include "hsh/basis.h"
+
+namespace phos {
+
+struct LobeProjection {
+  std::vector<float> coefficients;  ///< [order^2][3] of f cos, 1/sqrt(sr)
+  double energy = 0;                ///< integral of (f cos)^2 over the hemisphere, summed over RGB
+  Rgb albedo{0};                    ///< integral of f cos
+  bool resolved = true;             ///< false: no figure here can be relied on
+  std::size_t rejected = 0;         ///< values of f that were not finite
+
+  /// The lowest order whose bands leave out at most the share `tolerance` of the energy, or 0; `error`
+  /// receives that share, or what all bands leave out.
+  int lowest_order(double tolerance, float& error) const;
+};
+
+/// c_i = integral of f cos H_i, all orders of the basis; `f` and `peak` as for lobe_points.
+LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, const Vec3& peak,
+                            const HarmonicBasis<float>& basis);
+
+}  // namespace phos
