@@ -131,7 +131,8 @@ void make_flat_normals(MeshData& mesh) {
   }
 }
 
-/// Direction of growing u, accumulated per vertex, made orthogonal to the normal.
+/// Direction of growing u, accumulated per vertex, made orthogonal to the normal. The bitangent is up in the
+/// picture, against growing v, as glTF's normal maps have it.
 void make_tangents_from_uv(MeshData& mesh) {
   std::vector<DVec3> along_u(mesh.position.size(), DVec3(0)), along_v(mesh.position.size(), DVec3(0));
   for (const Triangle& t : mesh.triangle) {
@@ -153,7 +154,7 @@ void make_tangents_from_uv(MeshData& mesh) {
     const double length = glm::length(t);
     const bool known = length > 0 && std::isfinite(length);
     const Vec3 unit = known ? Vec3(t / length) : level_tangent(mesh.normal[i]);
-    const bool left = known && glm::dot(glm::cross(n, t), along_v[i]) < 0;
+    const bool left = known && glm::dot(glm::cross(n, t), along_v[i]) > 0;
     mesh.tangent[i] = Vec4(unit, left ? -1.0f : 1.0f);
   }
 }

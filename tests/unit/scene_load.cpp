@@ -172,7 +172,7 @@ TEST(Mesh, TangentsAreMadeForNormalMaps) {
   EXPECT_NEAR(s.texture[0].texel(0).z, 1.0f, 1e-6f);
   EXPECT_NEAR(s.texture[0].texel(0).x, 128.0f / 255, 1e-6f);  // linear, not sRGB
   ASSERT_EQ(s.tangent.size(), 4u);
-  for (const Vec4& t : s.tangent) EXPECT_EQ(t, Vec4(1, 0, 0, 1));
+  for (const Vec4& t : s.tangent) EXPECT_EQ(t, Vec4(1, 0, 0, -1));  // v grows upwards: a mirrored picture
 }
 
 TEST(Nodes, TransformsComposeFromTheRoot) {
