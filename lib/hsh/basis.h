@@ -37,6 +37,9 @@ class HarmonicBasis {
   /// `n` directions at once, structure of arrays: out[i * n + k] is function i at direction k. Vectorised.
   void evaluate_batch(BasisKind kind, std::size_t n, const Real* x, const Real* y, const Real* z,
                       Real* out) const;
+  /// And their surface gradients: gx, gy and gz (or null) [count() * n] as `out`.
+  void evaluate_batch(BasisKind kind, std::size_t n, const Real* x, const Real* y, const Real* z, Real* out,
+                      Real* gx, Real* gy, Real* gz) const;
 
  private:
   int order_;

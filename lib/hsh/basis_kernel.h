@@ -26,11 +26,19 @@ const BasisTables<Real>& basis_tables();
 template <class Real>
 using BasisKernel = void(const BasisTables<Real>& tables, BasisKind kind, int order, std::size_t n,
                          const Real* x, const Real* y, const Real* z, Real* out);
+template <class Real>
+using GradientKernel = void(const BasisTables<Real>& tables, BasisKind kind, int order, std::size_t n,
+                            const Real* x, const Real* y, const Real* z, Real* out, Real* gx, Real* gy,
+                            Real* gz);
 BasisKernel<float> evaluate_batch_plain;
 BasisKernel<double> evaluate_batch_plain;
+GradientKernel<float> evaluate_gradients_plain;
+GradientKernel<double> evaluate_gradients_plain;
 #ifdef PHOS_HSH_AVX2
 BasisKernel<float> evaluate_batch_avx2;
 BasisKernel<double> evaluate_batch_avx2;
+GradientKernel<float> evaluate_gradients_avx2;
+GradientKernel<double> evaluate_gradients_avx2;
 #endif
 
 }  // namespace phos

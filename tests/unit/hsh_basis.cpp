@@ -31,6 +31,59 @@ void expect_below(const std::vector<double>& deviation, std::size_t bands, doubl
   for (std::size_t l = 0; l < bands; ++l) EXPECT_LT(deviation[l], limit) << what << ", band " << l;
 }
 
+template <class Real>
+void expect_batch_is_scalar(const std::vector<Real>& x, const std::vector<Real>& y,
+                            const std::vector<Real>& z) {
+  const std::size_t n = x.size();
+  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
+    for (const int order : {1, 2, 10, 31}) {
+      const HarmonicBasis<Real> basis(order);
+      const std::size_t count = static_cast<std::size_t>(basis.count());
+      std::vector<Real> v(count), gx(v), gy(v), gz(v), batch(count * n), with(batch), bx(batch), by(batch),
+          bz(batch);
+      basis.evaluate_batch(kind, n, x.data(), y.data(), z.data(), batch.data());
+      basis.evaluate_batch(kind, n, x.data(), y.data(), z.data(), with.data(), bx.data(), by.data(),
+                           bz.data());
+      EXPECT_EQ(batch, with);
+      for (std::size_t k = 0; k < n; ++k) {
+        EXPECT_EQ(values(kind, order, x[k], y[k], z[k])[count - 1], batch[(count - 1) * n + k]);
+        basis.evaluate(kind, x[k], y[k], z[k], v.data(), gx.data(), gy.data(), gz.data());
+        for (std::size_t i = 0; i < count; ++i) {
+          ASSERT_EQ(batch[i * n + k], v[i]) << i << " " << k;
+          ASSERT_EQ(bx[i * n + k], gx[i]) << i << " " << k;
+          ASSERT_EQ(by[i * n + k], gy[i]) << i << " " << k;
+          ASSERT_EQ(bz[i * n + k], gz[i]) << i << " " << k;
+        }
+      }
+      basis.evaluate_batch(kind, n, x.data(), y.data(), z.data(), with.data(), bx.data(), bz.data(), nullptr);
+      EXPECT_EQ(bz, by);
+    }
+  }
+}
+
+#ifdef PHOS_HSH_AVX2
+template <class Real>
+void expect_kernels_agree(const std::vector<Real>& x, const std::vector<Real>& y,
+                          const std::vector<Real>& z) {
+  const int order = 20;
+  const std::size_t n = x.size();
+  const std::vector<Real> none(static_cast<std::size_t>(harmonic_count(order)) * n);
+  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
+    std::vector<Real> plain[4] = {none, none, none, none}, newer[4] = {none, none, none, none};
+    const auto& t = basis_tables<Real>();
+    evaluate_batch_plain(t, kind, order, n, x.data(), y.data(), z.data(), plain[0].data());
+    evaluate_batch_avx2(t, kind, order, n, x.data(), y.data(), z.data(), newer[0].data());
+    EXPECT_EQ(plain[0], newer[0]);
+    EXPECT_NE(plain[0], none);
+    evaluate_gradients_plain(t, kind, order, n, x.data(), y.data(), z.data(), plain[0].data(),
+                             plain[1].data(), plain[2].data(), plain[3].data());
+    evaluate_gradients_avx2(t, kind, order, n, x.data(), y.data(), z.data(), newer[0].data(), newer[1].data(),
+                            newer[2].data(), newer[3].data());
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(plain[i], newer[i]) << i;
+  }
+}
+#endif
+
 }  // namespace
 
 TEST(HshBasis, LowOrdersAreTheClosedForms) {
@@ -125,48 +178,19 @@ TEST(HshBasis, GradientIsTheDerivativeAlongTheSphere) {
 
 TEST(HshBasis, BatchAndScalarGiveTheSameBits) {
   const Quadrature q = hemisphere_quadrature(7, 11);  // 77: no multiple of any vector's width
-  const std::size_t n = q.size();
-  const std::vector<float> x(q.x.begin(), q.x.end()), y(q.y.begin(), q.y.end()), z(q.z.begin(), q.z.end());
-  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
-    for (const int order : {1, 2, 10, 31}) {
-      const HarmonicBasis<double> basis(order);
-      const HarmonicBasis<float> basis_f(order);
-      const std::size_t count = static_cast<std::size_t>(basis.count());
-      std::vector<double> batch(count * n);
-      std::vector<float> batch_f(count * n);
-      basis.evaluate_batch(kind, n, q.x.data(), q.y.data(), q.z.data(), batch.data());
-      basis_f.evaluate_batch(kind, n, x.data(), y.data(), z.data(), batch_f.data());
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::vector<double> one = values(kind, order, q.x[k], q.y[k], q.z[k]);
-        const std::vector<float> one_f = values(kind, order, x[k], y[k], z[k]);
-        for (std::size_t i = 0; i < count; ++i) {
-          ASSERT_EQ(batch[i * n + k], one[i]) << i << " " << k;
-          ASSERT_EQ(batch_f[i * n + k], one_f[i]) << i << " " << k;
-        }
-      }
-    }
-  }
+  expect_batch_is_scalar(q.x, q.y, q.z);
+  expect_batch_is_scalar(std::vector<float>(q.x.begin(), q.x.end()),
+                         std::vector<float>(q.y.begin(), q.y.end()),
+                         std::vector<float>(q.z.begin(), q.z.end()));
 }
 
 TEST(HshBasis, EveryMachineGetsTheSameBits) {
 #ifdef PHOS_HSH_AVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) GTEST_SKIP() << "no AVX2 here";
   const Quadrature q = sphere_quadrature(9, 17);
-  const int order = 20;
-  const std::size_t n = q.size(), values = static_cast<std::size_t>(harmonic_count(order)) * n;
-  const std::vector<float> x(q.x.begin(), q.x.end()), y(q.y.begin(), q.y.end()), z(q.z.begin(), q.z.end());
-  for (const BasisKind kind : {BasisKind::sh, BasisKind::hsh}) {
-    std::vector<double> plain(values), newer(values);
-    std::vector<float> plain_f(values), newer_f(values);
-    evaluate_batch_plain(basis_tables<double>(), kind, order, n, q.x.data(), q.y.data(), q.z.data(),
-                         plain.data());
-    evaluate_batch_avx2(basis_tables<double>(), kind, order, n, q.x.data(), q.y.data(), q.z.data(),
-                        newer.data());
-    evaluate_batch_plain(basis_tables<float>(), kind, order, n, x.data(), y.data(), z.data(), plain_f.data());
-    evaluate_batch_avx2(basis_tables<float>(), kind, order, n, x.data(), y.data(), z.data(), newer_f.data());
-    EXPECT_EQ(plain, newer);
-    EXPECT_EQ(plain_f, newer_f);
-  }
+  expect_kernels_agree(q.x, q.y, q.z);
+  expect_kernels_agree(std::vector<float>(q.x.begin(), q.x.end()), std::vector<float>(q.y.begin(), q.y.end()),
+                       std::vector<float>(q.z.begin(), q.z.end()));
 #else
   GTEST_SKIP() << "one kernel alone is built for this machine";
 #endif
