@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     const IrradianceFiles files = sort_inputs(paths);
-    tool.add_input("scene", scene_files(files.scene));
+    tool.add_input("scene", scene_files(files.scene, scene_options));
     if (!files.photons.empty()) tool.add_input("photons", files.photons);
     if (!files.source.empty()) tool.add_input("source", files.source);
     if (!at.empty()) tool.add_input("points", at);

@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
                          "half of them, to be joined by phos-merge");
   return tool.run(argc, argv, [&] {
     path_range(options.shard, options.paths);  // a wrong --shard is said before the work
-    tool.add_input("scene", scene_files(scene_path));
+    tool.add_input("scene", scene_files(scene_path, scene_options));
     if (!options.shard.empty()) tool.set_variant("shard " + options.shard);
     if (tool.up_to_date()) return;
 

@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (points_path.empty() && tool.output().empty())
       throw Error(ExitCode::usage, "-o", "a picture needs an output file: -o room.exr (or give --points)");
-    tool.add_input("scene", scene_files(scene_path));
+    tool.add_input("scene", scene_files(scene_path, scene_options));
     if (!points_path.empty()) tool.add_input("points", points_path);
     reference.seed = tool.seed();
     if (points_path.empty()) {

@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
     inputs.sort_out();
     check_usage(options, inputs, sense, exact);
     check(grid, inputs.points);
-    tool.add_input("scene", scene_files(inputs.scene));
+    tool.add_input("scene", scene_files(inputs.scene, scene_options));
     const Scene scene = load_scene(inputs.scene, scene_options);
     std::vector<Container> files;
     for (const std::string& path : inputs.caches) {

@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
                   "another camera from the same cache, and the points it lacks");
 
   return tool.run(argc, argv, [&] {
-    tool.add_input("scene", scene_files(scene_path));
+    tool.add_input("scene", scene_files(scene_path, scene_options));
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
     render.seed = tool.seed();
     tool.set_provenance_reader(read_image_provenance);

@@ -33,8 +33,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
                   RandomStream& random, std::vector<LampSample>& out) {
   out.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const bool area = lights[i].kind == Light::Kind::area;
-    const int n = area ? std::max(samples, 1) : 1;
+    const int n = lights[i].extended() ? std::max(samples, 1) : 1;
     // Drawn for every light, so that one light's samples do not depend on what another's do.
     const float shift = random.uniform();
     const Vec2 shift2 = random.uniform2();
@@ -46,8 +45,10 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
         continue;
       const float cosine = glm::dot(receiver.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
-      const Rgb irradiance = light.value * (cosine / (area ? light.density * static_cast<float>(n) : 1.f));
+      const Rgb irradiance =
+          light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
       if (!(max_component(irradiance) > 0) || !visible(rays, receiver, light)) continue;
+      const bool area = lights[i].kind == Light::Kind::area;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
                      static_cast<std::uint32_t>(i)});
     }
@@ -66,7 +67,7 @@ LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires&
       mean += part, squares += part * part;
     }
     sum.irradiance += mean;
-    if (n > 1 && lights[light].kind == Light::Kind::area)
+    if (n > 1 && lights[light].extended())
       sum.variance += glm::max(n * squares - mean * mean, DVec3(0)) / (n - 1);
   }
   return sum;

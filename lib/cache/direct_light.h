@@ -13,7 +13,7 @@ namespace phos {
 /// One visible sample of a lamp.
 struct LampSample {
   Vec3 direction{0};             ///< unit, towards the lamp
-  float distance_m = kInfinity;  ///< infinity: a directional light
+  float distance_m = kInfinity;  ///< infinity: a directional light or the environment
   Vec3 normal{0};     ///< of the lamp's surface, on the side that shines; minus direction for lamps without
   Rgb irradiance{0};  ///< what it adds: cosine, density and number of samples included; they sum to E, lx
   std::uint32_t light = 0;
@@ -23,12 +23,12 @@ struct LampSample {
 SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 
 /// Samples of every lamp that can be seen from the receiver: `samples` low-discrepancy ones of each area
-/// light, one of each other. Replaces `out`.
+/// light and of the environment, one of each other. Replaces `out`.
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
 
-/// Sum of such samples of one point, and its variance by channel: that of the area lights' samples, as if
-/// they were independent (it errs on the high side).
+/// Sum of such samples of one point, and its variance by channel: that of the samples of lights of an extent,
+/// as if they were independent (it errs on the high side).
 struct LampSum {
   DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
 };

@@ -101,6 +101,7 @@ struct HitLight::Impl {
 
   struct Step;
   bool choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const;
+  Rgb beyond(const SurfacePoint& point, const Step& step) const;
   Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
                     RandomStream& random) const;
 };
@@ -197,6 +198,15 @@ bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream&
   return true;
 }
 
+/// The environment that a walk's ray from `point` sees, weighted against gloss_of_lamp().
+Rgb HitLight::Impl::beyond(const SurfacePoint& point, const Step& step) const {
+  const Rgb luminance = background_luminance(scene, step.direction);
+  if (!positive(luminance) || !(step.density > 0) || lights.environment() < 0) return luminance;
+  const float other = lamps.probability(point, static_cast<std::size_t>(lights.environment())) *
+                      lights.density_beyond(step.direction);
+  return luminance * (step.density / (step.density + other));
+}
+
 /// One sample of light straight from the lamps, through the glossy lobes towards wo; that of an area light is
 /// weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
 Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -248,7 +258,10 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
       throughput /= survival;
     }
     SurfacePoint next;
-    if (!trace(rays, {point.leave(step.direction), step.direction}, next)) break;
+    if (!trace(rays, {point.leave(step.direction), step.direction}, next)) {
+      sum += throughput * beyond(point, step);
+      break;
+    }
     const Rgb emitted = emitted_luminance(scene, next);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
     if (lamp >= 0) {

@@ -4,6 +4,7 @@
 
 #include "cache/lamp_extent.h"
 #include "core/sampling.h"
+#include "scene/environment.h"
 #include "scene/offset.h"
 
 namespace phos {
@@ -27,7 +28,7 @@ LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_
     cdf_.push_back(sum += share);
   }
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    area_ = area_ || lights[i].kind == Light::Kind::area;
+    extended_ = extended_ || lights[i].extended();
     panel_.push_back(panel_of(rays.scene(), lights[i]));
   }
   if (lights.size() > kMostCompared) return;
@@ -41,6 +42,9 @@ LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   lamp.strength = luminance(light.intensity);
   if (light.kind == Light::Kind::point) lamp.front = Vec3(0);
   if (light.kind == Light::Kind::spot) lamp.spot = light;
+  // A surface turned any way receives a quarter of what comes from all sides.
+  if (light.kind == Light::Kind::environment)
+    lamp.strength = 0.25f * luminance(Rgb(scene.environment->integral_lx()));
   if (light.kind != Light::Kind::area) return lamp;
   const LampExtent extent = extent_of(scene, light);
   lamp.centre = extent.centre, lamp.radius_m = extent.radius_m, lamp.front = extent.front;
@@ -102,6 +106,7 @@ LampSampler::Panel LampSampler::panel_of(const Scene& scene, const Light& light)
 /// Illuminance at the point from a lamp that nothing hides, roughly for an area light; 0 only where it brings
 /// none.
 float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
+  if (lamp.kind == Light::Kind::environment) return lamp.strength;
   if (lamp.kind == Light::Kind::directional) {
     const bool above = glm::dot(lamp.front, point.geometric_normal) < 0;
     return above ? std::max(0.f, -glm::dot(lamp.front, point.normal)) * lamp.strength : 0.f;
@@ -160,16 +165,18 @@ float LampSampler::probability(const SurfacePoint& point, std::size_t light) con
   return sum > 0 && std::isfinite(sum) ? each[light] / sum : share_[light];
 }
 
-/// Close to an area light, points on it are a poor choice: their density per sr varies without bound.
+/// Close to an area light, points on it are a poor choice: their density per sr varies without bound. Of an
+/// environment, the brightest part may be hidden, and half of it is below the horizon.
 float LampSampler::ray_share(const SurfacePoint& point) const {
-  if (!area_) return 0;
+  if (!extended_) return 0;
   if (lamp_.empty()) return kRaysAmongMany;
   for (const Lamp& lamp : lamp_) {
     const Vec3 way = lamp.centre - point.position;
     const float reach = kNear * lamp.radius_m;
     if (glm::dot(way, way) < reach * reach && promise_lx(lamp, point) > 0) return kRaysNear;
   }
-  return 0;
+  if (lights_.environment() < 0) return 0;
+  return kRaysNear * probability(point, static_cast<std::size_t>(lights_.environment()));
 }
 
 void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_share,
@@ -178,14 +185,17 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   const Vec3 direction = make_frame(point.normal).to_world(local);
   if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return;
   SurfacePoint found;
-  if (!trace(rays_, {point.leave(direction), direction}, found)) return;
-  const Rgb luminance = emitted_luminance(rays_.scene(), found);
-  const std::int32_t lamp = max_component(luminance) > 0 ? lights_.light_of(found.triangle) : -1;
+  const bool hit = trace(rays_, {point.leave(direction), direction}, found);
+  const Rgb luminance =
+      hit ? emitted_luminance(rays_.scene(), found) : background_luminance(rays_.scene(), direction);
+  if (!(max_component(luminance) > 0)) return;
+  const std::int32_t lamp = hit ? lights_.light_of(found.triangle) : lights_.environment();
   if (lamp < 0) return;
   const auto i = static_cast<std::size_t>(lamp);
   const float cos_light = std::fabs(glm::dot(found.geometric_normal, direction));
   const float by_lamp =
-      probability(point, i) * lights_.density(i, found.triangle, found.distance_m, cos_light);
+      probability(point, i) * (hit ? lights_.density(i, found.triangle, found.distance_m, cos_light)
+                                   : lights_.density_beyond(direction));
   light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
   light.certain = true;
 }

@@ -51,11 +51,11 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   DirectLight sum;
   const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const bool area = lights_[i].kind == Light::Kind::area;
+    const bool extended = lights_[i].extended();
     const float u0 = sequence.uniform();
     const Vec2 shift = sequence.uniform2();
     if (out_of_sight(extent_[i], point)) continue;
-    const int n = area ? samples.count : 1;
+    const int n = extended ? samples.count : 1;
     Rgb mean(0), square(0);
     for (int s = 0; s < n; ++s) {
       Illumination light;
@@ -66,16 +66,16 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
         continue;
       const float cosine = glm::dot(point.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
-      if (area && !(light.density > 0)) continue;
-      const bool visible = area || std::isfinite(light.distance_m)
+      if (extended && !(light.density > 0)) continue;
+      const bool visible = std::isfinite(light.distance_m)
                                ? rays_.visible(point, light.position, light.error_m)
                                : !rays_.occluded({point.leave(light.direction), light.direction});
       if (!visible) continue;
-      const Rgb arriving = light.value * cosine / (area ? light.density : 1.f);
+      const Rgb arriving = light.value * cosine / (extended ? light.density : 1.f);
       sum.illuminance += arriving / static_cast<float>(n);
       Rgb f = options_.cached_direct ? bsdf.evaluate_gloss(wo, light.direction)
                                      : bsdf.evaluate(wo, light.direction);
-      if (area && shared_gloss) {
+      if (extended && shared_gloss) {
         const Rgb glossy = bsdf.evaluate_gloss(wo, light.direction);
         const float w = light_weight(n, light.density, gloss_rays, bsdf.density_gloss(wo, light.direction));
         f += (w - 1.f) * glossy;
@@ -103,7 +103,14 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     if (!bsdf.sample_gloss(wo, r2_point(samples.first + s, shift), sample)) continue;
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
-    if (!trace(rays_, ray, hit)) continue;
+    if (!trace(rays_, ray, hit)) {
+      const float density = lights_.density_beyond(sample.direction);
+      const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
+                              (1.f - light_weight(light_samples, density, samples.count, sample.density));
+      sum.from_lamps += from_beyond;
+      square += from_beyond * from_beyond;
+      continue;
+    }
     Rgb from_lamp(0);
     const Rgb lamp = emitted_luminance(rays_.scene(), hit);
     const std::int32_t light = max_component(lamp) > 0 ? lights_.light_of(hit.triangle) : -1;
@@ -141,7 +148,10 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
     }
     SurfacePoint hit;
     const Ray ray{point.leave(branch[b].direction), branch[b].direction};
-    if (!trace(rays_, ray, hit)) continue;
+    if (!trace(rays_, ray, hit)) {
+      sum += branch[b].weight * background_luminance(rays_.scene(), branch[b].direction);
+      continue;
+    }
     sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit) +
                                outgoing(hit, -branch[b].direction, depth + 1, carried, random, log));
   }

@@ -104,6 +104,22 @@ Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
   return luminance * power_weight(walk.density, density);
 }
 
+/// The same of the environment, for a walk whose ray left the scene.
+Rgb PathTracer::emission_beyond(const Walk& walk) const {
+  const Rgb luminance = background_luminance(rays_->scene(), walk.ray.direction);
+  if (!positive(luminance) || walk.density <= 0 || luminaires_->environment() < 0) return luminance;
+  const float chosen = walk.every_light ? 1 : share_[static_cast<std::size_t>(luminaires_->environment())];
+  const float density = chosen * luminaires_->density_beyond(walk.ray.direction);
+  return luminance * power_weight(walk.density, density);
+}
+
+void PathTracer::add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum) {
+  (walk.mirrored           ? sum.specular
+   : walk.scatterings == 0 ? sum.emission
+   : walk.scatterings == 1 ? sum.direct
+                           : sum.indirect) += walk.throughput * luminance;
+}
+
 /// Adds the light scattered at `point` once, and turns the walk into its next ray. False: the path ends.
 bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const {
   const Bsdf bsdf(rays_->scene(), point);
@@ -138,15 +154,12 @@ bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum,
 void PathTracer::follow(Walk walk, PathSample& sum, RandomStream& random) const {
   SurfacePoint point;
   while (trace(*rays_, walk.ray, point)) {
-    const Rgb emitted = walk.throughput * emission_at(point, walk);
-    (walk.mirrored           ? sum.specular
-     : walk.scatterings == 0 ? sum.emission
-     : walk.scatterings == 1 ? sum.direct
-                             : sum.indirect) += emitted;
+    add_emission(emission_at(point, walk), walk, sum);
     if (options_.bounces >= 0 && walk.scatterings >= options_.bounces) return;
     if (options_.black_emitters && rays_->scene().material[point.material].emits()) return;
     if (!scatter(point, walk, sum, random)) return;
   }
+  add_emission(emission_beyond(walk), walk, sum);
 }
 
 PathSample PathTracer::luminance(const Ray& ray, RandomStream& random) const {

@@ -22,7 +22,7 @@ struct PathOptions {
 
 /// One sample of the luminance along a camera ray, cd/m2, by the way it came. The parts do not overlap.
 struct PathSample {
-  Rgb emission{0};  ///< of the visible surface itself
+  Rgb emission{0};  ///< of the visible surface itself, or of the environment where there is none
   Rgb direct{0};    ///< from a light, scattered once, at the visible surface
   Rgb indirect{0};  ///< scattered twice or more, first at a visible surface that is no mirror and no glass
   Rgb specular{0};  ///< all light seen in a mirror or through glass
@@ -50,6 +50,8 @@ class PathTracer {
                RandomStream& random) const;
   bool lit_by(const SurfacePoint& point, const Illumination& light) const;
   Rgb emission_at(const SurfacePoint& point, const Walk& walk) const;
+  Rgb emission_beyond(const Walk& walk) const;
+  static void add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum);
   bool scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const;
   void follow(Walk walk, PathSample& sum, RandomStream& random) const;
   bool sample_every_light(std::int64_t scatterings) const;

@@ -8,6 +8,7 @@
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "scene/environment.h"
 #include "scene/luminaires.h"
 #include "scene/shading_frame.h"
 #include "splat/gl_renderer.h"
@@ -121,6 +122,17 @@ ShadowSample punctual_sample(const Scene& scene, const GBuffer& gbuffer, const L
   return sample;
 }
 
+/// The environment's light from the k-th of `count` directions.
+ShadowSample environment_sample(const Scene& scene, const GBuffer& gbuffer, int k, int count, int map_size) {
+  const Environment::Sample part = scene.environment->sample(Vec2(even_point(k, count)));
+  if (!(part.density > 0)) return {};
+  Light sun;
+  sun.kind = Light::Kind::directional;
+  sun.direction = -part.direction;
+  sun.intensity = part.luminance / (part.density * static_cast<float>(count));
+  return punctual_sample(scene, gbuffer, sun, map_size);
+}
+
 /// Geometric normal of what each pixel shows, on the side that is seen.
 std::vector<Vec4> facets(const Scene& scene, const GBuffer& g) {
   std::vector<Vec4> facet(g.position.size(), Vec4(0));
@@ -210,15 +222,17 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   const Luminaires luminaires(scene);
   std::size_t total = 0;
   for (const Light& light : scene.light) {
-    total += light.kind == Light::Kind::area ? static_cast<std::size_t>(light_samples) : 1;
+    total += light.extended() ? static_cast<std::size_t>(light_samples) : 1;
   }
   Progress progress("shadow maps", total, "maps");
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
-    const bool area = scene.light[i].kind == Light::Kind::area;
-    for (int k = 0; k < (area ? light_samples : 1); ++k) {
+    const Light& light = scene.light[i];
+    for (int k = 0; k < (light.extended() ? light_samples : 1); ++k) {
       throw_if_interrupted();
-      pass.add(area ? area_sample(scene, luminaires, i, k, light_samples, size)
-                    : punctual_sample(scene, gbuffer, scene.light[i], size));
+      pass.add(light.kind == Light::Kind::area ? area_sample(scene, luminaires, i, k, light_samples, size)
+               : light.kind == Light::Kind::environment
+                   ? environment_sample(scene, gbuffer, k, light_samples, size)
+                   : punctual_sample(scene, gbuffer, light, size));
       progress.advance();
     }
   }
