@@ -116,8 +116,9 @@ void declare_options(Options& options, RenderOptions& r) {
                            "shadow maps (fast preview, "
                            "diffuse only); or left out");
   options.integer("light-samples", r.light_samples, "N",
-                  "shadow rays per area light and pixel, shared among its samples (one each at least); or "
-                  "shadow maps per area light",
+                  "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
+                  "at least); or "
+                  "shadow maps per area light (or environment)",
                   {1, 65536});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
   options.integer("gloss-samples", r.gloss_samples, "N",
@@ -245,13 +246,20 @@ class Painter {
     const Stopwatch watch(result_.seconds, "shading");
     const Vec2 where = subpixel_offset(s);
     run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
-      if (!gbuffer.covered(i)) return;
       const Ray ray = ray_of(i, where);
+      if (!gbuffer.covered(i)) return layers_.add(i, background(ray));
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
       layers_.add(i, shader_.shade({i, s}, ray, point, {splats.light[i], splats.error[i]},
                                    shared.empty() ? nullptr : &shared[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
     });
+  }
+
+  /// Where no surface is seen.
+  PixelSample background(const Ray& ray) const {
+    PixelSample light;
+    light.emission = background_luminance(rays_.scene(), ray.direction);
+    return light;
   }
 
   /// The cache is looked up here: splatting pays for whole pictures only.
@@ -262,8 +270,9 @@ class Painter {
       for (int s = samples_; s < most_samples(); ++s) {
         const Ray ray = ray_of(i, subpixel_offset(s));
         SurfacePoint point;
-        if (trace(rays_, ray, point))
-          layers_.add(i, shader_.shade({i, s - samples_, true}, ray, point, {}, nullptr, result));
+        layers_.add(i, trace(rays_, ray, point)
+                           ? shader_.shade({i, s - samples_, true}, ray, point, {}, nullptr, result)
+                           : background(ray));
       }
     });
   }
