@@ -19,8 +19,8 @@ class Apart {
   explicit Apart(int order) : basis_(order), all_(static_cast<std::size_t>(basis_.count())), turn_(order) {
     cosine.resize(turn_.cosines()), sine.resize(turn_.sines());
   }
-  void evaluate(double x, double y, double z) {
-    basis_.evaluate(BasisKind::hsh, x, y, z, all_.data());
+  void evaluate(const DVec3& w) {
+    basis_.evaluate(BasisKind::hsh, w.x, w.y, w.z, all_.data());
     double *c = cosine.data(), *s = sine.data();
     for (int l = 0; l < basis_.order(); ++l) {
       const double* centre = all_.data() + harmonic_index(l, 0);
@@ -36,15 +36,46 @@ class Apart {
   Turn turn_;
 };
 
-void add_product(std::vector<double>& matrix, double weight, const std::vector<double>& a,
-                 const std::vector<double>& b) {
-  double* row = matrix.data();
-  for (const double ai : a) {
-    const double f = weight * ai;
-    for (std::size_t j = 0; j < b.size(); ++j) row[j] += f * b[j];
-    row += b.size();
+/// Sums weight times the products of all harmonics at one direction and all at another, some pairs of
+/// directions at once: the matrix passes by once for all of them. finish() after the last.
+class Products {
+ public:
+  explicit Products(Turn& turn) : turn_(turn), a_(kAtOnce, Apart(turn.order)), b_(a_) {}
+  void add(double weight, const DVec3& a, const DVec3& b) {
+    a_[filled_].evaluate(a), b_[filled_].evaluate(b);
+    weight_[filled_++] = weight;
+    if (filled_ == kAtOnce) finish();
   }
-}
+  void finish() {
+    std::fill(weight_ + filled_, weight_ + kAtOnce, 0.);  // what the last ones left there counts nothing
+    filled_ = 0;
+    add_products(turn_.cosine, &Apart::cosine);
+    add_products(turn_.sine, &Apart::sine);
+  }
+
+ private:
+  static constexpr std::size_t kAtOnce = 8;
+  void add_products(std::vector<double>& matrix, std::vector<double> Apart::*part) const {
+    const std::size_t n = (a_[0].*part).size();
+    const double* b[kAtOnce];
+    for (std::size_t k = 0; k < kAtOnce; ++k) b[k] = (b_[k].*part).data();
+    double* row = matrix.data();
+    for (std::size_t i = 0; i < n; ++i, row += n) {
+      double f[kAtOnce];
+      for (std::size_t k = 0; k < kAtOnce; ++k) f[k] = weight_[k] * (a_[k].*part)[i];
+      for (std::size_t j = 0; j < n; ++j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < kAtOnce; ++k) sum += f[k] * b[k][j];
+        row[j] += sum;
+      }
+    }
+  }
+
+  Turn& turn_;
+  std::vector<Apart> a_, b_;
+  double weight_[kAtOnce];
+  std::size_t filled_ = 0;
+};
 
 /// A range of psi for quadrature: [0, 1] is mapped to angles by psi.
 struct PsiMap {
@@ -87,17 +118,16 @@ PsiMap from_horizon(int order, double beta) {
 Turn kept(int order, double beta) {
   Turn turn(order);
   if (beta >= kPi64) return turn;
-  Apart here(order), before(order);
+  Products products(turn);
   const double end = std::asinh(std::sqrt((kPi64 - beta) / (2 * beta)));
   const PsiMap map{2 * order + 8 + static_cast<int>(12 * end),
                    [=](double t) { return beta * std::sinh(end * t) * std::sinh(end * t); },
                    [=](double t) { return end * beta * std::sinh(2 * end * t); }};
   integrate_lune(order, map, [&](double rho, double y, double psi, double w) {
-    here.evaluate(rho * std::cos(psi), y, rho * std::sin(psi));
-    before.evaluate(rho * std::cos(psi + beta), y, rho * std::sin(psi + beta));
-    add_product(turn.cosine, w, here.cosine, before.cosine);
-    add_product(turn.sine, w, here.sine, before.sine);
+    products.add(w, {rho * std::cos(psi), y, rho * std::sin(psi)},
+                 {rho * std::cos(psi + beta), y, rho * std::sin(psi + beta)});
   });
+  products.finish();
   const auto add_mirrored = [&](std::vector<double>& matrix, int least_m) {
     std::vector<int> parity;
     for (int l = 0; l < order; ++l)
@@ -121,7 +151,7 @@ void fill_constant(Turn& turn, double beta) {
   const std::size_t n = turn.cosines();
   std::vector<double> seen(n, 0.);
   integrate_lune(turn.order, from_horizon(turn.order, beta), [&](double rho, double y, double psi, double w) {
-    here.evaluate(-rho * std::cos(psi), y, rho * std::sin(psi));
+    here.evaluate({-rho * std::cos(psi), y, rho * std::sin(psi)});
     for (std::size_t i = 0; i < n; ++i) seen[i] += w * here.cosine[i];
   });
   for (int l = 0; l < turn.order; ++l) {
@@ -132,29 +162,28 @@ void fill_constant(Turn& turn, double beta) {
 
 /// The same with the function mirrored at the old horizon. sin^2 makes the roots at both horizons smooth.
 void fill_even(Turn& turn, double beta) {
-  Apart here(turn.order), before(turn.order);
+  Products products(turn);
   const PsiMap map{2 * turn.order + 16 + static_cast<int>(12 * beta),
                    [=](double t) { return beta * std::sin(kPi64 / 2 * t) * std::sin(kPi64 / 2 * t); },
                    [=](double t) { return beta * kPi64 / 2 * std::sin(kPi64 * t); }};
   integrate_lune(turn.order, map, [&](double rho, double y, double psi, double w) {
-    here.evaluate(-rho * std::cos(psi), y, rho * std::sin(psi));
-    before.evaluate(-rho * std::cos(beta - psi), y, rho * std::sin(beta - psi));
-    add_product(turn.cosine, w, here.cosine, before.cosine);
-    add_product(turn.sine, w, here.sine, before.sine);
+    products.add(w, {-rho * std::cos(psi), y, rho * std::sin(psi)},
+                 {-rho * std::cos(beta - psi), y, rho * std::sin(beta - psi)});
   });
+  products.finish();
 }
 
 /// The function less what will go below the horizon: psi in (0, beta).
 Turn without_digon(int order, double beta) {
   Turn turn(order);
-  Apart here(order);
+  Products products(turn);
   for (std::size_t i = 0; i < turn.cosines(); ++i) turn.cosine[i * turn.cosines() + i] = 1;
   for (std::size_t i = 0; i < turn.sines(); ++i) turn.sine[i * turn.sines() + i] = 1;
   integrate_lune(order, from_horizon(order, beta), [&](double rho, double y, double psi, double w) {
-    here.evaluate(rho * std::cos(psi), y, rho * std::sin(psi));
-    add_product(turn.cosine, -w, here.cosine, here.cosine);
-    add_product(turn.sine, -w, here.sine, here.sine);
+    const DVec3 here(rho * std::cos(psi), y, rho * std::sin(psi));
+    products.add(-w, here, here);
   });
+  products.finish();
   return turn;
 }
 

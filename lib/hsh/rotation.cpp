@@ -79,7 +79,7 @@ ZyzAngles rotation_angles(const Frame& from, const Frame& to) {
 }
 
 void rotate_about_z(std::span<float> coefficients, float angle, int channels) {
-  PHOS_CHECK(channels > 0, "channels ", channels);
+  PHOS_CHECK(channels > 0 && std::isfinite(angle), "channels ", channels, " angle ", angle);
   const auto width = static_cast<std::size_t>(channels);
   const int order = order_of(coefficients.size() / width);
   PHOS_CHECK(order <= HarmonicBasis<float>::kMaxOrder &&
