@@ -103,35 +103,39 @@ MerlBrdf::MerlBrdf(std::string_view bytes, const std::string& path) {
   tabulate_albedo();
 }
 
-/// Breadth first from all cells that have data, over the six neighbours of a cell: the nearest in steps of
-/// the table, the first in its order among equals.
+/// Breadth first from all cells that have data: the nearest in steps of the table, the first in its order
+/// among equals. Cells of the same theta_h, which shapes the lobe, come first.
 void MerlBrdf::fill_empty(const std::vector<bool>& empty) {
-  std::vector<std::uint32_t> reached;
-  std::vector<bool> open = empty;
   for (std::size_t i = 0; i < kCells; ++i) {
     if (!empty[i]) continue;
     ++empty_cells_;
     empty_reachable_cells_ += reachable(i);
   }
   if (empty_cells_ == 0 || empty_cells_ == kCells) return;
+  std::vector<bool> open = empty;
+  std::vector<std::uint32_t> reached;
   reached.reserve(kCells);
-  for (std::size_t i = 0; i < kCells; ++i) {
-    if (!empty[i]) reached.push_back(static_cast<std::uint32_t>(i));
-  }
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    const std::size_t from = reached[k];
-    const auto [h, d, p] = indices_of(from);
-    const auto visit = [&](int nh, int nd, int np) {
-      if (nh < 0 || nh >= kThetaH || nd < 0 || nd >= kThetaD) return;
-      const std::size_t to = cell_of(nh, nd, (np + kPhiD) % kPhiD);
-      if (!open[to]) return;
-      open[to] = false;
-      value_[to] = value_[from];
-      reached.push_back(static_cast<std::uint32_t>(to));
-    };
-    visit(h - 1, d, p), visit(h + 1, d, p);
-    visit(h, d - 1, p), visit(h, d + 1, p);
-    visit(h, d, p - 1), visit(h, d, p + 1);
+  for (const bool across : {false, true}) {
+    reached.clear();
+    for (std::size_t i = 0; i < kCells; ++i) {
+      if (!open[i]) reached.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const std::size_t from = reached[k];
+      const auto [h, d, p] = indices_of(from);
+      const auto visit = [&](int nh, int nd, int np) {
+        if (nh < 0 || nh >= kThetaH || nd < 0 || nd >= kThetaD) return;
+        const std::size_t to = cell_of(nh, nd, (np + kPhiD) % kPhiD);
+        if (!open[to]) return;
+        open[to] = false;
+        value_[to] = value_[from];
+        reached.push_back(static_cast<std::uint32_t>(to));
+      };
+      visit(h, d - 1, p), visit(h, d + 1, p);
+      visit(h, d, p - 1), visit(h, d, p + 1);
+      if (across) visit(h - 1, d, p), visit(h + 1, d, p);
+    }
+    if (reached.size() == kCells) return;
   }
 }
 

@@ -68,8 +68,8 @@ class MerlBrdf {
   std::uint64_t memory_bytes() const { return value_.size() * sizeof(Rgb); }
 
  private:
-  static constexpr int kAngles = 24;  // of the albedo tables, even steps of the cosine
-  static float angle_cosine(int k) { return (static_cast<float>(k) + 0.5f) / kAngles; }
+  static constexpr int kAngles = 25;  // of the albedo tables, even steps of the cosine from grazing to 1
+  static float angle_cosine(int k) { return std::fmax(static_cast<float>(k) / (kAngles - 1), 0.01f); }
   void fill_empty(const std::vector<bool>& empty);
   void find_lambert();
   void fit_lobe();

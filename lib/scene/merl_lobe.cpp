@@ -142,7 +142,7 @@ void MerlBrdf::tabulate_albedo() {
 
 template <class T>
 T MerlBrdf::over_cosine(const std::vector<T>& table, float cos_theta) const {
-  const float at = std::clamp(cos_theta * kAngles - 0.5f, 0.f, static_cast<float>(kAngles - 1));
+  const float at = std::clamp(cos_theta, 0.f, 1.f) * (kAngles - 1);
   const auto low = static_cast<std::size_t>(std::min(static_cast<int>(at), kAngles - 2));
   const float share = at - static_cast<float>(low);
   return (1 - share) * table[low] + share * table[low + 1];
@@ -155,9 +155,10 @@ float MerlBrdf::gloss_albedo(float cos_theta) const { return over_cosine(gloss_a
 Rgb MerlBrdf::mean_albedo() const {
   Rgb sum(0);
   float weight = 0;
-  for (int k = 0; k < kAngles; ++k) {
-    sum += angle_cosine(k) * albedo_[static_cast<std::size_t>(k)];
-    weight += angle_cosine(k);
+  for (int k = 0; k < kAngles; ++k) {  // trapezoids of the cosine-weighted albedo
+    const float w = angle_cosine(k) * (k == kAngles - 1 ? 0.5f : 1.f);
+    sum += w * albedo_[static_cast<std::size_t>(k)];
+    weight += w;
   }
   return sum / weight;
 }
