@@ -1,5 +1,5 @@
 // Values of the basis: coefficients per second, scalar and batched, into memory that fits a cache (64
-// directions at a time) and into one large table; gradients; building nothing is free.
+// directions at a time) and into one large table; gradients too.
 #include <benchmark/benchmark.h>
 
 #include <vector>
