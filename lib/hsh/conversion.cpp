@@ -58,37 +58,47 @@ double HarmonicConversion::at(int hsh_index, int sh_index) const {
   const auto [l, m] = band_and_m(hsh_index);
   const auto [s, n] = band_and_m(sh_index);
   const bool same_m = hsh_index - l * l - l == sh_index - s * s - s;
-  return same_m ? block(m)[static_cast<std::size_t>((l - m) * (sh_order_ - m) + s - m)] : 0;
+  return same_m ? row(m, l)[s - m] : 0;
 }
 
 namespace {
 
-/// to = C from, or C^T from where `transposed`, of each m, sign and channel.
-void convert(const HarmonicConversion& c, bool transposed, std::span<const float> from, std::span<float> to,
+/// Bands l = |m| .. order - 1 of one m and channel, gathered and scattered.
+void gather(std::span<const float> from, int order, int m, int channel, int channels, double* to) {
+  for (int l = std::abs(m); l < order; ++l)
+    *to++ = from[static_cast<std::size_t>(harmonic_index(l, m) * channels + channel)];
+}
+void scatter(const double* from, int order, int m, int channel, int channels, std::span<float> to) {
+  for (int l = std::abs(m); l < order; ++l)
+    to[static_cast<std::size_t>(harmonic_index(l, m) * channels + channel)] = static_cast<float>(*from++);
+}
+
+/// to = C from, or C^T from where `to_sh`, for each m and channel.
+void convert(const HarmonicConversion& c, bool to_sh, std::span<const float> from, std::span<float> to,
              int channels) {
-  const int rows = c.hsh_order(), columns = c.sh_order();
-  const int from_order = transposed ? rows : columns, to_order = transposed ? columns : rows;
+  const int hsh_order = c.hsh_order(), sh_order = c.sh_order();
+  const int from_order = to_sh ? hsh_order : sh_order, to_order = to_sh ? sh_order : hsh_order;
   PHOS_CHECK(channels > 0, "channels ", channels);
   PHOS_CHECK(from.size() == static_cast<std::size_t>(channels * harmonic_count(from_order)), from.size());
   PHOS_CHECK(to.size() == static_cast<std::size_t>(channels * harmonic_count(to_order)), to.size());
   std::fill(to.begin(), to.end(), 0.f);
-  const auto at = [&](int l, int m, int channel) {
-    return static_cast<std::size_t>(harmonic_index(l, m) * channels + channel);
-  };
-  for (int abs_m = 0; abs_m < std::min(rows, columns); ++abs_m) {
-    const std::span<const double> block = c.block(abs_m);
-    const auto stride = static_cast<std::size_t>(columns - abs_m);
-    for (int m = abs_m; m >= -abs_m; m -= std::max(1, 2 * abs_m))
-      for (int channel = 0; channel < channels; ++channel)
-        for (int l = abs_m; l < to_order; ++l) {
-          double sum = 0;
-          for (int s = abs_m; s < from_order; ++s) {
-            const auto row = static_cast<std::size_t>((transposed ? s : l) - abs_m);
-            const auto column = static_cast<std::size_t>((transposed ? l : s) - abs_m);
-            sum += block[row * stride + column] * from[at(s, m, channel)];
-          }
-          to[at(l, m, channel)] = static_cast<float>(sum);
+  const int bands = std::min(hsh_order, sh_order);
+  double in[HarmonicBasis<double>::kMaxOrder], out[HarmonicBasis<double>::kMaxOrder];
+  for (int m = 1 - bands; m < bands; ++m) {
+    const int least = std::abs(m), columns = sh_order - least;
+    for (int channel = 0; channel < channels; ++channel) {
+      gather(from, from_order, m, channel, channels, in);
+      std::fill(out, out + to_order - least, 0.);
+      for (int l = least; l < hsh_order; ++l) {
+        const double* row = c.row(least, l);
+        if (to_sh) {
+          for (int s = 0; s < columns; ++s) out[s] += row[s] * in[l - least];
+        } else {
+          for (int s = 0; s < columns; ++s) out[l - least] += row[s] * in[s];
         }
+      }
+      scatter(out, to_order, m, channel, channels, to);
+    }
   }
 }
 

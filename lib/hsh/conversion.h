@@ -16,9 +16,10 @@ class HarmonicConversion {
   int hsh_order() const { return hsh_order_; }
   int sh_order() const { return sh_order_; }
   double at(int hsh_index, int sh_index) const;
-  /// The rows l = m .. hsh_order - 1 and columns l' = m .. sh_order - 1 of one m, row after row. C is the
-  /// same for m and -m.
-  std::span<const double> block(int m) const { return block_[static_cast<std::size_t>(m)]; }
+  /// Of one m >= 0 (C is the same for -m) and HSH band l >= m: the entries of SH bands m .. sh_order - 1.
+  const double* row(int m, int l) const {
+    return block_[static_cast<std::size_t>(m)].data() + (l - m) * (sh_order_ - m);
+  }
   /// Coefficients of each index are `channels` numbers side by side (RGB: 3).
   void sh_to_hsh(std::span<const float> sh, std::span<float> hsh, int channels = 1) const;
   void hsh_to_sh(std::span<const float> hsh, std::span<float> sh, int channels = 1) const;

@@ -190,21 +190,20 @@ Turn without_digon(int order, double beta) {
 /// HSH follow SH on the mapped sphere; the angle mapped likewise is right at the pole alone.
 Turn digon(int order, double beta) {
   const double mapped = 2 * std::asin(std::min(1., std::numbers::sqrt2 * std::sin(beta / 2)));
-  const std::vector<BandTurn> bands = sh_turn(order, mapped);
+  const ShTurn bands(order, mapped);
   const Turn cut = without_digon(order, beta);
   Turn turn(order);
-  const auto multiply = [](const std::vector<double>& band, std::size_t size, std::size_t first,
+  const auto multiply = [](const double* band, int band_size, std::size_t first,
                            const std::vector<double>& from, std::size_t n, std::vector<double>& to) {
+    const auto size = static_cast<std::size_t>(band_size);
     for (std::size_t i = 0; i < size; ++i)
       for (std::size_t k = 0; k < size; ++k)
         for (std::size_t j = 0; j < n; ++j)
           to[(first + i) * n + j] += band[i * size + k] * from[(first + k) * n + j];
   };
   for (int l = 0; l < order; ++l) {
-    const BandTurn& band = bands[static_cast<std::size_t>(l)];
-    const auto size = static_cast<std::size_t>(l);
-    multiply(band.cosine, size + 1, Turn::cosine_index(l, 0), cut.cosine, cut.cosines(), turn.cosine);
-    multiply(band.sine, size, Turn::sine_index(l, 1), cut.sine, cut.sines(), turn.sine);
+    multiply(bands.cosine(l), l + 1, Turn::cosine_index(l, 0), cut.cosine, cut.cosines(), turn.cosine);
+    multiply(bands.sine(l), l, Turn::sine_index(l, 1), cut.sine, cut.sines(), turn.sine);
   }
   return turn;
 }
@@ -213,7 +212,7 @@ Turn digon(int order, double beta) {
 Turn via_sh(int order, double beta) {
   const int sh_order = std::min(2 * order, HarmonicBasis<double>::kMaxOrder);
   const HarmonicConversion c(order, sh_order);
-  const std::vector<BandTurn> bands = sh_turn(sh_order, beta);
+  const ShTurn bands(sh_order, beta);
   Turn turn(order);
   for (int m = 0; m < order; ++m)
     for (int n = 0; n < order; ++n)
@@ -221,11 +220,9 @@ Turn via_sh(int order, double beta) {
         for (int k = n; k < order; ++k) {
           double cosine = 0, sine = 0;
           for (int s = std::max(m, n); s < sh_order; ++s) {
-            const BandTurn& band = bands[static_cast<std::size_t>(s)];
-            const double cc = c.block(m)[static_cast<std::size_t>((l - m) * (sh_order - m) + s - m)] *
-                              c.block(n)[static_cast<std::size_t>((k - n) * (sh_order - n) + s - n)];
-            cosine += cc * band.cosine[static_cast<std::size_t>(m * (s + 1) + n)];
-            if (m > 0 && n > 0) sine += cc * band.sine[static_cast<std::size_t>((m - 1) * s + n - 1)];
+            const double cc = c.row(m, l)[s - m] * c.row(n, k)[s - n];
+            cosine += cc * bands.cosine(s)[m * (s + 1) + n];
+            if (m > 0 && n > 0) sine += cc * bands.sine(s)[(m - 1) * s + n - 1];
           }
           turn.cosine[Turn::cosine_index(l, m) * turn.cosines() + Turn::cosine_index(k, n)] = cosine;
           if (m > 0 && n > 0)

@@ -60,6 +60,18 @@ int order_of(std::size_t coefficients) {
   return static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
 }
 
+void check_sizes(int order, std::span<const float> in, std::span<const float> out, int channels) {
+  PHOS_CHECK(channels > 0, "channels ", channels);
+  PHOS_CHECK(
+      in.size() == static_cast<std::size_t>(harmonic_count(order) * channels) && out.size() == in.size(),
+      in.size(), " and ", out.size(), " coefficients");
+}
+
+void check(const ZyzAngles& a) {
+  PHOS_CHECK(std::isfinite(a.alpha + a.beta + a.gamma) && a.beta >= 0, "alpha ", a.alpha, " beta ", a.beta,
+             " gamma ", a.gamma);
+}
+
 }  // namespace
 
 ZyzAngles rotation_angles(const Frame& from, const Frame& to) {
@@ -141,12 +153,8 @@ int HshRotator::order() const { return tables_->order; }
 void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
                         int channels) const {
   const int order = tables_->order;
-  const auto width = static_cast<std::size_t>(channels);
-  PHOS_CHECK(channels > 0, "channels ", channels);
-  PHOS_CHECK(in.size() == static_cast<std::size_t>(harmonic_count(order)) * width && out.size() == in.size(),
-             in.size(), " and ", out.size(), " coefficients");
-  PHOS_CHECK(std::isfinite(angles.alpha + angles.beta + angles.gamma) && angles.beta >= 0, "alpha ",
-             angles.alpha, " beta ", angles.beta, " gamma ", angles.gamma);
+  check_sizes(order, in, out, channels);
+  check(angles);
   if (angles.beta < kLeastBeta) {
     std::copy(in.begin(), in.end(), out.begin());
     return rotate_about_z(out, angles.alpha + angles.gamma, channels);
@@ -176,42 +184,39 @@ void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std:
   }
 }
 
-ShRotation::ShRotation(int order, const ZyzAngles& angles) : order_(order) {
-  const HarmonicBasis<double> within_range(order);
-  const ZTurn first(angles.alpha, order), last(angles.gamma, order);
-  std::size_t l = 0;
-  for (const BandTurn& band : sh_turn(order, angles.beta)) {
-    const std::size_t size = 2 * l + 1;
-    std::vector<double>& d = band_.emplace_back(size * size, 0.);
-    const auto at = [&](std::size_t row, std::size_t column) -> double& { return d[row * size + column]; };
-    for (std::size_t i = 0; i <= l; ++i)
-      for (std::size_t j = 0; j <= l; ++j) {
-        const double c = band.cosine[i * (l + 1) + j];
-        const double s = i > 0 && j > 0 ? band.sine[(i - 1) * l + j - 1] : 0;
-        // Rz(gamma) on the left, Rz(alpha) on the right; centre l, cosines to the right, sines to the left.
-        const double ci = last.cosine[i], si = last.sine[i], cj = first.cosine[j], sj = first.sine[j];
-        at(l + i, l + j) = ci * c * cj - si * s * sj;
-        if (j > 0) at(l + i, l - j) = -ci * c * sj - si * s * cj;
-        if (i > 0) at(l - i, l + j) = si * c * cj + ci * s * sj;
-        if (i > 0 && j > 0) at(l - i, l - j) = -si * c * sj + ci * s * cj;
-      }
-    ++l;
-  }
+struct ShRotation::Turns {
+  Turns(int order, const ZyzAngles& angles)
+      : about_y(order, angles.beta), first(angles.alpha, order), last(angles.gamma, order) {}
+  ShTurn about_y;  // refuses orders that the others have no room for
+  ZTurn first, last;
+};
+
+ShRotation::ShRotation(int order, const ZyzAngles& angles) {
+  check(angles);
+  turns_ = std::make_unique<const Turns>(order, angles);
 }
+ShRotation::~ShRotation() = default;
 
 void ShRotation::rotate(std::span<const float> in, std::span<float> out, int channels) const {
-  PHOS_CHECK(channels > 0, "channels ", channels);
-  const auto width = static_cast<std::size_t>(channels);
-  PHOS_CHECK(in.size() == static_cast<std::size_t>(harmonic_count(order_)) * width && out.size() == in.size(),
-             in.size(), " and ", out.size(), " coefficients");
-  for (std::size_t l = 0; l < band_.size(); ++l) {
-    const double* d = band_[l].data();
-    for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i, d += 2 * l + 1)
-      for (std::size_t channel = 0; channel < width; ++channel) {
-        double sum = 0;
-        for (std::size_t j = 0; j <= 2 * l; ++j) sum += d[j] * in[(l * l + j) * width + channel];
-        out[i * width + channel] = static_cast<float>(sum);
-      }
+  const int order = turns_->first.order;
+  check_sizes(order, in, out, channels);
+  const auto cosines = static_cast<std::size_t>(order * (order + 1) / 2);
+  std::vector<float> before(2 * cosines), after(2 * cosines);
+  const auto multiply = [](const double* matrix, int size, const float* x, float* y) {
+    for (int i = 0; i < size; ++i, matrix += size) {
+      double sum = 0;
+      for (int j = 0; j < size; ++j) sum += matrix[j] * x[j];
+      y[i] = static_cast<float>(sum);
+    }
+  };
+  for (int channel = 0; channel < channels; ++channel) {
+    turns_->first.split(in.data() + channel, channels, before.data(), before.data() + cosines);
+    for (int l = 0; l < order; ++l) {
+      const std::size_t c = Turn::cosine_index(l, 0), s = cosines + Turn::sine_index(l, 1);
+      multiply(turns_->about_y.cosine(l), l + 1, before.data() + c, after.data() + c);
+      multiply(turns_->about_y.sine(l), l, before.data() + s, after.data() + s);
+    }
+    turns_->last.join(after.data(), after.data() + cosines, out.data() + channel, channels);
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "core/vector.h"
 #include "hsh/basis.h"
@@ -52,17 +51,19 @@ class HshRotator {
   float max_beta_;
 };
 
-/// Exact rotation of SH, band by band; made for one rotation and used for many functions.
+/// Exact rotation of SH, band by band; made for one rotation and used for many functions. Const, usable from
+/// any thread.
 class ShRotation {
  public:
   /// Throws Error(usage) for an order outside 1 .. HarmonicBasis::kMaxOrder.
   ShRotation(int order, const ZyzAngles& angles);
+  ~ShRotation();
   /// in and out [channels * order^2], not the same memory.
   void rotate(std::span<const float> in, std::span<float> out, int channels = 1) const;
 
  private:
-  int order_;
-  std::vector<std::vector<double>> band_;  // (2l+1)^2 each
+  struct Turns;
+  std::unique_ptr<const Turns> turns_;
 };
 
 }  // namespace phos

@@ -1,64 +1,67 @@
 // Wigner's d^l(beta) by its recurrence over l, and from it the matrices of real harmonics.
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <numbers>
 
+#include "hsh/basis.h"
 #include "hsh/turn.h"
 
 namespace phos {
 namespace {
 
-/// sqrt(binomial(2j, j - m)) cos^(j+m) (+-sin)^(j-m) of half the angle: d^j_{j,m} with sine = -sin(beta / 2).
-double top_row(int j, int m, double cosine, double sine) {
-  double binomial = 1;
-  for (int k = 1; k <= j - m; ++k) binomial *= static_cast<double>(j + m + k) / k;
-  return std::sqrt(binomial) * std::pow(cosine, j + m) * std::pow(sine, j - m);
-}
-
-/// d^l_{m,n}(beta) for l = 0 .. order - 1 (0 where l < |m| or |n|), m >= 0.
-void wigner_d(int order, int m, int n, double beta, std::vector<double>& d) {
-  std::fill(d.begin(), d.end(), 0.);
-  const int first = std::max(m, std::abs(n));
-  if (first >= order) return;
-  const double c = std::cos(beta / 2), s = std::sin(beta / 2), x = std::cos(beta);
-  d[static_cast<std::size_t>(first)] = m >= std::abs(n) ? top_row(m, n, c, -s)
-                                       : n > m          ? top_row(n, m, c, s)
-                                                        : top_row(-n, -m, c, -s);
-  for (int l = first; l + 1 < order; ++l) {
-    const double next = (l + 1.) * (l + 1.), here = static_cast<double>(l) * l, mm = m * m, nn = n * n;
-    const double shift = m * n == 0 ? 0. : static_cast<double>(m * n) / (here + l);
-    const double before = l == first ? 0
-                                     : std::sqrt((here - mm) * (here - nn)) / (here * 2 + l) *
-                                           d[static_cast<std::size_t>(l - 1)];
-    d[static_cast<std::size_t>(l + 1)] = (l + 1.) * (2 * l + 1.) / std::sqrt((next - mm) * (next - nn)) *
-                                         ((x - shift) * d[static_cast<std::size_t>(l)] - before);
+/// d^l_{j,k} for l = j, j + 1, ...: one step of
+///   d^{l+1} = grow ((cos beta - shift) d^l - shrink d^{l-1}).
+struct Recurrence {
+  double before = 0, here = 0;
+  void step(double grow, double cosine_less_shift, double shrink) {
+    const double next = grow * (cosine_less_shift * here - shrink * before);
+    before = here, here = next;
   }
-}
+};
 
 }  // namespace
 
-std::vector<BandTurn> sh_turn(int order, double beta) {
-  std::vector<BandTurn> bands;
-  for (std::size_t l = 0; l < static_cast<std::size_t>(order); ++l)
-    bands.push_back({std::vector<double>((l + 1) * (l + 1)), std::vector<double>(l * l)});
-  std::vector<double> plus(static_cast<std::size_t>(order)), minus(plus.size());
-  for (int m = 0; m < order; ++m)
-    for (int n = 0; n < order; ++n) {
-      wigner_d(order, m, n, beta, plus);
-      if (m > 0 && n > 0) wigner_d(order, m, -n, beta, minus);
-      const double sign = n % 2 == 0 ? 1 : -1;
-      for (int band = std::max(m, n); band < order; ++band) {
-        const auto l = static_cast<std::size_t>(band), i = static_cast<std::size_t>(m),
-                   j = static_cast<std::size_t>(n);
-        if (m == 0 || n == 0) {
-          bands[l].cosine[i * (l + 1) + j] = plus[l] * (m == n ? 1 : std::sqrt(2.));
-        } else {
-          bands[l].cosine[i * (l + 1) + j] = plus[l] + sign * minus[l];
-          bands[l].sine[(i - 1) * l + j - 1] = plus[l] - sign * minus[l];
+ShTurn::ShTurn(int order, double beta) {
+  const HarmonicBasis<double> within_range(order);
+  values_.assign(start(order), 0.);
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  // sqrt(i), 1 / sqrt(i), and the powers of the cosine and the sine of half the angle.
+  const std::size_t size = 2 * at(order) + 1;
+  std::vector<double> root(size, 0.), inverse(size, 0.), cosines(size, 1.), sines(size, 1.);
+  for (std::size_t i = 1; i < size; ++i) {
+    root[i] = std::sqrt(static_cast<double>(i)), inverse[i] = 1 / root[i];
+    cosines[i] = cosines[i - 1] * std::cos(beta / 2), sines[i] = sines[i - 1] * std::sin(beta / 2);
+  }
+  const double x = std::cos(beta);
+  for (int j = 0; j < order; ++j) {
+    double binomial_root = 1;  // of 2j over j - k
+    for (int k = j; k >= 0; --k) {
+      // d^j_{j,k} = sqrt(2j over j - k) cos^(j+k) (-sin)^(j-k), and the same for -k; then upwards.
+      const double sign = (j - k) % 2 == 0 ? 1 : -1;
+      Recurrence plus{0, sign * binomial_root * cosines[at(j + k)] * sines[at(j - k)]};
+      Recurrence minus{0, sign * binomial_root * cosines[at(j - k)] * sines[at(j + k)]};
+      if (k > 0) binomial_root *= root[at(j + k)] * inverse[at(j - k + 1)];
+      for (int l = j;; ++l) {
+        // Real harmonics: cosines d_{j,k} + (-1)^k d_{j,-k}, sines the difference; j and k exchanged change
+        // the sign by (-1)^(j-k).
+        double *const c = values_.data() + start(l), *const s = c + (l + 1) * (l + 1);
+        const double other = k % 2 == 0 ? minus.here : -minus.here;
+        const double cosine = k > 0 ? plus.here + other : plus.here * (j > 0 ? std::numbers::sqrt2 : 1);
+        c[j * (l + 1) + k] = cosine, c[k * (l + 1) + j] = sign * cosine;
+        if (k > 0) {
+          const double sine = plus.here - other;
+          s[(j - 1) * l + k - 1] = sine, s[(k - 1) * l + j - 1] = sign * sine;
         }
+        if (l + 1 == order) break;
+        const double here = static_cast<double>(l) * (2 * l + 1), next = (l + 1.) * (2 * l + 1);
+        const double grow = next * inverse[at(l + 1 - j)] * inverse[at(l + 1 + j)] * inverse[at(l + 1 - k)] *
+                            inverse[at(l + 1 + k)];
+        const double shrink =
+            l == j ? 0 : root[at(l - j)] * root[at(l + j)] * root[at(l - k)] * root[at(l + k)] / here;
+        const double shift = k == 0 ? 0 : static_cast<double>(j * k) / (l * (l + 1.));
+        plus.step(grow, x - shift, shrink), minus.step(grow, x + shift, shrink);
       }
     }
-  return bands;
+  }
 }
 
 }  // namespace phos

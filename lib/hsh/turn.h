@@ -9,8 +9,8 @@
 
 namespace phos {
 
-/// Coefficients of a turned function = matrix times the coefficients, for the cosines and for the sines of
-/// all bands, row after row.
+/// HSH: coefficients of a turned function = matrix times the coefficients, for the cosines and for the sines
+/// of all bands, row after row.
 struct Turn {
   explicit Turn(int of_order)
       : order(of_order), cosine(cosines() * cosines(), 0.), sine(sines() * sines(), 0.) {}
@@ -24,15 +24,23 @@ struct Turn {
   static std::size_t sine_index(int l, int m) { return static_cast<std::size_t>(l * (l - 1) / 2 + m - 1); }
 };
 
-/// SH, exact: nonzero between equal bands alone. The band's two blocks: rows and columns m = 0 .. l, and
-/// m = 1 .. l.
-struct BandTurn {
-  std::vector<double> cosine, sine;
-};
-std::vector<BandTurn> sh_turn(int order, double beta);
-
-/// HSH, by each method, least squares over the hemisphere: beta in [0, pi], radians. Quadrature, to about
-/// 1e-12; time grows as order^6.
+/// By each method, least squares over the hemisphere: beta in [0, pi], radians. Quadrature, to about 1e-11;
+/// time grows as order^6.
 Turn hsh_turn(int order, HshRotation method, double beta);
+
+/// SH: the same, exact, nonzero between equal bands alone. Row after row, the rows and columns of a band's
+/// cosines are m = 0 .. l, of its sines m = 1 .. l. Time grows as order^3.
+class ShTurn {
+ public:
+  /// Throws Error(usage) for an order outside 1 .. HarmonicBasis::kMaxOrder.
+  ShTurn(int order, double beta);
+  const double* cosine(int l) const { return values_.data() + start(l); }
+  const double* sine(int l) const { return cosine(l) + (l + 1) * (l + 1); }
+
+ private:
+  /// Numbers in the bands below l: the sum of (k + 1)^2 + k^2.
+  static std::size_t start(int l) { return static_cast<std::size_t>(l * (2 * l * l + 1) / 3); }
+  std::vector<double> values_;
+};
 
 }  // namespace phos

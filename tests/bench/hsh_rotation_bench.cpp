@@ -1,5 +1,5 @@
 // Rotations of hemispherical harmonics: from the tables, one and three channels, by method made anew for each
-// rotation; about z alone; making of the tables.
+// rotation; about z alone; SH, and from SH to HSH; making of the tables.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -60,6 +60,41 @@ void BM_RotateAboutZ(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(BM_RotateAboutZ)->ArgName("order")->Arg(5)->Arg(10)->Arg(20);
+
+void BM_RotateSh(benchmark::State& state) {
+  const auto order = static_cast<int>(state.range(0));
+  const std::vector<float> in = random_coefficients(order, 3);
+  std::vector<float> out(in.size());
+  const ShRotation rotation(order, {1, 0.3f, 2});
+  for (auto _ : state) {
+    rotation.rotate(in, out, 3);
+    benchmark::DoNotOptimize(out.data());
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(BM_RotateSh)->ArgName("order")->Arg(10)->Arg(20);
+
+void BM_MakeShRotation(benchmark::State& state) {
+  const std::vector<ZyzAngles> angles = random_angles(90);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const ShRotation rotation(static_cast<int>(state.range(0)), angles[i++ % angles.size()]);
+    benchmark::DoNotOptimize(&rotation);
+  }
+}
+BENCHMARK(BM_MakeShRotation)->ArgName("order")->Arg(10)->Arg(20);
+
+void BM_ShToHsh(benchmark::State& state) {
+  const auto order = static_cast<int>(state.range(0));
+  const HarmonicConversion conversion(order, 2 * order);
+  const std::vector<float> sh = random_coefficients(2 * order, 3);
+  std::vector<float> hsh(static_cast<std::size_t>(harmonic_count(order) * 3));
+  for (auto _ : state) {
+    conversion.sh_to_hsh(sh, hsh, 3);
+    benchmark::DoNotOptimize(hsh.data());
+  }
+}
+BENCHMARK(BM_ShToHsh)->ArgName("order")->Arg(5)->Arg(10);
 
 /// To SH of twice the order, their rotation made anew, and back.
 void BM_RotateThroughSh(benchmark::State& state) {
