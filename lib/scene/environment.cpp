@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "image/image.h"
+#include "image/primaries.h"
 
 namespace phos {
 namespace {
@@ -29,6 +30,20 @@ std::size_t invert(const T* cdf, std::size_t n, float u, double& fraction) {
 }
 
 bool valid(const Rgb& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
+
+/// A light may have a negative component of Rec.709, but X, Y and Z are never negative.
+bool is_colour(const Rgb& c) {
+  if (!is_finite(c)) return false;
+  const Vec3 xyz = rgb_to_xyz(kRec709) * c, most = glm::abs(c);
+  return std::min({xyz.x, xyz.y, xyz.z}) >= -1e-6f * max_component(most);
+}
+
+/// Mixed with grey of the same luminance.
+Rgb into_gamut(const Rgb& c) {
+  const auto grey = static_cast<float>(std::max(luminous(DVec3(c)), 0.0));
+  const float least = std::min({c.x, c.y, c.z});
+  return glm::max(Rgb(grey) + grey / (grey - least) * (c - grey), Rgb(0));
+}
 
 }  // namespace
 
@@ -121,7 +136,7 @@ DVec3 Environment::irradiance_up_lx() const {
   return sum;
 }
 
-Environment read_environment(const std::string& path, double scale, double rotation_rad) {
+EnvironmentFile read_environment(const std::string& path, double scale, double rotation_rad) {
   const auto fail = [&](const std::string& message) -> Error { return {ExitCode::bad_input, path, message}; };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -132,22 +147,26 @@ Environment read_environment(const std::string& path, double scale, double rotat
                     " pixels; an environment map is equirectangular, twice as wide as high: convert it"));
   if (!image.has_layer("")) throw fail("has no channels R, G and B; an environment map needs them");
   std::vector<Rgb> texels = image.rgb("");
-  std::size_t bad = 0, first = 0;
+  std::size_t outside = 0, bad = 0, first = 0;
   for (std::size_t i = texels.size(); i-- > 0;) {
-    const Rgb scaled(scale * DVec3(texels[i]));
-    if (!valid(texels[i]) || !valid(scaled))
+    if (!is_colour(texels[i])) {
       ++bad, first = i;
-    else
-      texels[i] = scaled;
+      continue;
+    }
+    if (!valid(texels[i])) texels[i] = into_gamut(texels[i]), ++outside;
+    const Rgb scaled(scale * DVec3(texels[i]));
+    if (!is_finite(scaled))
+      throw fail("has texels that --environment-scale makes infinite; give a smaller factor");
+    texels[i] = scaled;
   }
   if (bad > 0) {
     const auto width = static_cast<std::size_t>(image.width());
     const Rgb& c = texels[first];
     throw fail(text(bad, " texels are negative, infinite or not a number, the first in column ",
                     first % width, ", row ", first / width, " (", c.x, " ", c.y, " ", c.z,
-                    valid(c) ? "; too bright for this --environment-scale)" : "); mend the map"));
+                    "); mend the map"));
   }
-  return {image.width(), image.height(), std::move(texels), rotation_rad};
+  return {{image.width(), image.height(), std::move(texels), rotation_rad}, outside};
 }
 
 }  // namespace phos

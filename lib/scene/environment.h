@@ -59,9 +59,17 @@ class Environment {
   double luminous_lx_ = 0;  // luminance of the integral
 };
 
+/// An environment map as it was read.
+struct EnvironmentFile {
+  Environment map;
+  std::size_t outside_gamut = 0;  ///< texels of colours outside Rec.709, made less saturated
+};
+
 /// Reads an equirectangular map, twice as wide as high: Radiance .hdr (times 179 lm/W) or OpenEXR (taken as
-/// cd/m2), times `scale`. Throws Error(bad_input) for one that is missing, damaged, of another shape, or that
-/// has texels that are negative or not finite.
-Environment read_environment(const std::string& path, double scale = 1, double rotation_rad = 0);
+/// cd/m2), times `scale`. Colours that Rec.709 cannot say without a negative component (Radiance's primaries
+/// are wider) are mixed with grey of their luminance until none is below 0. Throws Error(bad_input) for a
+/// file that is missing, damaged or of another shape, or that has texels that are no light: negative (of CIE
+/// X, Y or Z) or not finite.
+EnvironmentFile read_environment(const std::string& path, double scale = 1, double rotation_rad = 0);
 
 }  // namespace phos

@@ -56,9 +56,14 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
     throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
   }
   if (!options.environment.empty()) {
-    scene.environment = std::make_shared<const Environment>(
-        read_environment(options.environment, options.environment_scale.value_or(1),
-                         glm::radians(options.environment_rotation_deg.value_or(0))));
+    EnvironmentFile file = read_environment(options.environment, options.environment_scale.value_or(1),
+                                            glm::radians(options.environment_rotation_deg.value_or(0)));
+    scene.environment = std::make_shared<const Environment>(std::move(file.map));
+    if (file.outside_gamut > 0) {
+      scene.warnings.push_back(text(
+          options.environment, ": ", file.outside_gamut,
+          " texels have colours outside of Rec.709; they are made less saturated, their luminance is kept"));
+    }
   }
   finalize(scene);
   return scene;

@@ -46,7 +46,7 @@ void expect_refused(const std::string& path, const std::string& word, double sca
 
 TEST(ReadEnvironment, RefusesWhatIsNoLight) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const float odd : {-0.25f, kInfinity, -kInfinity, nan}) {
+  for (const float odd : {-20.f, kInfinity, -kInfinity, nan}) {
     for (int c = 0; c < 3; ++c) {
       Rgb texel(1);
       texel[c] = odd;
@@ -83,7 +83,7 @@ TEST(ReadEnvironment, RefusesOtherFiles) {
 
 TEST(ReadEnvironment, RefusesWhatScalingMakesInfinite) {
   const std::string path = map_file("bright.exr", 8, 4, Rgb(1e30f), Rgb(1e38f));
-  EXPECT_EQ(read_environment(path, 1).texels()[0], Rgb(1e30f));
+  EXPECT_EQ(read_environment(path, 1).map.texels()[0], Rgb(1e30f));
   expect_refused(path, "--environment-scale", 1e3);
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "core/error.h"
 #include "core/random.h"
 #include "image/image.h"
 #include "scene/luminaires.h"
@@ -166,10 +169,41 @@ TEST(ReadEnvironment, ScalesAndConverts) {
   Image image(4, 2);
   image.set_rgb("", std::vector<Rgb>(8, Rgb(1, 2, 3)));
   write_exr(scratch("small.exr"), image);
-  EXPECT_EQ(read_environment(scratch("small.exr"), 2).texels()[5], Rgb(2, 4, 6));
+  EXPECT_EQ(read_environment(scratch("small.exr"), 2).map.texels()[5], Rgb(2, 4, 6));
   // Written as Radiance .hdr, divided by 179 lm/W and read back: cd/m2 again, to RGBE's 1 %.
   write_hdr(scratch("small.hdr"), image);
-  const Rgb back = read_environment(scratch("small.hdr")).texels()[5];
+  const Rgb back = read_environment(scratch("small.hdr")).map.texels()[5];
   EXPECT_NEAR(back.x, 1, 0.02f);
   EXPECT_NEAR(back.z, 3, 0.02f);
+}
+
+TEST(ReadEnvironment, KeepsTheLuminanceOfColoursBeyondRec709) {
+  // Green of wider primaries: red is negative, X, Y and Z are not.
+  const Rgb green(-0.05f, 1, 0.1f);
+  Image image(4, 2);
+  std::vector<Rgb> texels(8, Rgb(1));
+  texels[2] = texels[7] = green;
+  image.set_rgb("", texels);
+  write_exr(scratch("green.exr"), image);
+  const EnvironmentFile file = read_environment(scratch("green.exr"));
+  EXPECT_EQ(file.outside_gamut, 2u);
+  const Rgb c = file.map.texels()[7];
+  EXPECT_EQ(c.x, 0);
+  EXPECT_GT(c.y, c.z);
+  EXPECT_GT(c.z, 0);
+  EXPECT_NEAR(luminance(c), luminance(green), 1e-6f);
+  EXPECT_EQ(file.map.texels()[0], Rgb(1));
+}
+
+TEST(ReadEnvironment, TellsMapsFromOtherPictures) {
+  const std::string folder = PHOS_SOURCE "/../shared/scenes/env/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/scenes/env";
+  for (const char* name :
+       {"mitsuba_envmap.exr", "night.hdr", "sky19.exr", "tungsten_envmap.hdr", "uffizi.hdr"}) {
+    const EnvironmentFile file = read_environment(folder + name);
+    EXPECT_GT(file.map.integral_lx().y, 0) << name;
+    EXPECT_LT(file.outside_gamut, 0.001 * static_cast<double>(file.map.texels().size())) << name;
+  }
+  for (const char* name : {"evalglare_testimage_fisheye.hdr", "memorial_photo.hdr"})
+    EXPECT_THROW(read_environment(folder + name), Error) << name;
 }
