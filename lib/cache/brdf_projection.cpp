@@ -17,7 +17,7 @@ namespace {
 
 /// An albedo beyond this gains energy, whatever the quadrature's error.
 constexpr float kMostAlbedo = 1.001f;
-/// Two values of f are the same if they differ by less: a narrow lobe's rounding.
+/// Values of f are the same if they differ by less of the lobe's greatest: a narrow lobe's rounding.
 constexpr float kSame = 0.02f;
 
 Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
@@ -27,14 +27,17 @@ Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
 template <class Turn>
 bool unchanged_by(const Bsdf& bsdf, const Turn& turn) {
   constexpr int kDirections = 24, kDistances = 11;
-  for (int i = 0; i < kDirections * kDistances; ++i) {
-    const Vec3 wo = sample_cosine_hemisphere(r2_point(i / kDistances, {0.5f, 0.5f}));
-    const float distance = std::ldexp(1.f, -(i % kDistances));
-    const Vec3 aside = sample_uniform_sphere(r2_point(i, {0.25f, 0.75f}));
-    const Vec3 wi = glm::normalize(mirrored(wo) + distance * aside);
-    const Rgb before = bsdf.evaluate_gloss(wo, wi), after = bsdf.evaluate_gloss(turn(wo), turn(wi));
-    const Rgb most = glm::max(glm::abs(before), glm::abs(after));
-    if (max_component(glm::abs(after - before)) > kSame * max_component(most)) return false;
+  for (int i = 0; i < kDirections; ++i) {
+    const Vec3 wo = sample_cosine_hemisphere(r2_point(i, {0.5f, 0.5f}));
+    float greatest = 0, change = 0;
+    for (int k = 0; k < kDistances; ++k) {
+      const Vec3 aside = sample_uniform_sphere(r2_point(kDistances * i + k, {0.25f, 0.75f}));
+      const Vec3 wi = glm::normalize(mirrored(wo) + std::ldexp(1.f, -k) * aside);
+      const Rgb f = bsdf.evaluate_gloss(wo, wi);
+      greatest = std::max(greatest, max_component(glm::abs(f)));
+      change = std::max(change, max_component(glm::abs(bsdf.evaluate_gloss(turn(wo), turn(wi)) - f)));
+    }
+    if (change > kSame * greatest) return false;
   }
   return true;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kAcross = 6;  // points across a cell
 constexpr std::size_t kPoints = kAcross * kAcross;
 /// Energy in the highest coefficients of one cell that is left alone, relative to the whole lobe's.
-constexpr double kTolerance = 1e-6;
+constexpr double kTolerance = 1e-5;
 /// A peak is seen when a point of the cell has this share of its value.
 constexpr float kSeen = 0.5f;
 /// How far outside of a cell, in widths of it, a peak still concerns it.

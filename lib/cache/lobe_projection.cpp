@@ -31,15 +31,13 @@ std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float
                          harmonics.data());
     for (std::size_t i = 0; i < count; ++i) {
       const float* h = &harmonics[i * kBlock];
-      std::array<std::array<float, kLanes>, 3> lanes{};
-      for (std::size_t k = 0; k < kBlock; k += kLanes) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          for (std::size_t c = 0; c < 3; ++c) lanes[c][lane] += h[k + lane] * block[3 + c][k + lane];
-        }
-      }
       for (std::size_t c = 0; c < 3; ++c) {
+        const float* value = block[3 + c].data();
+        std::array<float, kLanes> lanes{};
+        for (std::size_t k = 0; k < kBlock; k += kLanes)
+          for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += h[k + lane] * value[k + lane];
         float sum = 0;
-        for (const float v : lanes[c]) sum += v;
+        for (const float v : lanes) sum += v;
         sums[3 * i + c] += static_cast<double>(sum);
       }
     }
