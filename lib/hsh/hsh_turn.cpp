@@ -173,12 +173,17 @@ void fill_even(Turn& turn, double beta) {
   products.finish();
 }
 
-/// The function less what will go below the horizon: psi in (0, beta).
-Turn without_digon(int order, double beta) {
+Turn unturned(int order) {
   Turn turn(order);
-  Products products(turn);
   for (std::size_t i = 0; i < turn.cosines(); ++i) turn.cosine[i * turn.cosines() + i] = 1;
   for (std::size_t i = 0; i < turn.sines(); ++i) turn.sine[i * turn.sines() + i] = 1;
+  return turn;
+}
+
+/// The function less what will go below the horizon: psi in (0, beta).
+Turn without_digon(int order, double beta) {
+  Turn turn = unturned(order);
+  Products products(turn);
   integrate_lune(order, from_horizon(order, beta), [&](double rho, double y, double psi, double w) {
     const DVec3 here(rho * std::cos(psi), y, rho * std::sin(psi));
     products.add(-w, here, here);
@@ -236,7 +241,7 @@ Turn via_sh(int order, double beta) {
 Turn hsh_turn(int order, HshRotation method, double beta) {
   if (method == HshRotation::via_sh) return via_sh(order, beta);
   if (method == HshRotation::digon) return digon(order, beta);
-  if (beta <= 0) return without_digon(order, 0);  // the identity
+  if (beta <= 0) return unturned(order);
   Turn turn = kept(order, beta);
   if (method == HshRotation::constant_fill) fill_constant(turn, beta);
   if (method == HshRotation::even_fill) fill_even(turn, beta);

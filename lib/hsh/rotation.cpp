@@ -14,7 +14,7 @@
 namespace phos {
 namespace {
 
-constexpr int kDegrees = 180;  // the last table
+constexpr int kDegrees = 90;  // the last table
 constexpr float kPerDegree = kPi / 180;
 constexpr float kLeastBeta = 0.1f * kPerDegree;
 

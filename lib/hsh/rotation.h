@@ -33,7 +33,7 @@ enum class HshRotation : unsigned char {
 /// Rotates HSH of one order: whatever the method, two turns about z and a matrix between them. Matrices are
 /// made by whole degrees when first needed, once per order and method for the whole program, and
 /// interpolated; beyond `max_beta` the matrix of that very angle is made anew (slow). Const, usable from any
-/// thread; the same numbers on every machine and for any number of threads.
+/// thread; the same numbers for any number of threads.
 class HshRotator {
  public:
   static constexpr int kMaxOrder = 30;

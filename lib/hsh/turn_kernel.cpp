@@ -3,14 +3,12 @@
 namespace phos {
 namespace {
 
-std::vector<float> pack_block(const std::vector<double>& block, std::size_t n) {
+std::vector<PackedTurn::Column> pack_block(const std::vector<double>& block, std::size_t n) {
   constexpr std::size_t kPanel = PackedTurn::kPanel;
-  const std::size_t panels = (n + kPanel - 1) / kPanel;
-  std::vector<float> packed(panels * kPanel * n, 0.f);
+  std::vector<PackedTurn::Column> packed((n + kPanel - 1) / kPanel * n);
   for (std::size_t row = 0; row < n; ++row)
     for (std::size_t column = 0; column < n; ++column)
-      packed[(row / kPanel * n + column) * kPanel + row % kPanel] =
-          static_cast<float>(block[row * n + column]);
+      packed[row / kPanel * n + column].row[row % kPanel] = static_cast<float>(block[row * n + column]);
   return packed;
 }
 

@@ -103,7 +103,7 @@ TEST(HshRotationExtremes, WorksAtTheGreatestOrder) {
   const int order = HshRotator::kMaxOrder;
   Coefficients one(static_cast<std::size_t>(harmonic_count(order)), 0.f), out(one.size());
   one[0] = 1;
-  HshRotator(order).rotate({1, 0.0174533f, 2}, one, out);  // one table, or two
+  HshRotator(order).rotate({1, 0.0157f, 2}, one, out);  // the first table
   EXPECT_NEAR(out[0], 1, 1e-6);
   out[0] = 0;
   EXPECT_LT(length(out), 1e-6);

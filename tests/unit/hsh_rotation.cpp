@@ -316,8 +316,8 @@ TEST(TurnKernel, GivesTheSameBitsOnEveryMachine) {
         for (std::size_t row = 0; row < n; ++row) {
           float sum = 0;
           for (std::size_t column = 0; column < n; ++column) {
-            const std::size_t at = (row / kPanel * n + column) * kPanel + row % kPanel;
-            sum += (0.3f * a.cosine[at] + 0.7f * b.cosine[at]) * x[v * kStride + column];
+            const std::size_t at = row / kPanel * n + column, r = row % kPanel;
+            sum += (0.3f * a.cosine[at].row[r] + 0.7f * b.cosine[at].row[r]) * x[v * kStride + column];
           }
           EXPECT_EQ(y[v * kStride + row], sum);
         }
