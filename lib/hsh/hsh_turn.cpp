@@ -11,14 +11,16 @@
 namespace phos {
 namespace {
 
-constexpr double kPi64 = std::numbers::pi;
+using std::numbers::pi;
 
 /// The harmonics at one direction, cosines and sines apart.
 class Apart {
  public:
-  explicit Apart(int order) : basis_(order), all_(static_cast<std::size_t>(basis_.count())), turn_(order) {
-    cosine.resize(turn_.cosines()), sine.resize(turn_.sines());
-  }
+  explicit Apart(int order)
+      : cosine(Turn::cosine_index(order, 0)),
+        sine(Turn::sine_index(order, 1)),
+        basis_(order),
+        all_(static_cast<std::size_t>(basis_.count())) {}
   void evaluate(const DVec3& w) {
     basis_.evaluate(BasisKind::hsh, w.x, w.y, w.z, all_.data());
     double *c = cosine.data(), *s = sine.data();
@@ -33,7 +35,6 @@ class Apart {
  private:
   HarmonicBasis<double> basis_;
   std::vector<double> all_;
-  Turn turn_;
 };
 
 /// Sums weight times the products of all harmonics at one direction and all at another, some pairs of
@@ -77,7 +78,7 @@ class Products {
   std::size_t filled_ = 0;
 };
 
-/// A range of psi for quadrature: [0, 1] is mapped to angles by psi.
+/// A range of psi for quadrature, as [0, 1] mapped to it.
 struct PsiMap {
   int points;
   std::function<double(double)> psi, derivative;
@@ -93,9 +94,9 @@ void integrate_lune(int order, const PsiMap& map, const At& at) {
   gauss_legendre(2 * order + 16, u, u_weight);
   gauss_legendre(map.points, v, v_weight);
   for (std::size_t i = 0; i < u.size(); ++i) {
-    const double s = 0.5 * (u[i] + 1), theta = kPi64 / 2 * s * s;
+    const double s = 0.5 * (u[i] + 1), theta = pi / 2 * s * s;
     const double rho = std::sin(theta), y = std::cos(theta);
-    const double theta_weight = 2 * 0.5 * u_weight[i] * kPi64 * s * rho;  // twice: y and -y
+    const double theta_weight = 2 * 0.5 * u_weight[i] * pi * s * rho;  // twice: y and -y
     for (std::size_t k = 0; k < v.size(); ++k) {
       const double t = 0.5 * (v[k] + 1);
       at(rho, y, map.psi(t), theta_weight * 0.5 * v_weight[k] * map.derivative(t));
@@ -106,10 +107,10 @@ void integrate_lune(int order, const PsiMap& map, const At& at) {
 /// From a horizon (`psi` = distance from it) to `beta`, with the roots of z at both horizons made smooth:
 /// psi = pi sin^2.
 PsiMap from_horizon(int order, double beta) {
-  const double end = std::asin(std::sqrt(std::min(1., beta / kPi64)));
+  const double end = std::asin(std::sqrt(std::min(1., beta / pi)));
   return {2 * order + 16 + static_cast<int>(20 * end),
-          [=](double t) { return kPi64 * std::sin(end * t) * std::sin(end * t); },
-          [=](double t) { return end * kPi64 * std::sin(2 * end * t); }};
+          [=](double t) { return pi * std::sin(end * t) * std::sin(end * t); },
+          [=](double t) { return end * pi * std::sin(2 * end * t); }};
 }
 
 /// What was and stays above the horizon: psi in (0, pi - beta). The mirror image x -> -x, which swaps the two
@@ -117,9 +118,9 @@ PsiMap from_horizon(int order, double beta) {
 /// turn (psi + beta) smooth.
 Turn kept(int order, double beta) {
   Turn turn(order);
-  if (beta >= kPi64) return turn;
+  if (beta >= pi) return turn;
   Products products(turn);
-  const double end = std::asinh(std::sqrt((kPi64 - beta) / (2 * beta)));
+  const double end = std::asinh(std::sqrt((pi - beta) / (2 * beta)));
   const PsiMap map{2 * order + 8 + static_cast<int>(12 * end),
                    [=](double t) { return beta * std::sinh(end * t) * std::sinh(end * t); },
                    [=](double t) { return end * beta * std::sinh(2 * end * t); }};
@@ -155,7 +156,7 @@ void fill_constant(Turn& turn, double beta) {
     for (std::size_t i = 0; i < n; ++i) seen[i] += w * here.cosine[i];
   });
   for (int l = 0; l < turn.order; ++l) {
-    const double horizon = (l % 2 == 0 ? 1 : -1) * std::sqrt((2 * l + 1) / (2 * kPi64));
+    const double horizon = (l % 2 == 0 ? 1 : -1) * std::sqrt((2 * l + 1) / (2 * pi));
     for (std::size_t i = 0; i < n; ++i) turn.cosine[i * n + Turn::cosine_index(l, 0)] += seen[i] * horizon;
   }
 }
@@ -164,8 +165,8 @@ void fill_constant(Turn& turn, double beta) {
 void fill_even(Turn& turn, double beta) {
   Products products(turn);
   const PsiMap map{2 * turn.order + 16 + static_cast<int>(12 * beta),
-                   [=](double t) { return beta * std::sin(kPi64 / 2 * t) * std::sin(kPi64 / 2 * t); },
-                   [=](double t) { return beta * kPi64 / 2 * std::sin(kPi64 * t); }};
+                   [=](double t) { return beta * std::sin(pi / 2 * t) * std::sin(pi / 2 * t); },
+                   [=](double t) { return beta * pi / 2 * std::sin(pi * t); }};
   integrate_lune(turn.order, map, [&](double rho, double y, double psi, double w) {
     products.add(w, {-rho * std::cos(psi), y, rho * std::sin(psi)},
                  {-rho * std::cos(beta - psi), y, rho * std::sin(beta - psi)});

@@ -41,7 +41,7 @@ Coefficients random_coefficients(int order, std::uint64_t item, int channels = 1
 
 std::vector<double> in_double(std::span<const float> c) { return {c.begin(), c.end()}; }
 
-/// A random unit quaternion's frame.
+/// A frame turned at random.
 Frame random_frame(std::uint64_t item) {
   RandomStream random(2, Stage::test, item);
   const float z = 2 * random.uniform() - 1, phi = 2 * kPi * random.uniform(),
