@@ -52,6 +52,8 @@ class Luminaires {
   /// Environment: in proportion to its luminance, by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
+  /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on it.
+  bool by_u_alone(std::size_t i) const { return shape_[i].cdf.empty() || shape_[i].parallelogram; }
   /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m`
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
   float density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const;

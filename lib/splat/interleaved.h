@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cache/shading.h"
+#include "scene/luminaires.h"
 #include "splat/gbuffer.h"
 
 namespace phos {
@@ -14,14 +14,14 @@ struct SharedLight {
 };
 
 /// Interleaved sampling (Keller and Heidrich 2001): the pixels of each 4 x 4 block send different rays of one
-/// low-discrepancy set towards a lamp, `rays` each, and each pixel takes the mean over the 16 about it of
-/// those that show its own surface (same material, normals within 6 degrees, one plane). The noise is that of
-/// 16 times the rays; a shadow's edge is blurred over 4 pixels, which is its price. `pass` of `passes` picks
-/// the part of the set that this sample of the pixels gets. One entry per pixel; zero where nothing is
-/// visible.
-std::vector<SharedLight> interleaved_light(const RayScene& rays, const Shading& shading,
+/// low-discrepancy set towards a lamp with an area, and each pixel takes what the 25 about it that show its
+/// own surface found. Of a lamp with a closed form (LampForm) that is the share of it that is visible: no
+/// noise where it is seen whole, or not at all; of others, their mean. One ray each shows where a shadow's
+/// edge may be; there each pixel sends `lamp_rays` in all. Shadows are blurred over 4 pixels, which is the
+/// price. Lamps without an area: one ray, not shared. `pass` picks the part of the set that this sample of
+/// the pixels gets. One entry per pixel; zero where nothing is visible. Same bytes for any number of threads.
+std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaires& lights,
                                            const GBuffer& gbuffer, const PixelRays& pixel_rays,
-                                           const Vec2& subpixel, int lamp_rays, int pass, int passes,
-                                           std::uint64_t seed);
+                                           const Vec2& subpixel, int lamp_rays, int pass, std::uint64_t seed);
 
 }  // namespace phos

@@ -14,6 +14,7 @@
 #include "splat/edges.h"
 #include "splat/interleaved.h"
 #include "splat/pixel_shader.h"
+#include "splat/same_surface.h"
 #include "splat/splatter.h"
 
 namespace phos {
@@ -111,8 +112,8 @@ void declare_options(Options& options, RenderOptions& r) {
                             {"shadow-map", DirectBy::shadow_map},
                             {"none", DirectBy::none}},
                            "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one "
-                           "diffuse surface share theirs "
-                           "(a sixteenth of the rays for the same noise; blurs shadows over 4 pixels); by "
+                           "diffuse surface share theirs, at edges too, and more of them only where a lamp "
+                           "is seen in part (a fraction of the time; blurs shadows over up to 4 pixels); by "
                            "shadow maps (fast preview, "
                            "diffuse only); or left out");
   options.integer("light-samples", r.light_samples, "N",
@@ -166,10 +167,11 @@ class Painter {
 
   void make() {
     for (int s = 0; s < samples_; ++s) {
-      const GBuffer gbuffer = see(s);
-      if (s == 0 && options_.edge_samples > 0) find_edges(gbuffer);
-      const SplatBuffer splats = light_from_cache(gbuffer);
-      shade(s, gbuffer, splats, shared_light(s, gbuffer));
+      pass_.gbuffer = see(s);
+      if (s == 0 && options_.edge_samples > 0) find_edges(pass_.gbuffer);
+      pass_.splats = light_from_cache(pass_.gbuffer);
+      pass_.shared = shared_light(s, pass_.gbuffer);
+      shade(s, pass_.gbuffer, pass_.splats, pass_.shared);
     }
     if (!edges_.empty()) shade_edges();
     finish();
@@ -215,8 +217,8 @@ class Painter {
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
     if (options_.direct == DirectBy::interleaved) {
       const Stopwatch watch(result_.seconds, "interleaved direct light");
-      return interleaved_light(rays_, shading_, gbuffer, pixel_rays_, subpixel_offset(s),
-                               shader_.lamp_rays_of_each(), s, samples_, options_.seed);
+      return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s),
+                               shader_.lamp_rays_of_each(), s, options_.seed);
     }
     std::vector<SharedLight> shared;
     if (options_.direct != DirectBy::shadow_map) return shared;
@@ -262,19 +264,35 @@ class Painter {
     return light;
   }
 
-  /// The cache is looked up here: splatting pays for whole pictures only.
+  /// Light is taken from a pixel about it that shows the same surface, where neighbours share theirs; else it
+  /// is looked up: splatting pays for whole pictures only.
   void shade_edges() {
     const Stopwatch watch(result_.seconds, "edges");
+    const auto more = static_cast<std::size_t>(options_.edge_samples);
     run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
       const std::size_t i = edges_[e];
-      for (int s = samples_; s < most_samples(); ++s) {
-        const Ray ray = ray_of(i, subpixel_offset(s));
-        SurfacePoint point;
-        layers_.add(i, trace(rays_, ray, point)
-                           ? shader_.shade({i, s - samples_, true}, ray, point, {}, nullptr, result)
-                           : background(ray));
-      }
+      std::vector<Ray> ray(more);
+      std::vector<Hit> hit(more);
+      for (std::size_t s = 0; s < more; ++s)
+        ray[s] = ray_of(i, subpixel_offset(samples_ + static_cast<int>(s)));
+      rays_.intersect(ray, hit);
+      for (std::size_t s = 0; s < more; ++s)
+        layers_.add(i, shade_edge({i, static_cast<int>(s), true}, ray[s], hit[s], result));
     });
+  }
+
+  PixelSample shade_edge(const SampleOfPixel& sample, const Ray& ray, const Hit& hit,
+                         ShadingResult& result) const {
+    if (!std::isfinite(hit.distance_m)) return background(ray);
+    const SurfacePoint point = rays_.surface(ray, hit);
+    if (pass_.shared.empty()) return shader_.shade(sample, ray, point, {}, nullptr, result);
+    const SeenSurface seen{point.position, point.smooth_normal, static_cast<float>(point.material)};
+    const std::optional<std::size_t> j = nearest_alike(seen, pass_.gbuffer, sample.pixel);
+    if (!j) return shader_.shade(sample, ray, point, {}, nullptr, result);
+    // Where a lamp is seen in part, its shadow may have an edge here.
+    const SharedLight* shared = pass_.shared[*j].variance == Rgb(0) ? &pass_.shared[*j] : nullptr;
+    return shader_.shade(sample, ray, point, {pass_.splats.light[*j], pass_.splats.error[*j]}, shared,
+                         result);
   }
 
   /// body(i, result) for i < n; results are joined in order.
@@ -318,6 +336,12 @@ class Painter {
   Layers layers_;
   std::vector<std::uint16_t> count_;  // samples of each pixel
   std::vector<std::uint32_t> edges_;
+  struct Pass {
+    GBuffer gbuffer;
+    SplatBuffer splats;
+    std::vector<SharedLight> shared;  // of pixels that share their rays; else empty
+  };
+  Pass pass_;  // the latest
   ShadingResult total_;
   Progress progress_;
 };

@@ -71,15 +71,11 @@ TEST_P(SceneWithDarkSurfaces, ShadowMapsComeClose) {
 
 /// One pass of interleaved rays over a scene, as pixels of illuminance.
 struct Interleaved {
-  Interleaved(const AnalyticScene& s, int rays_of_each)
-      : rays(s.scene),
-        lights(s.scene),
-        no_records(s.scene.bounds, 0.2),
-        shading(rays, lights, no_records, {}) {
+  Interleaved(const AnalyticScene& s, int rays_of_each) : rays(s.scene), lights(s.scene) {
     const Vec2 middle(0.5f);
     gbuffer = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, middle);
-    light = interleaved_light(rays, shading, gbuffer, PixelRays(s.scene.camera[0], kSide, kSide), middle,
-                              rays_of_each, 0, 1, 1);
+    light = interleaved_light(rays, lights, gbuffer, PixelRays(s.scene.camera[0], kSide, kSide), middle,
+                              rays_of_each, 0, 1);
     for (const SharedLight& l : light) {
       value.push_back(static_cast<double>(l.illuminance.y));
       error.push_back(std::sqrt(static_cast<double>(l.variance.y)));
@@ -87,8 +83,6 @@ struct Interleaved {
   }
   RayScene rays;
   Luminaires lights;
-  RecordTree no_records;
-  Shading shading;
   GBuffer gbuffer;
   std::vector<SharedLight> light;
   std::vector<double> value, error;
@@ -105,10 +99,28 @@ TEST_P(SceneWithDarkSurfaces, InterleavedRaysAgreeWithTheClosedForm) {
   EXPECT_LT(std::fabs(a.relative_bias), 0.01) << s.name;
 }
 
+/// A lamp that is seen whole is the closed form, and noise is left at shadows alone.
+TEST(Interleaved, HasNoNoiseWhereTheLampIsSeenWhole) {
+  const AnalyticScene s = rectangle_light_parallel();
+  const Interleaved shared(s, 1);
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < shared.light.size(); ++i) {
+    const Vec3 p(shared.gbuffer.position[i]), normal(shared.gbuffer.normal[i]);
+    if (!shared.gbuffer.covered(i) || normal.y < 0.5f || p.y > 0.1f) continue;
+    if (shared.light[i].variance != Rgb(0)) continue;
+    const double truth = s.irradiance_lx(p, normal);
+    EXPECT_NEAR(shared.value[i], truth, 1e-4 * truth);
+    ++whole;
+  }
+  EXPECT_GT(whole, 300u);
+}
+
 /// Sixteen times as many rays' worth: the error of one ray each is well below that of single rays alone.
 TEST(Interleaved, SharesWhatNeighboursFind) {
   const AnalyticScene s = rectangle_light_parallel();
   const Interleaved shared(s, 1);
+  const RecordTree no_records(s.scene.bounds, 0.2);
+  const Shading shading(shared.rays, shared.lights, no_records, {});
   double own = 0, together = 0, n = 0;
   for (std::size_t i = 0; i < shared.light.size(); ++i) {
     if (!shared.gbuffer.covered(i)) continue;
@@ -118,7 +130,7 @@ TEST(Interleaved, SharesWhatNeighboursFind) {
     RandomStream random(1, Stage::test, i);
     SurfacePoint point;
     ASSERT_TRUE(trace(shared.rays, {p + 0.004f * normal, -normal}, point));
-    const DirectLight alone = shared.shading.direct(point, Bsdf(s.scene, point), normal, 1, 0, random);
+    const DirectLight alone = shading.direct(point, Bsdf(s.scene, point), normal, 1, 0, random);
     own += std::pow(static_cast<double>(alone.illuminance.y) - truth, 2);
     together += std::pow(shared.value[i] - truth, 2), n += 1;
   }
