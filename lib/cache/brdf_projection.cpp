@@ -15,6 +15,9 @@ namespace phos {
 
 namespace {
 
+constexpr int kScouts = 128;
+/// Share of a lobe's magnitude, as its samples state it within some percent, that the quadrature must find.
+constexpr double kFound = 0.7;
 /// An albedo beyond this gains energy, whatever the quadrature's error.
 constexpr float kMostAlbedo = 1.001f;
 /// Values of f are the same if they differ by less of the lobe's greatest: a narrow lobe's rounding.
@@ -68,10 +71,20 @@ struct Projected {
 };
 
 Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis, double tolerance) {
+  // Samples of the lobe find it, and tell whether all of it was found.
+  std::vector<Vec3> scouts{mirrored(wo)};
+  double expected = 0;
+  for (int i = 0; i < kScouts; ++i) {
+    BsdfSample sample;
+    if (!bsdf.sample_gloss(wo, r2_point(i, {0.5f, 0.5f}), sample)) continue;
+    scouts.push_back(sample.direction);
+    const Rgb w = glm::abs(sample.weight);
+    expected += static_cast<double>(w.x + w.y + w.z) / kScouts;
+  }
   LobeProjection lobe =
-      project_lobe([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, mirrored(wo), basis);
+      project_lobe([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, scouts, basis);
   Projected p;
-  p.resolved = lobe.resolved, p.rejected = lobe.rejected;
+  p.resolved = lobe.resolved && lobe.magnitude >= kFound * expected, p.rejected = lobe.rejected;
   p.albedo = max_component(lobe.albedo + bsdf.diffuse_reflectance());
   p.order = lobe.lowest_order(tolerance, p.error);
   if (!p.resolved) p.order = 0;
@@ -94,6 +107,11 @@ void mirror(std::vector<float>& coefficients, int order, bool in_x, bool in_y) {
       }
     }
   }
+}
+
+/// Sines, which mirror symmetry makes 0, keep no rounding.
+void drop_sines(std::vector<float>& coefficients, int order) {
+  for (int l = 1; l < order; ++l) std::fill_n(coefficients.begin() + 3 * harmonic_index(l, -l), 3 * l, 0.f);
 }
 
 void require(bool valid, const char* option, const std::string& message) {
@@ -151,6 +169,7 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
     intricate += !p.resolved, gaining += p.albedo > kMostAlbedo, rejected += p.rejected;
     std::vector<float> coefficients = p.coefficients;
     if (from != e) mirror(coefficients, p.order, from % side != e % side, from / side != e / side);
+    if (table.isotropic) drop_sines(coefficients, p.order);
     std::copy(coefficients.begin(), coefficients.end(),
               table.coefficients.begin() + static_cast<std::ptrdiff_t>(e * stride));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "hsh/quadrature.h"
 
 namespace phos {
@@ -14,9 +15,9 @@ constexpr std::size_t kAcross = 6;  // points across a cell
 constexpr std::size_t kPoints = kAcross * kAcross;
 /// Energy in the highest coefficients of one cell that is left alone, relative to the whole lobe's.
 constexpr double kTolerance = 1e-5;
-/// A peak is seen when a point of the cell has this share of its value.
+/// What a scout sees is seen by a cell when one of its points has this share of the value.
 constexpr float kSeen = 0.5f;
-/// How far outside of a cell, in widths of it, a peak still concerns it.
+/// How far outside of a cell, in widths of it, a scout still concerns it.
 constexpr double kMargin = 0.1;
 constexpr std::size_t kMostCells = 4000;
 /// Points whose share of the albedo is less than this add nothing that single precision would keep.
@@ -54,16 +55,29 @@ struct Cell {
   std::size_t first = 0;            // of its points
   double energy = 0;
   double doubt_b = 0, doubt_phi = 0;  // energy of the highest coefficients along b and phi
-  bool blind = false;                 // lies at the peak and does not see it
+  bool blind = false;                 // a scout sees more here
+};
+
+struct Scout {
+  double b, phi;
+  float value;  // f cos
+
+  bool at(const Cell& c) const {
+    if (std::fabs(b - c.b) > (1 + 2 * kMargin) * c.half_b) return false;
+    if (c.b - c.half_b <= 0 && b <= 2 * kMargin * c.half_b) return true;  // the pole has every azimuth
+    return std::fabs(std::remainder(phi - c.phi, 2 * std::numbers::pi)) <= (1 + 2 * kMargin) * c.half_phi;
+  }
 };
 
 /// All points made so far, those of halved cells too.
 class Builder {
  public:
-  Builder(const std::function<Rgb(const Vec3&)>& f, const Vec3& peak) : f_(f) {
-    peak_b_ = std::acos(std::sqrt(std::clamp(static_cast<double>(peak.z), 0.0, 1.0)));
-    peak_phi_ = std::atan2(static_cast<double>(peak.y), static_cast<double>(peak.x));
-    peak_ = max_magnitude(peak.z * f(peak));
+  Builder(const std::function<Rgb(const Vec3&)>& f, std::span<const Vec3> scouts) : f_(f) {
+    for (const Vec3& w : scouts) {
+      scouts_.push_back({std::acos(std::sqrt(std::clamp(static_cast<double>(w.z), 0.0, 1.0))),
+                         std::atan2(static_cast<double>(w.y), static_cast<double>(w.x)),
+                         max_magnitude(w.z * f(w))});
+    }
   }
 
   LobePoints build(int order) {
@@ -92,14 +106,15 @@ class Builder {
  private:
   static float max_magnitude(const Rgb& v) { return max_component(glm::abs(v)); }
 
-  /// Fine enough for the harmonics themselves, one column of cells centred on the peak.
+  /// Fine enough for the harmonics themselves, one column of cells centred on the first scout.
   std::vector<Cell> base(int order) {
     const int columns = 4 * std::max(2, (order + 4) / 5), rows = columns / 2;
     const double half_b = std::numbers::pi / 4 / rows, half_phi = std::numbers::pi / columns;
     std::vector<Cell> cells;
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
-        cells.push_back(fill({(2 * row + 1) * half_b, peak_phi_ + 2 * column * half_phi, half_b, half_phi}));
+        cells.push_back(
+            fill({(2 * row + 1) * half_b, scouts_.front().phi + 2 * column * half_phi, half_b, half_phi}));
     return cells;
   }
 
@@ -118,13 +133,6 @@ class Builder {
             {c.b + (split_b ? i * half_b : 0), c.phi + (split_phi ? j * half_phi : 0), half_b, half_phi}));
       }
     }
-  }
-
-  bool at_peak(const Cell& c) const {
-    if (std::fabs(peak_b_ - c.b) > (1 + 2 * kMargin) * c.half_b) return false;
-    if (c.b - c.half_b <= 0 && peak_b_ <= 2 * kMargin * c.half_b) return true;  // the pole has every azimuth
-    const double turn = std::remainder(peak_phi_ - c.phi, 2 * std::numbers::pi);
-    return std::fabs(turn) <= (1 + 2 * kMargin) * c.half_phi;
   }
 
   Cell fill(Cell c) {
@@ -161,7 +169,8 @@ class Builder {
       }
     }
     for (const auto& channel : g) doubt(c, channel, measure / 4);
-    c.blind = at_peak(c) && seen < kSeen * peak_;
+    c.blind = std::any_of(scouts_.begin(), scouts_.end(),
+                          [&](const Scout& s) { return seen < kSeen * s.value && s.at(c); });
     return c;
   }
 
@@ -185,19 +194,18 @@ class Builder {
   LobePoints collect(const std::vector<Cell>& cells, bool resolved) const {
     LobePoints out;
     out.resolved = resolved, out.rejected = points_.rejected;
-    double magnitude = 0;
     std::array<double, 3> albedo{};
     for (const Cell& c : cells) {
       out.energy += c.energy;
       for (std::size_t i = c.first; i < c.first + kPoints; ++i) {
         for (std::size_t ch = 0; ch < 3; ++ch) {
           const auto v = static_cast<double>(points_.value[ch][i]);
-          albedo[ch] += v, magnitude += std::fabs(v);
+          albedo[ch] += v, out.magnitude += std::fabs(v);
         }
       }
     }
     for (std::size_t ch = 0; ch < 3; ++ch) out.albedo[static_cast<int>(ch)] = static_cast<float>(albedo[ch]);
-    const auto negligible = static_cast<float>(kNegligible * magnitude);
+    const auto negligible = static_cast<float>(kNegligible * out.magnitude);
     for (const Cell& c : cells) {
       for (std::size_t i = c.first; i < c.first + kPoints; ++i) {
         const Rgb v(points_.value[0][i], points_.value[1][i], points_.value[2][i]);
@@ -210,16 +218,16 @@ class Builder {
   }
 
   const std::function<Rgb(const Vec3&)>& f_;
-  double peak_b_, peak_phi_;
-  float peak_;
+  std::vector<Scout> scouts_;
   LobePoints points_;
   std::size_t first_ = 0;
 };
 
 }  // namespace
 
-LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, const Vec3& peak, int order) {
-  return Builder(f, peak).build(order);
+LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts, int order) {
+  PHOS_CHECK(!scouts.empty(), "no scouts");
+  return Builder(f, scouts).build(order);
 }
 
 }  // namespace phos

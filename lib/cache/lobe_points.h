@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/vector.h"
@@ -15,6 +16,7 @@ struct LobePoints {
   std::vector<float> x, y, z;
   std::array<std::vector<float>, 3> value;  ///< RGB
   Rgb albedo{0};                            ///< integral of f cos
+  double magnitude = 0;                     ///< integral of |f| cos, summed over RGB
   double energy = 0;                        ///< integral of (f cos)^2, summed over RGB
   bool resolved = true;                     ///< false: the lobe had to be left with too few points
   std::size_t rejected = 0;                 ///< values of f that were not finite, taken as 0
@@ -22,13 +24,13 @@ struct LobePoints {
 };
 
 /// Points such that sums of value * (harmonic below `order`) are integrals of f cos times it, to about 1e-4
-/// of the lobe's norm. `f` is in 1/sr, local, without the cosine; `peak` (unit, z > 0) is where a narrow lobe
-/// is expected, however narrow.
+/// of the lobe's norm. `f` is in 1/sr, local, without the cosine. `scouts` (unit, z > 0, one at least) are
+/// directions where f is large, such as samples of it: a narrow lobe is found by them.
 ///
 /// Cells of the (b, phi) plane, cos(theta) = cos^2(b), with Gauss-Legendre points: in these coordinates the
 /// harmonics, with their sqrt(cos theta), are analytic in every closed cell. A cell is halved while the
-/// highest Legendre coefficients of f cos within it say that its points are too few, or while it lies at the
-/// peak and its points see nothing of it.
-LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, const Vec3& peak, int order);
+/// highest Legendre coefficients of f cos within it say that its points are too few, or while its points see
+/// nothing of what a scout sees there.
+LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts, int order);
 
 }  // namespace phos

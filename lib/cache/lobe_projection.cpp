@@ -48,10 +48,11 @@ std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float
 
 }  // namespace
 
-LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, const Vec3& peak,
+LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts,
                             const HarmonicBasis<float>& basis) {
-  const LobePoints points = lobe_points(f, peak, basis.order());
-  return {integrate(points, basis), points.energy, points.albedo, points.resolved, points.rejected};
+  const LobePoints points = lobe_points(f, scouts, basis.order());
+  return {integrate(points, basis), points.magnitude, points.energy, points.albedo,
+          points.resolved,          points.rejected};
 }
 
 int LobeProjection::lowest_order(double tolerance, float& error) const {

@@ -41,7 +41,8 @@ double distance(std::span<const float> a, std::span<const float> b) {
 // exact.
 TEST(BrdfProjection, Lambert) {
   const HarmonicBasis<float> basis(6);
-  const LobeProjection p = project_lobe([](const Vec3&) { return Rgb(1 / kPi); }, Vec3(0, 0, 1), basis);
+  const LobeProjection p =
+      project_lobe([](const Vec3&) { return Rgb(1 / kPi); }, test::mirror_of(view(0)), basis);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(p.coefficients[at(0, 0, c)], 1 / std::sqrt(2 * kPi), 1e-6);
     EXPECT_NEAR(p.coefficients[at(1, 0, c)], 1 / std::sqrt(6 * kPi), 1e-6);
@@ -72,7 +73,7 @@ TEST(BrdfProjection, GoldenPhongLobes) {
           [&](const Vec3& wi) {
             return Rgb(std::pow(std::max(glm::dot(axis, wi), 0.f), std::stof(exponent)));
           },
-          axis, basis);
+          std::array{axis}, basis);
     }
     const LobeProjection& p = found->second;
     const double tolerance = 1e-4 * std::sqrt(p.energy / 3);

@@ -1,6 +1,7 @@
 // Reflection models as plain functions of wi, to judge tables of coefficients by.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -15,12 +16,12 @@ inline Vec3 view(float theta_deg, float phi_deg = 0) {
   const float theta = theta_deg * kPi / 180, phi = phi_deg * kPi / 180;
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
-inline Vec3 mirror_of(const Vec3& wo) { return {-wo.x, -wo.y, wo.z}; }
+inline std::array<Vec3, 1> mirror_of(const Vec3& wo) { return {Vec3(-wo.x, -wo.y, wo.z)}; }
 
 /// Normalised lobe (n+2)/(2 pi) cos^n about the mirror direction.
 inline Reflection phong_reflection(float exponent, const Vec3& wo) {
   return [=](const Vec3& wi) {
-    const float c = std::max(glm::dot(mirror_of(wo), wi), 0.f);
+    const float c = std::max(glm::dot(mirror_of(wo)[0], wi), 0.f);
     return Rgb((exponent + 2) / (2 * kPi) * std::pow(c, exponent));
   };
 }
