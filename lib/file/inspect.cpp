@@ -168,9 +168,29 @@ void block(std::string& out, const std::string& name, const Json& object,
   for (const auto& [key, value] : object.as_object()) {
     out += "  " + key;
     const std::string shown = show(value);
-    if (!shown.empty()) out.append(width + 2 - key.size(), ' ');
+    if (!shown.empty() && shown.front() != '\n') out.append(width + 2 - key.size(), ' ');
     out += shown + '\n';
   }
+}
+
+bool is_table(const Json& v) {
+  return v.is_array() && !v.as_array().empty() &&
+         std::all_of(v.as_array().begin(), v.as_array().end(),
+                     [](const Json& row) { return row.is_object(); });
+}
+
+/// A list of objects, one line each: "name value, name value".
+std::string rows(const Json& table, const std::function<std::string(const Json&)>& show) {
+  std::string out;
+  for (const Json& row : table.as_array()) {
+    std::string line;
+    for (const auto& [name, value] : row.as_object()) {
+      const std::string shown = show(value);
+      if (!shown.empty()) line += (line.empty() ? "" : ", ") + name + ' ' + shown;
+    }
+    out += "\n    " + line;
+  }
+  return out;
 }
 
 std::string tensor_line(const Json& t, bool numbers) {
@@ -239,7 +259,9 @@ std::string describe_text(const Container& file) {
     if (const Json* command = stage.find("command")) out += "  " + brief(*command) + '\n';
   block(out, "tensors", *all.find("tensors"), [](const Json& t) { return tensor_line(t, true); });
   block(out, "counters", *all.find("counters"), brief);
-  block(out, "extra", *all.find("extra"), [](const Json& v) { return v.is_object() ? v.dump() : brief(v); });
+  block(out, "extra", *all.find("extra"), [](const Json& v) {
+    return is_table(v) ? rows(v, brief) : v.is_object() ? v.dump() : brief(v);
+  });
   return out;
 }
 
@@ -265,7 +287,8 @@ std::string canonical_text(const Container& file) {
   }
   block(out, "tensors", tensors, [](const Json& t) { return tensor_line(t, false); });
   block(out, "counters", counts_of(p.counters), brief);
-  block(out, "extra", p.extra, whole_or_absent);
+  block(out, "extra", p.extra,
+        [](const Json& v) { return is_table(v) ? rows(v, whole_or_absent) : whole_or_absent(v); });
   return out;
 }
 

@@ -55,10 +55,12 @@ bool is_light(const std::string& unit) {
   return unit.starts_with("lm") || unit.starts_with("lx") || unit.starts_with("cd");
 }
 
-/// Names along one dimension. Light has colours first and then axes (a gradient is [row, colour, axis]); the
-/// rest axes.
-std::string label(std::uint64_t extent, std::uint64_t index, bool colour) {
-  if (extent != 3) return std::to_string(index);
+/// Name of an index along dimension d. Light has colours first and then axes (a gradient is [row, colour,
+/// axis]), coefficients of reflection colours last ([row, function, colour]); the rest axes.
+std::string label(const Tensor& tensor, std::size_t d, std::uint64_t index) {
+  const bool reflection = tensor.unit == "1/sqrt(sr)";
+  const bool colour = reflection ? d + 1 == tensor.shape.size() : d == 1 && is_light(tensor.unit);
+  if (tensor.shape[d] != 3 || (reflection && !colour)) return std::to_string(index);
   return std::string(1, colour ? "rgb"[index] : "xyz"[index]);
 }
 
@@ -69,7 +71,7 @@ std::vector<std::string> column_names(const std::string& name, const Tensor& ten
     std::vector<std::string> longer;
     for (const std::string& prefix : names)
       for (std::uint64_t i = 0; i < tensor.shape[d]; ++i)
-        longer.push_back(prefix + '.' + label(tensor.shape[d], i, d == 1 && is_light(tensor.unit)));
+        longer.push_back(prefix + '.' + label(tensor, d, i));
     names = std::move(longer);
   }
   return names;

@@ -71,6 +71,23 @@ TEST(Describe, TextHasEverything) {
     EXPECT_NE(s.find(part), std::string::npos) << part << "\n" << s;
 }
 
+TEST(Describe, ListsOfObjectsHaveALineEach) {
+  const std::string path = test::scratch("inspect-list") + "/c";
+  Provenance p = test::sample_provenance();
+  p.extra["materials"] = Json::Array{Json::Object{{"material", "floor"}, {"order", 7}, {"albedo", 0.25}},
+                                     Json::Object{{"material", "wall"}, {"order", 0}, {"albedo", 0.5}}};
+  test::SampleColumns().writer().write(path, p);
+  const Container file = Container::open(path);
+  EXPECT_NE(describe_text(file).find("  materials\n    albedo 0.25, material floor, order 7\n"
+                                     "    albedo 0.5, material wall, order 0\n"),
+            std::string::npos)
+      << describe_text(file);
+  EXPECT_NE(canonical_text(file).find("  materials\n    material \"floor\", order 7\n"
+                                      "    material \"wall\", order 0\n"),
+            std::string::npos)
+      << canonical_text(file);
+}
+
 // Golden files compare this text: another last bit, checksum or version of the program must not change it.
 TEST(Canonical, IgnoresWhatRoundingChanges) {
   const std::string path = test::scratch("inspect-canonical") + "/b";
@@ -102,6 +119,16 @@ TEST(Csv, ColumnsHaveNames) {
   EXPECT_EQ(csv(file, {"flux"}).substr(0, 21), "flux.r,flux.g,flux.b\n");
   EXPECT_EQ(csv(file, {"gradient"}).substr(0, 24), "gradient.r.x,gradient.r.");
   EXPECT_EQ(csv(file, {"none"}), "none.x,none.y,none.z\n");
+}
+
+TEST(Csv, CoefficientsOfReflectionHaveColoursLast) {
+  const std::string path = test::scratch("inspect-coefficients") + "/d";
+  const std::vector<float> three(2 * 3 * 3, 1.f);
+  ContainerWriter writer;
+  writer.add<float>("c", three, {2, 3, 3}, "1/sqrt(sr)");
+  writer.write(path, test::sample_provenance());
+  EXPECT_EQ(csv(Container::open(path), {"c"}).substr(0, 54),
+            "c.0.r,c.0.g,c.0.b,c.1.r,c.1.g,c.1.b,c.2.r,c.2.g,c.2.b\n");
 }
 
 TEST(Csv, DirectionsStayCodesUnlessDecoded) {
