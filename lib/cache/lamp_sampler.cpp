@@ -28,7 +28,7 @@ LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_
     cdf_.push_back(sum += share);
   }
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    extended_ = extended_ || lights[i].extended();
+    area_ = area_ || lights[i].kind == Light::Kind::area;
     panel_.push_back(panel_of(rays.scene(), lights[i]));
   }
   if (lights.size() > kMostCompared) return;
@@ -165,18 +165,17 @@ float LampSampler::probability(const SurfacePoint& point, std::size_t light) con
   return sum > 0 && std::isfinite(sum) ? each[light] / sum : share_[light];
 }
 
-/// Close to an area light, points on it are a poor choice: their density per sr varies without bound. Of an
-/// environment, the brightest part may be hidden, and half of it is below the horizon.
+/// Close to an area light, points on it are a poor choice: their density per sr varies without bound. (Of an
+/// environment its own samples are the better ones even where its brightest part is hidden.)
 float LampSampler::ray_share(const SurfacePoint& point) const {
-  if (!extended_) return 0;
+  if (!area_) return 0;
   if (lamp_.empty()) return kRaysAmongMany;
   for (const Lamp& lamp : lamp_) {
     const Vec3 way = lamp.centre - point.position;
     const float reach = kNear * lamp.radius_m;
     if (glm::dot(way, way) < reach * reach && promise_lx(lamp, point) > 0) return kRaysNear;
   }
-  if (lights_.environment() < 0) return 0;
-  return kRaysNear * probability(point, static_cast<std::size_t>(lights_.environment()));
+  return 0;
 }
 
 void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_share,

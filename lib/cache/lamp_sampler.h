@@ -34,8 +34,8 @@ class LampSampler {
   float probability(const SurfacePoint& point, std::size_t light) const;
 
   /// One sample, from three numbers in [0, 1). Unbiased, of bounded variance for area lights however near:
-  /// close to one, or where an environment brings much of the light, some samples are cosine-weighted rays
-  /// that may find it (balance heuristic, Veach 1997 ch. 9).
+  /// close to one, some samples are cosine-weighted rays that may find it (balance heuristic, Veach 1997
+  /// ch. 9).
   /// The result is filled in place: copies of it were a tenth of the cost.
   void sample(const SurfacePoint& point, const std::array<float, 3>& u, ArrivingLight& light) const;
 
@@ -81,7 +81,7 @@ class LampSampler {
   std::vector<Panel> panel_;  // per light
   std::vector<float> share_;  // of power
   std::vector<double> cdf_;
-  bool extended_ = false;  // any has an extent
+  bool area_ = false;  // any is an area light
 };
 
 /// The ray that must be free for a light's sample to reach a point. t_max_m is not above 0 where the two are

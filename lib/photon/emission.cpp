@@ -152,7 +152,7 @@ EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const
 }
 
 EmittedPhoton Emitter::from_environment(RandomStream& random) const {
-  const Environment::Sample sample = scene_->environment->sample(random.uniform2());
+  const Environment::Sample sample = scene_->environment->sample_flux(random.uniform2());
   if (!(sample.density > 0)) return {};
   return from_infinity(-sample.direction, sample.luminance / sample.density, random);
 }

@@ -12,6 +12,8 @@ namespace phos {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+/// Of the mean luminance: what is brighter is a peak.
+constexpr double kPeak = 4;
 
 /// luminance() in double: the dimmest texel keeps a probability of its own.
 double luminous(const DVec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
@@ -57,7 +59,11 @@ Environment::Environment(int width, int height, std::vector<Rgb> texels, double 
     const double sine = std::sin(std::numbers::pi * row / (2.0 * height));
     row_edge_.push_back(sine * sine);
   }
-  make_distribution();
+  integrate();
+  by_flux_ = make_table([](double luminance) { return luminance; });
+  if (!(cap_ > 0)) return;
+  by_both_ = make_table(
+      [&](double luminance) { return luminance / luminous_lx_ + std::min(luminance, cap_) / capped_lx_; });
 }
 
 double Environment::texel_sr(int row) const {
@@ -65,29 +71,47 @@ double Environment::texel_sr(int row) const {
   return kTurn / width_ * 2 * std::sin(middle) * std::sin(half);
 }
 
-void Environment::make_distribution() {
-  const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
-  column_cdf_.resize(texels_.size()), row_cdf_.resize(rows);
-  std::vector<double> sums(columns);
-  for (std::size_t row = 0; row < rows; ++row) {
-    DVec3 light(0);
-    double sum = 0;
-    for (std::size_t k = 0; k < columns; ++k) {
-      const DVec3 texel(texels_[row * columns + k]);
-      light += texel;
-      sums[k] = sum += luminous(texel);
+/// Sums of the texels, and whether there are peaks among them.
+void Environment::integrate() {
+  const auto columns = static_cast<std::size_t>(width_);
+  const auto sum_of = [&](const auto& value) {
+    DVec3 sum(0);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(height_); ++row) {
+      DVec3 light(0);
+      for (std::size_t k = 0; k < columns; ++k) light += value(DVec3(texels_[row * columns + k]));
+      sum += light * texel_sr(static_cast<int>(row));
     }
-    const double sr = texel_sr(static_cast<int>(row));
-    integral_lx_ += sr * light;
-    row_cdf_[row] = luminous_lx_ += sr * sum;
+    return sum;
+  };
+  double brightest = 0;
+  integral_lx_ = sum_of([&](const DVec3& texel) {
+    brightest = std::max(brightest, luminous(texel));
+    return texel;
+  });
+  luminous_lx_ = luminous(integral_lx_);
+  const double cap = kPeak * luminous_lx_ / (2 * kTurn);
+  if (!(brightest > cap)) return;
+  cap_ = cap;
+  capped_lx_ = sum_of([&](const DVec3& texel) { return DVec3(std::min(luminous(texel), cap)); }).x;
+}
+
+template <class Weight>
+Environment::Table Environment::make_table(const Weight& weight) const {
+  const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
+  Table table{std::vector<double>(rows), std::vector<float>(texels_.size())};
+  std::vector<double> sums(columns);
+  double total = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    double sum = 0;
+    for (std::size_t k = 0; k < columns; ++k)
+      sums[k] = sum += weight(luminous(DVec3(texels_[row * columns + k])));
+    table.row_cdf[row] = total += sum * texel_sr(static_cast<int>(row));
     for (std::size_t k = 0; k < columns && sum > 0; ++k)
-      column_cdf_[row * columns + k] = static_cast<float>(sums[k] / sum);
+      table.column_cdf[row * columns + k] = static_cast<float>(sums[k] / sum);
   }
-  if (!(luminous_lx_ > 0)) {
-    row_cdf_.clear(), column_cdf_.clear();
-    return;
-  }
-  for (double& x : row_cdf_) x /= luminous_lx_;
+  if (!(total > 0)) return {};
+  for (double& x : table.row_cdf) x /= total;
+  return table;
 }
 
 std::size_t Environment::texel_at(const Vec3& direction) const {
@@ -100,16 +124,30 @@ std::size_t Environment::texel_at(const Vec3& direction) const {
 }
 
 float Environment::density_of(std::size_t texel) const {
-  return luminous_lx_ > 0 ? static_cast<float>(luminous(DVec3(texels_[texel])) / luminous_lx_) : 0.f;
+  if (!(luminous_lx_ > 0)) return 0;
+  const double luminance = luminous(DVec3(texels_[texel])), by_flux = luminance / luminous_lx_;
+  if (!(cap_ > 0)) return static_cast<float>(by_flux);
+  return static_cast<float>(0.5 * by_flux + 0.5 * std::min(luminance, cap_) / capped_lx_);
 }
 
 Environment::Sample Environment::sample(const Vec2& u) const {
+  return draw(by_both_.row_cdf.empty() ? by_flux_ : by_both_, u);
+}
+
+Environment::Sample Environment::sample_flux(const Vec2& u) const {
+  Sample sample = draw(by_flux_, u);
+  if (sample.density > 0)
+    sample.density = static_cast<float>(luminous(DVec3(sample.luminance)) / luminous_lx_);
+  return sample;
+}
+
+Environment::Sample Environment::draw(const Table& table, const Vec2& u) const {
   Sample sample;
-  if (row_cdf_.empty()) return sample;
+  if (table.row_cdf.empty()) return sample;
   const auto columns = static_cast<std::size_t>(width_);
   double down = 0, along = 0;
-  const std::size_t row = invert(row_cdf_.data(), row_cdf_.size(), u.y, down);
-  const std::size_t column = invert(column_cdf_.data() + row * columns, columns, u.x, along);
+  const std::size_t row = invert(table.row_cdf.data(), table.row_cdf.size(), u.y, down);
+  const std::size_t column = invert(table.column_cdf.data() + row * columns, columns, u.x, along);
   const std::size_t texel = row * columns + column;
   // Within a texel uniform over the solid angle: sin^2(theta / 2) is even in it, and exact near both poles.
   const double edge = row_edge_[row], q = edge + down * (row_edge_[row + 1] - edge);

@@ -31,11 +31,15 @@ class Environment {
     Rgb luminance{0};         ///< cd/m2
     float density = 0;        ///< per sr
   };
-  /// A direction with density in proportion to the luminance: rows by u.y, columns by u.x, both monotonous,
-  /// so that strata of `u` are strata of the sphere. Density 0 where the map is black.
+  /// A direction in which a point looks for light: half of them with density in proportion to the luminance,
+  /// half to what of it is below four times its mean, so that the sky is still seen where a small sun is
+  /// hidden (of a map without such peaks, all by luminance). Rows by u.y, columns by u.x, both monotonous, so
+  /// that strata of `u` are strata of the sphere. Density 0 where the map is black.
   Sample sample(const Vec2& u) const;
   /// Density per sr with which sample() chooses a direction.
   float density(const Vec3& direction) const { return density_of(texel_at(direction)); }
+  /// A direction with density in proportion to the luminance alone: photons that start with it carry alike.
+  Sample sample_flux(const Vec2& u) const;
 
   /// Integral of the luminance over the sphere, lx (cd/m2 sr).
   const DVec3& integral_lx() const { return integral_lx_; }
@@ -43,20 +47,28 @@ class Environment {
   DVec3 irradiance_up_lx() const;
 
  private:
+  /// Chooses texels with probabilities in proportion to a weight per sr.
+  struct Table {
+    std::vector<double> row_cdf;    // ends at 1; empty if all weights are 0
+    std::vector<float> column_cdf;  // of each row, ends at 1
+  };
+  template <class Weight>
+  Table make_table(const Weight& weight) const;
+  Sample draw(const Table& table, const Vec2& u) const;
   std::size_t texel_at(const Vec3& direction) const;
   float density_of(std::size_t texel) const;
   double texel_sr(int row) const;
-  void make_distribution();
+  void integrate();
 
   int width_, height_;
   double rotation_rad_;
   std::vector<Rgb> texels_;
-  std::vector<double>
-      row_edge_;  // sin^2(theta / 2) at the upper edge of each row, and at the last one's lower
-  std::vector<double> row_cdf_;    // ends at 1; empty for a black map
-  std::vector<float> column_cdf_;  // of each row, ends at 1
+  // sin^2(theta / 2) at the upper edge of each row, and at the last one's lower.
+  std::vector<double> row_edge_;
   DVec3 integral_lx_{0};
-  double luminous_lx_ = 0;  // luminance of the integral
+  double luminous_lx_ = 0;          // luminance of the integral
+  double cap_ = 0, capped_lx_ = 0;  // cd/m2; luminance of the integral of what is below it. 0: no peaks
+  Table by_flux_, by_both_;         // the second is empty where there are no peaks
 };
 
 /// An environment map as it was read.

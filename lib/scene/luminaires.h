@@ -49,7 +49,7 @@ class Luminaires {
   /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
   /// cone). Area lights: uniform over a triangle chosen by u_triangle in proportion to its power. A
   /// parallelogram of two triangles is sampled by `u` alone, so that strata of `u` are strata of the light.
-  /// Environment: in proportion to its luminance, by `u` alone too.
+  /// Environment: as Environment::sample() chooses, by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
   /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on it.

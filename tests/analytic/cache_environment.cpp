@@ -82,8 +82,8 @@ TEST(Gather, WeighsTheEnvironmentInGloss) {
   }
 }
 
-/// Where a roof hides the sun, the rim of the sky alone lights the floor, a fortieth of all light there is:
-/// rays that may find it keep the noise down (samples by luminance alone: more than half of the value).
+/// Where a roof hides the sun, the rim of the sky alone lights the floor, a fortieth of all light there is.
+/// Half of the samples look for it: by luminance alone the noise would be more than half of the value.
 TEST(Gather, AHiddenSunIsNoNoise) {
   Scene scene = open_floor(kHalfSide, 0.6f);
   begin_instance(scene, "roof", add_lambert(scene, "black", 0));
@@ -143,6 +143,7 @@ TEST(Shading, EverySplitOfTheEnvironmentGivesTheAlbedo) {
   for (const Named& model : models()) {
     Scene scene = open_floor();
     scene.material[0] = model.material;
+    scene.measured = measured_tables();
     surround(scene, constant_map(8, Rgb(5)));
     const RayScene rays(scene);
     const Luminaires lights(scene);

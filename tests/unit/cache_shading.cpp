@@ -17,6 +17,7 @@ Scene lit_sheet(const Material& material) {
   begin_instance(scene, "sky", add_lambert(scene, "sky", 0, kLuminance));
   add_room(scene, Vec3(-2), Vec3(2));
   scene.material.push_back(material);
+  scene.measured = measured_tables();
   begin_instance(scene, "sheet", 1);
   add_quad(scene, {-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0});
   finalize(scene);
