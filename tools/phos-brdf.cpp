@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
   options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that keep 95 % of the energy");
   options.example("phos-brdf room.glb --error 0.01 --max-order 15 -o room.brdf", "sharper, at more cost");
   return tool.run(argc, argv, [&] {
-    tool.add_input("scene", scene_files(scene_path));
+    tool.add_input("scene", scene_files(scene_path, scene_options));
     if (tool.up_to_date()) return;
     const Scene scene = load_scene(scene_path, scene_options);
     std::vector<BrdfTable> tables;

@@ -109,6 +109,11 @@ std::string scene_change(const Json& then, const Json& now) {
       time_then->as_number() != time_now->as_number())
     return text("time ", shortest(time_then->as_number()), " s is now ", shortest(time_now->as_number()),
                 " s");
+  const Json *sky_then = then.find("environment"), *sky_now = now.find("environment");
+  if (sky_then != nullptr && sky_now == nullptr) return "it had an environment; give the same --environment";
+  if (sky_then == nullptr && sky_now != nullptr) return "it had no --environment";
+  if (sky_then != nullptr && !(*sky_then == *sky_now))
+    return "another --environment, or its rotation or scale";
   const std::string node = node_change(then.find("nodes"), now.find("nodes"));
   if (!node.empty()) return node;
   for (const char* part : {"geometry", "materials", "lights"}) {

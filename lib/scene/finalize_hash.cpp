@@ -106,18 +106,21 @@ void add_light(Hasher& hasher, const Light& light) {
   add_vector(hasher, light.flux_lm);
 }
 
-void add_environment(Hasher& hasher, const Environment& environment) {
-  hasher.add(environment.width());
-  hasher.add(environment.height());
-  const double rotation_rad = environment.rotation_rad() + 0.0;
+/// Empty where there is none.
+std::string hash_environment(const Environment* environment) {
+  if (!environment) return {};
+  Hasher hasher;
+  hasher.add(environment->width());
+  hasher.add(environment->height());
+  const double rotation_rad = environment->rotation_rad() + 0.0;
   hasher.add_bytes(&rotation_rad, sizeof rotation_rad);
-  add_vectors(hasher, environment.texels());
+  add_vectors(hasher, environment->texels());
+  return hasher.finish().hex();
 }
 
 std::string hash_lights(const Scene& scene) {
   Hasher hasher;
   for (const Light& light : scene.light) add_light(hasher, light);
-  if (scene.environment) add_environment(hasher, *scene.environment);
   return hasher.finish().hex();
 }
 
@@ -128,7 +131,7 @@ Json hash_nodes(const Scene& scene) {
   std::map<std::string, std::vector<const Light*>> lights;
   for (const Instance& i : scene.instance) instances[i.node].push_back(&i);
   for (const Light& l : scene.light) {
-    if (l.kind != Light::Kind::area) lights[l.name].push_back(&l);
+    if (l.kind != Light::Kind::area && l.kind != Light::Kind::environment) lights[l.name].push_back(&l);
   }
   std::map<std::string, Hasher> hashers;
   for (const auto& [name, list] : instances) {
@@ -141,10 +144,7 @@ Json hash_nodes(const Scene& scene) {
   }
   for (const auto& [name, list] : lights) {
     Hasher& hasher = hashers[name];
-    for (const Light* l : list) {
-      add_light(hasher, *l);
-      if (l->kind == Light::Kind::environment) add_environment(hasher, *scene.environment);
-    }
+    for (const Light* l : list) add_light(hasher, *l);
   }
   if (hashers.size() > kMaxNamedNodes) return Json();
   Json out = Json::Object{};
@@ -156,15 +156,16 @@ Json hash_nodes(const Scene& scene) {
 
 void fill_hash(Scene& scene) {
   const std::string geometry = hash_geometry(scene), materials = hash_materials(scene),
-                    lights = hash_lights(scene);
+                    lights = hash_lights(scene), environment = hash_environment(scene.environment.get());
   Json parts = Json::Object{};
   parts["geometry"] = geometry;
   parts["materials"] = materials;
   parts["lights"] = lights;
+  if (!environment.empty()) parts["environment"] = environment;
   parts["time"] = scene.time_s + 0.0;
   if (Json nodes = hash_nodes(scene); !nodes.is_null()) parts["nodes"] = std::move(nodes);
   scene.parts = std::move(parts);
-  scene.hash = hash_text(geometry + materials + lights).hex();
+  scene.hash = hash_text(geometry + materials + lights + environment).hex();
 }
 
 }  // namespace phos

@@ -179,7 +179,8 @@ struct Scene {
   // Filled by finalize().
   Bounds bounds;
   std::string hash;  ///< of everything that changes the light (not cameras, not names)
-  Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}}
+  Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}};
+                     ///< "environment":hash where there is one
 
   const Material& material_of(std::uint32_t tri) const {
     return material[instance[triangle_instance[tri]].material];

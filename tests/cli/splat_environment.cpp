@@ -74,15 +74,15 @@ TEST(EnvironmentTools, RefuseCachesOfAnotherEnvironment) {
   ASSERT_EQ(
       run_tool({"photons", scene, "--environment", map, "--photons", "1000", "-o", f + "/a.photons"}).code,
       0);
-  const auto refused = [&](const std::vector<std::string>& lit) {
+  const auto refused = [&](const std::vector<std::string>& lit, const std::string& why) {
     std::vector<std::string> words = {scene, f + "/a.photons", "-o", f + "/a.irradiance"};
     words.insert(words.end(), lit.begin(), lit.end());
-    expect_refused("irradiance", words, 4, "environment");
+    expect_refused("irradiance", words, 4, why);
   };
-  refused({});
-  refused({"--environment", sky(f, "other.exr", 101)});
-  refused({"--environment", map, "--environment-rotation", "1"});
-  refused({"--environment", map, "--environment-scale", "1.5"});
+  refused({}, "give the same --environment");
+  refused({"--environment", sky(f, "other.exr", 101)}, "another --environment");
+  refused({"--environment", map, "--environment-rotation", "1"}, "its rotation");
+  refused({"--environment", map, "--environment-scale", "1.5"}, "scale");
   EXPECT_EQ(
       run_tool({"irradiance", scene, f + "/a.photons", "--environment", map, "-o", f + "/a.irradiance"}).code,
       0);
