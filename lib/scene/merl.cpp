@@ -141,14 +141,14 @@ void MerlBrdf::fill_empty(const std::vector<bool>& empty) {
 
 Rgb MerlBrdf::evaluate(const Vec3& o, const Vec3& i) const {
   const Vec3 sum = o + i;
-  const float across = std::hypot(sum.x, sum.y);
-  const Vec3 h = glm::normalize(sum);
+  const float across = std::sqrt(sum.x * sum.x + sum.y * sum.y), length = glm::length(sum);
+  const float cos_h = sum.z / length, sin_h = across / length;
   const Vec2 towards = across > 0 ? Vec2(sum.x, sum.y) / across : Vec2(1, 0);
   // i in the frame whose z is h and whose x leans away from the normal.
-  const float x = h.z * (towards.x * i.x + towards.y * i.y) - std::hypot(h.x, h.y) * i.z;
-  const float y = towards.x * i.y - towards.y * i.x;
+  const float along = towards.x * i.x + towards.y * i.y;
+  const float x = cos_h * along - sin_h * i.z, y = towards.x * i.y - towards.y * i.x;
   const float theta_h = std::atan2(across, sum.z);
-  const float theta_d = std::atan2(std::hypot(x, y), glm::dot(h, i));
+  const float theta_d = std::atan2(std::sqrt(x * x + y * y), sin_h * along + cos_h * i.z);
   float phi_d = std::atan2(y, x);
   if (phi_d < 0) phi_d += kPi;
   const Between bh = between_clamped(std::sqrt(theta_h / (0.5f * kPi)) * kThetaH, kThetaH);

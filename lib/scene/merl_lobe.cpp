@@ -119,7 +119,7 @@ void MerlBrdf::fit_lobe() {
 }
 
 void MerlBrdf::tabulate_albedo() {
-  constexpr int kPoints = 4096;
+  constexpr int kPoints = 2048;
   float gloss_of_all = 0, all = 0;
   for (int k = 0; k < kAngles; ++k) {
     const Vec3 o = direction_at(angle_cosine(k));
