@@ -26,7 +26,7 @@ void classify(const Scene& scene, MaterialSummary& s) {
     case Model::metallic_roughness:
       s.reflectance = kd;
       s.diffuse = kd > 0 && m.metallic < 1;
-      s.specular = m.roughness == 0;
+      s.specular = m.roughness == 0 && m.anisotropy == 0;
       s.glossy = !s.specular && (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
       break;
     case Model::lambert:
@@ -42,7 +42,7 @@ void classify(const Scene& scene, MaterialSummary& s) {
     case Model::plastic:
       s.reflectance = kd;
       s.diffuse = kd > 0;
-      s.specular = m.alpha_x == 0;
+      s.specular = m.alpha_x == 0 && m.alpha_y == 0;
       s.glossy = !s.specular;
       break;
     case Model::conductor:

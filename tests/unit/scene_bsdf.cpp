@@ -344,6 +344,7 @@ TEST(Bsdf, StaysFiniteAtItsLimits) {
   for (const float alpha : {0.f, 1e-5f, 1e-3f, 0.01f, 5.f}) {
     for (const Model model : {Model::ward, Model::conductor, Model::plastic}) {
       all.push_back({"rough", make_material(model, Rgb(0.5f), Rgb(0.5f), alpha, alpha)});
+      all.push_back({"brushed", make_material(model, Rgb(0.5f), Rgb(0.5f), alpha, 0.5f)});
     }
   }
   Material sharp = make_material(Model::phong, Rgb(0.5f), Rgb(0.5f));
