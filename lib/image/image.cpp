@@ -58,6 +58,8 @@ std::vector<std::string> Image::layers() const {
   return names;
 }
 
+bool is_image(std::string_view bytes) { return bytes.starts_with(kExrMagic) || bytes.starts_with("#?"); }
+
 Image read_image(const std::string& path) {
   const std::string bytes = read_text(path);
   if (bytes.starts_with(kExrMagic)) return decode_exr(bytes, path);

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,8 @@ std::string channel_name(const std::string& layer, const std::string& component)
 /// EXPOSURE divided out, VIEW kept as attribute. Throws Error(bad_input) for missing, truncated or damaged
 /// files.
 Image read_image(const std::string& path);
+/// Do bytes begin as one of these?
+bool is_image(std::string_view bytes);
 
 /// All are lossless: zip is read everywhere, piz is a third faster to write, none takes no time.
 enum class ExrCompression { zip, piz, none };

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "image/image.h"
-#include "support/run.h"
+#include "support/refused.h"
 
 namespace phos {
 namespace {
@@ -90,6 +90,37 @@ TEST_F(PictureTool, RadianceOutput) {
   const Image back = read_image(path("out.hdr"));
   EXPECT_EQ(back.attributes.at("VIEW"), "-vtv");
   EXPECT_NEAR(luminance(back.rgb("")[0]), luminance(Rgb(1, 2, 3)), 0.02);
+}
+
+TEST_F(PictureTool, PlotsOfATable) {
+  test::spill(path("t.dat"), "method,seconds,rmse\na,1,0.1\nb,1,0.2\na,10,0.03\nb,10,0\n");
+  const std::vector<std::string> words{"picture",  path("t.dat"), "--x",     "seconds", "--y", "rmse",
+                                       "--series", "method",      "--log-x", "--log-y", "-o"};
+  for (const std::string name : {"t.svg", "t.png"}) {
+    std::vector<std::string> all = words;
+    all.push_back(path(name));
+    const auto run = run_tool(all);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("1 points are left out"), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+  const std::string svg = test::slurp(path("t.svg"));
+  EXPECT_NE(svg.find(">rmse<"), std::string::npos);
+  EXPECT_NE(svg.find(">b<"), std::string::npos);
+  EXPECT_EQ(read_png(path("t.png")).width, 1440);
+}
+
+TEST_F(PictureTool, PlotErrors) {
+  test::spill(path("t.csv"), "n,e\n1,2\n3,x\n");
+  test::spill(path("ragged.csv"), "n,e\n1,2\n3\n");
+  test::expect_refused("picture", {path("t.csv"), "-o", path("t.svg")}, 2, "n, e");
+  test::expect_refused("picture", {path("t.csv"), "--x", "n", "--y", "f", "-o", path("t.svg")}, 2, "\"f\"");
+  test::expect_refused("picture", {path("t.csv"), "--x", "n", "--y", "e", "-o", path("t.svg")}, 3, "t.csv:3");
+  test::expect_refused("picture", {path("ragged.csv"), "--x", "n", "--y", "e", "-o", path("t.svg")}, 3, ":3");
+  test::expect_refused("picture", {path("t.csv"), "--x", "n", "--y", "e", "-o", path("t.hdr")}, 2, "a table");
+  test::expect_refused("picture", {path("in.exr"), "-o", path("t.svg")}, 2, "an image");
+  test::expect_refused("picture", {path("in.exr"), "--x", "n", "-o", path("t.png")}, 2, "--x");
+  EXPECT_FALSE(std::filesystem::exists(path("t.svg")));
 }
 
 TEST_F(PictureTool, Errors) {

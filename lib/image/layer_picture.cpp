@@ -1,0 +1,78 @@
+#include "image/layer_picture.h"
+
+#include <cmath>
+
+#include "image/metrics.h"
+
+namespace phos {
+
+namespace {
+
+std::string title_of(const std::string& layer) {
+  if (layer.empty()) return "luminance";
+  return layer == "illuminance" || layer_unit(layer) != "cd/m2" ? layer : "luminance, " + layer;
+}
+
+ToneMapped false_colours(const Image& image, const std::string& layer, const LayerPictureOptions& p) {
+  const std::vector<float> values = layer_values(image, layer);
+  const std::string unit = layer_unit(layer);
+  const bool log = p.scale == ScaleChoice::automatic ? unit == "cd/m2" : p.scale == ScaleChoice::logarithmic;
+  const FalseColourRange range =
+      false_colour_range(values, log ? Scale::logarithmic : Scale::linear, p.min, p.max);
+  ToneMapped out;
+  out.picture = false_colour(values, image.width(), image.height(), range, p.palette, title_of(layer), unit);
+  for (const float v : values) out.non_finite += std::isfinite(v) ? 0 : 1;
+  return out;
+}
+
+}  // namespace
+
+void declare_options(Options& o, LayerPictureOptions& p) {
+  o.text("layer", p.layer, "LAYER", "layer to show (beauty, indirect, illuminance, normal, ...)");
+  o.section("Tone mapping");
+  o.number("exposure", p.tone.exposure_ev, "EV", "stops brighter than automatic", {-60, 60});
+  o.number("white", p.tone.white_cd_m2, "CD/M2", "luminance that becomes white; else the 99.5th percentile",
+           kPositive);
+  o.choice<ToneOperator>("operator", p.tone.curve,
+                         {{"reinhard", ToneOperator::reinhard},
+                          {"filmic", ToneOperator::filmic},
+                          {"linear", ToneOperator::linear}},
+                         "tone curve, on luminance");
+  o.section("False colour");
+  o.flag("false-colour", p.false_colour, "show amounts as colours, with a legend");
+  o.choice<ScaleChoice>(
+      "scale", p.scale,
+      {{"auto", ScaleChoice::automatic}, {"linear", ScaleChoice::linear}, {"log", ScaleChoice::logarithmic}},
+      "scale of the legend; auto: log for cd/m2, linear for the rest");
+  o.number("min", p.min, "X", "amount at the low end, in the layer's unit; else automatic");
+  o.number("max", p.max, "X", "amount at the high end; else the 98th percentile, rounded up");
+  o.choice<Palette>("palette", p.palette,
+                    {{"viridis", Palette::viridis}, {"turbo", Palette::turbo}, {"grey", Palette::grey}},
+                    "colours: even in lightness, most colours, or none");
+}
+
+std::vector<Rgb> layer_colours(const Image& image, const std::string& layer) {
+  if (image.has_layer(layer)) return image.rgb(layer);
+  std::vector<Rgb> colours(image.pixels());
+  if (components_of(image, layer) == std::vector<std::string>{"X", "Y", "Z"}) {
+    for (int c = 0; c < 3; ++c) {
+      const std::span<const float> v =
+          image.channel(channel_name(layer, std::string(1, static_cast<char>('X' + c))));
+      for (std::size_t i = 0; i < v.size(); ++i) colours[i][c] = 0.5f + 0.5f * v[i];
+    }
+    return colours;
+  }
+  const std::vector<float> values = layer_values(image, layer);
+  for (std::size_t i = 0; i < values.size(); ++i) colours[i] = Rgb(values[i]);
+  return colours;
+}
+
+ToneMapped layer_picture(const Image& image, const LayerPictureOptions& p) {
+  const std::string layer = layer_from_label(p.layer);
+  if (p.false_colour) return false_colours(image, layer, p);
+  const bool directions = image.has(channel_name(layer, "X"));
+  const ToneOptions tone = directions ? ToneOptions{ToneOperator::linear, p.tone.exposure_ev, 1.0} : p.tone;
+  return tone_map(layer_colours(image, layer), image.width(), image.height(), tone);
+}
+
+}  // namespace phos

@@ -1,0 +1,33 @@
+// Pictures for people of one layer of an image.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/options.h"
+#include "image/false_colour.h"
+#include "image/tone_map.h"
+
+namespace phos {
+
+enum class ScaleChoice { automatic, linear, logarithmic };
+
+struct LayerPictureOptions {
+  std::string layer = "beauty";
+  ToneOptions tone;
+  bool false_colour = false;
+  ScaleChoice scale = ScaleChoice::automatic;
+  Palette palette = Palette::viridis;
+  std::optional<double> min, max;
+};
+void declare_options(Options& options, LayerPictureOptions& picture);
+
+/// The layer as colours: itself, grey of a single quantity, or directions as 0.5 + 0.5 n. Throws
+/// Error(bad_input) for a layer that is absent.
+std::vector<Rgb> layer_colours(const Image& image, const std::string& layer);
+
+/// Tone mapped (directions: linear, white 1), or in false colours, which count in `non_finite` alone.
+ToneMapped layer_picture(const Image& image, const LayerPictureOptions& options);
+
+}  // namespace phos
