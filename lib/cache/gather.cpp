@@ -43,7 +43,8 @@ struct GatherEstimator::Impl : HemisphereRecords {
   using HemisphereRecords::HemisphereRecords;
   struct Worker;
 
-  void aim(const RecordSite& site, std::int64_t count, std::uint32_t pass, Hemisphere& h) const;
+  void aim(const RecordSite& site, std::int64_t count, std::uint32_t pass, Measure measure,
+           Hemisphere& h) const;
   std::size_t sample_all(const GatherEstimator& self, const RecordSite& site, Worker& worker) const;
 };
 
@@ -53,10 +54,10 @@ struct GatherEstimator::Impl::Worker : HemisphereWorker {
   std::vector<Hemisphere> passes;
 };
 
-/// Directions through the cells of equal projected solid angle, jittered within each.
+/// Directions through the cells of equal measure, jittered within each.
 void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std::uint32_t pass,
-                                Hemisphere& h) const {
-  h.frame = make_frame(site.normal);
+                                Measure measure, Hemisphere& h) const {
+  h.frame = make_frame(site.normal), h.measure = measure;
   h.rings = rings_for(count), h.slices = slices_for(h.rings);
   PHOS_CHECK(pass < kMostPasses && h.rings < 1 << kRingBits, "pass ", pass, ", ", h.rings, " rings");
   const auto rings = static_cast<float>(h.rings), slices = static_cast<float>(h.slices);
@@ -69,25 +70,30 @@ void GatherEstimator::Impl::aim(const RecordSite& site, std::int64_t count, std:
   std::vector<Vec2> jitter(count_of_ring);
   RandomStream random(seed, Stage::record, site.item);
   const float slice_angle = 2 * kPi / slices;
+  const bool solid = measure == Measure::solid;
   Vec3* direction = h.direction.data();
-  for (int ring = 0; ring < h.rings; ++ring, direction += h.slices) {
+  float* projected_sr = h.projected_sr.data();
+  for (int ring = 0; ring < h.rings; ++ring, direction += h.slices, projected_sr += h.slices) {
     random.start_bounce(pass << kRingBits | static_cast<std::uint32_t>(ring));
     for (Vec2& u : jitter) {
       const std::uint32_t bits = random.bits();
       u = {in_cell(bits >> 16), in_cell(bits & 0xffffu)};
     }
     for (std::size_t k = 0; k < count_of_ring; ++k) {
-      const float sin2 = (static_cast<float>(ring) + jitter[k].x) * (1 / rings);
+      const float share = (static_cast<float>(ring) + jitter[k].x) * (1 / rings);  // of the measure
+      const float sin2 = solid ? share * (2 - share) : share;
+      const float z = solid ? std::max(0.f, 1 - share) : std::sqrt(std::max(0.f, 1 - sin2));
       const Vec2 around = turned(middle[k], slice_angle * (jitter[k].y - 0.5f));
-      direction[k] = h.frame.to_world(Vec3(std::sqrt(sin2) * around, std::sqrt(std::max(0.f, 1 - sin2))));
+      direction[k] = h.frame.to_world(Vec3(std::sqrt(sin2) * around, z));
+      if (solid) projected_sr[k] *= 2 * z;
     }
   }
 }
 
 void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h,
-                             Estimator::Worker& worker) const {
+                             Estimator::Worker& worker, Measure measure) const {
   auto& w = static_cast<Impl::Worker&>(worker);
-  impl_->aim(site, rays, pass, h);
+  impl_->aim(site, rays, pass, measure, h);
   const SurfacePoint from = receiver(impl_->rays.scene(), site.position, site.normal);
   const Vec3 origin = from.leave(site.normal);
   w.rays.clear();
@@ -98,6 +104,8 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   const Hit* next = w.found.data();
   each_in_tiles(h, [&](std::size_t i) { w.hits[i] = *next++; });
   impl_->light.shade(origin, w.hits, site.item, pass, h, *w.light);
+  w.counters.merge(w.light->counters);
+  w.light->counters = Counters();
   clear_own_surface(from.error_m, h);
 }
 

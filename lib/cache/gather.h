@@ -89,8 +89,8 @@ class GatherEstimator : public Estimator {
   Made make(const RecordSite& site, Worker& worker) const override;
 
   /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
-  void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h,
-              Worker& worker) const;
+  void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
+              Measure measure = Measure::projected) const;
 
  private:
   struct Impl;

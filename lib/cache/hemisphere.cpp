@@ -29,11 +29,10 @@ Rgb irradiance_of(const Hemisphere& h) {
   return Rgb(sum);
 }
 
-Rgb standard_error_of(const Hemisphere& h) {
-  if (!h.stratified()) return Rgb(0);
+DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight) {
   const auto light = [&](int ring, int slice) {
     const std::size_t i = h.at(ring, slice);
-    return DVec3(h.radiance[i]) * static_cast<double>(h.projected_sr[i]);
+    return DVec3(h.radiance[i]) * static_cast<double>(weight[i]);
   };
   // Each difference has as its mean square the mean variance of the cells in it, and the square of what does
   // not cancel of their means. Each cell counts once: in four blocks of 2 x 2, a quarter each; a cell of the
@@ -45,7 +44,11 @@ Rgb standard_error_of(const Hemisphere& h) {
     for (const int j : {0, h.rings - 1})
       variance += squared(light(j, k - 1) - 2.0 * light(j, k) + light(j, k + 1)) / 12.0;
   }
-  return Rgb(glm::sqrt(variance));
+  return variance;
+}
+
+Rgb standard_error_of(const Hemisphere& h) {
+  return h.stratified() ? Rgb(glm::sqrt(strata_variance(h, h.projected_sr))) : Rgb(0);
 }
 
 float harmonic_distance_m(const Hemisphere& h) {

@@ -9,12 +9,19 @@
 
 namespace phos {
 
-/// Rays of one hemisphere, as columns. Stratified: rings x slices cells of equal projected solid angle, one
-/// ray in each, ray(j, k) = j * slices + k, sin^2(theta) in [j/rings, (j+1)/rings), phi in [k, k+1) 2
-/// pi/slices about frame.z from frame.x. Unstructured (a raster): rings = slices = 0, any directions.
+/// What the cells of a stratified hemisphere hold equal shares of.
+enum class Measure {
+  projected,  ///< projected solid angle (cosine included): irradiance; sin^2(theta) in [j, j+1) / rings
+  solid,      ///< solid angle: radiance; 1 - cos(theta) in [j, j+1) / rings
+};
+
+/// Rays of one hemisphere, as columns. Stratified: rings x slices cells of equal measure, one ray in each,
+/// ray(j, k) = j * slices + k, theta by the measure, phi in [k, k+1) 2 pi/slices about frame.z from frame.x.
+/// Unstructured (a raster): rings = slices = 0, any directions.
 struct Hemisphere {
   Frame frame;
   int rings = 0, slices = 0;
+  Measure measure = Measure::projected;
   std::vector<Vec3> direction;    ///< world, unit, above frame.z
   std::vector<Rgb> radiance;      ///< cd/m2 arriving along it
   std::vector<float> distance_m;  ///< infinity: it escaped
@@ -23,6 +30,11 @@ struct Hemisphere {
       projected_sr;  ///< projected solid angle that it stands for (cosine included); all sum to pi
   std::size_t size() const { return direction.size(); }
   bool stratified() const { return rings > 0; }
+  /// Solid angle that a ray stands for; all sum to 2 pi.
+  float solid_sr(std::size_t i) const {
+    if (stratified() && measure == Measure::solid) return 2 * kPi / static_cast<float>(size());
+    return projected_sr[i] / glm::dot(direction[i], frame.z);
+  }
   /// Of a cell; `slice` goes round, at most once.
   std::size_t at(int ring, int slice) const {
     const int around = slice < 0 ? slice + slices : slice >= slices ? slice - slices : slice;
@@ -41,6 +53,9 @@ int rings_for(std::int64_t rays);
 
 /// E = sum of radiance x projected solid angle, lx; in double, in order.
 Rgb irradiance_of(const Hemisphere& h);
+/// Variance of the sum of radiance x weight over the rays of a stratified hemisphere, as standard_error_of
+/// finds it.
+DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight);
 /// Standard error of irradiance_of, lx, from differences between neighbouring strata that cancel what varies
 /// evenly from cell to cell (conservative: on the mean its square exceeds the variance by what is left, a
 /// half to the double of it at an edge of light). Light that no ray has found is not known of. Unstructured
@@ -54,7 +69,8 @@ float least_distance_m(const Hemisphere& h);
 
 /// Gradients of irradiance_of. Rotation by ring means of the tangent (B1; unstructured: the analytic sum on 8
 /// rings). Translation by `mode`: hybrid, analytic, ward_heckbert, krivanek or none; an unstructured set
-/// allows analytic and none. Distances below `least_m` count as that much (a ray that starts at a crease).
+/// and one of equal solid angles allow analytic and none. Distances below `least_m` count as that much (a ray
+/// that starts at a crease).
 Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m);
 
 }  // namespace phos

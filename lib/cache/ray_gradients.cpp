@@ -174,8 +174,8 @@ Sum occlusion(const Hemisphere& h, const Cells& cells) {
 Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m) {
   Gradients g;
   if (mode == GradientMode::none) return g;
-  if (!h.stratified()) {
-    PHOS_CHECK(mode == GradientMode::analytic, "an unstructured hemisphere has no cells: ", name_of(mode));
+  if (!h.stratified() || h.measure == Measure::solid) {
+    PHOS_CHECK(mode == GradientMode::analytic, "no cells of equal projected solid angle: ", name_of(mode));
     rotation_unstructured(h).to(g.rotation, h.frame);
     analytic(h, least_m).to(g.translation, h.frame);
     return g;

@@ -1,0 +1,183 @@
+#include "cache/radiance_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "hsh/rotation.h"
+
+namespace phos {
+namespace {
+
+/// E = first x c_00 + second x c_10.
+constexpr double kFirst = 1.2533141373155003;   // sqrt(pi / 2)
+constexpr double kSecond = 0.7236012545582676;  // sqrt(pi / 6)
+
+Rgb irradiance_of(const std::vector<float>& light) {
+  constexpr std::size_t kZonal = 3 * harmonic_index(1, 0);
+  Rgb e;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = kFirst * static_cast<double>(light[c]);
+    if (light.size() > kZonal) sum += kSecond * static_cast<double>(light[kZonal + c]);
+    e[static_cast<int>(c)] = static_cast<float>(sum);
+  }
+  return e;
+}
+
+std::size_t count_of(int order) { return static_cast<std::size_t>(harmonic_count(order)); }
+
+/// A column of [colour][number] for each record, from and to [number][colour].
+void to_column(const std::vector<float>& record, float* column) {
+  const std::size_t n = record.size() / 3;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < 3; ++c) column[c * n + i] = record[3 * i + c];
+}
+std::vector<float> from_column(const float* column, std::size_t n) {
+  std::vector<float> record(3 * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < 3; ++c) record[3 * i + c] = column[c * n + i];
+  return record;
+}
+
+bool all_finite(const std::vector<float>& v) {
+  return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });
+}
+
+/// nullptr: nothing.
+const char* what_is_wrong(const RadianceRecord& r) {
+  if (!is_finite(r)) return "a value that is not finite";
+  if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
+  constexpr float kSlack = 1e-3f;
+  if (std::fabs(glm::length(r.frame.x) - 1) > kSlack || std::fabs(glm::length(r.frame.z) - 1) > kSlack ||
+      std::fabs(glm::dot(r.frame.x, r.frame.z)) > kSlack)
+    return "a frame that is not of unit length and rectangular";
+  if (std::any_of(r.stderr_light.begin(), r.stderr_light.end(), [](float x) { return x < 0; }))
+    return "a negative standard error";
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_finite(const RadianceRecord& r) {
+  return is_finite(r.position) && is_finite(r.frame.x) && is_finite(r.frame.z) && all_finite(r.light) &&
+         all_finite(r.gradient_x) && all_finite(r.gradient_y) && all_finite(r.stderr_light) &&
+         std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
+}
+
+IrradianceRecord irradiance_of(const RadianceRecord& r) {
+  IrradianceRecord e;
+  e.position = r.position, e.normal = r.frame.z;
+  e.distance_m = r.distance_m, e.radius_m = r.radius_m;
+  e.irradiance = glm::max(irradiance_of(r.light), Rgb(0));
+  for (int c = 0; c < 3; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const float second = r.order() > 1 ? r.stderr_light[3 + at] : 0;
+    e.stderr_lx[c] =
+        std::hypot(static_cast<float>(kFirst) * r.stderr_light[at], static_cast<float>(kSecond) * second);
+  }
+  if (r.gradient_x.empty()) return e;
+  const Rgb x = irradiance_of(r.gradient_x), y = irradiance_of(r.gradient_y);
+  for (int c = 0; c < 3; ++c) e.translation_gradient[c] = x[c] * r.frame.x + y[c] * r.frame.y;
+  return e;
+}
+
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance) {
+  const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
+                    count = count_of(cache.order());
+  const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
+  std::vector<Vec3> position(n), frame(2 * n);
+  std::vector<float> distance(n), radius(n), light(3 * n * count), error(3 * n * bands);
+  std::vector<float> along[2];
+  for (auto& g : along) g.resize(gradients ? light.size() : 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const RadianceRecord& r = cache.records[i];
+    const std::size_t expected = gradients ? 3 * count : 0;
+    PHOS_CHECK(r.order() == cache.order() && r.light.size() == 3 * count && r.gradient_x.size() == expected &&
+                   r.gradient_y.size() == expected,
+               "record ", i, " is of another shape");
+    PHOS_CHECK(what_is_wrong(r) == nullptr, "record ", i, " has ", what_is_wrong(r));
+    position[i] = r.position, frame[2 * i] = r.frame.x, frame[2 * i + 1] = r.frame.z;
+    distance[i] = r.distance_m, radius[i] = r.radius_m;
+    to_column(r.light, &light[3 * i * count]);
+    to_column(r.stderr_light, &error[3 * i * bands]);
+    if (!gradients) continue;
+    to_column(r.gradient_x, &along[0][3 * i * count]);
+    to_column(r.gradient_y, &along[1][3 * i * count]);
+  }
+  ContainerWriter file;
+  file.add_vectors("position", position, "m");
+  file.add<float>("frame", {reinterpret_cast<const float*>(frame.data()), 6 * n}, {n, 2, 3}, "1");
+  file.add<float>("coefficients", light, {n, 3, count}, "cd/m2 sqrt(sr)");
+  file.add<float>("stderr", error, {n, 3, bands}, "cd/m2 sqrt(sr)");
+  if (gradients) {
+    file.add<float>("gradient_x", along[0], {n, 3, count}, "cd/m2 sqrt(sr)/m");
+    file.add<float>("gradient_y", along[1], {n, 3, count}, "cd/m2 sqrt(sr)/m");
+  }
+  file.add<float>("distance", distance, {n}, "m");
+  file.add<float>("radius", radius, {n}, "m");
+  provenance.kind = "radiance";
+  provenance.scene_hash = cache.scene_hash;
+  provenance.extra["accuracy"] = cache.accuracy;
+  provenance.extra["quantity"] = "indirect";
+  provenance.extra["order"] = cache.order();
+  provenance.extra["records"] = n;
+  provenance.extra["basis"] =
+      "hsh, orthonormal, Condon-Shortley phase, index l*l+l+m, x and z of frame, y = z cross x";
+  file.write(path, provenance);
+}
+
+RadianceCache read_radiance(const Container& file) {
+  if (file.provenance().kind != "radiance") {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("holds ", file.provenance().kind, ", not radiance; give the output of phos-radiance"));
+  }
+  file.verify();
+  const Json *accuracy = file.provenance().extra.find("accuracy"),
+             *order = file.provenance().extra.find("order");
+  const std::size_t n = file.vectors("position").size();
+  if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !order || !order->is_integer() ||
+      order->as_integer() < (n > 0 ? 1 : 0) || order->as_integer() > HshRotator::kMaxOrder) {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("its header does not say accuracy, and an order from 1 to ", HshRotator::kMaxOrder,
+                     "; make the file again"));
+  }
+  const auto bands = static_cast<std::size_t>(order->as_integer()), count = bands * bands;
+  const auto column = [&](const char* name, const Shape& shape) {
+    return file.values<float>(name, shape).data();
+  };
+  const std::span<const Vec3> position = file.vectors("position");
+  const float *frame = column("frame", {n, 2, 3}), *light = column("coefficients", {n, 3, count}),
+              *error = column("stderr", {n, 3, bands}), *distance = column("distance", {n}),
+              *radius = column("radius", {n});
+  const bool gradients = file.has("gradient_x") || file.has("gradient_y");
+  const float* along[2] = {gradients ? column("gradient_x", {n, 3, count}) : nullptr,
+                           gradients ? column("gradient_y", {n, 3, count}) : nullptr};
+  RadianceCache cache;
+  cache.accuracy = accuracy->as_number();
+  cache.scene_hash = file.provenance().scene_hash;
+  cache.records.resize(n);
+  parallel_for(n, 256, [&](std::size_t i) {
+    RadianceRecord& r = cache.records[i];
+    const float* f = frame + 6 * i;
+    r.position = position[i];
+    r.frame.x = {f[0], f[1], f[2]}, r.frame.z = {f[3], f[4], f[5]};
+    r.frame.y = glm::cross(r.frame.z, r.frame.x);
+    r.distance_m = distance[i], r.radius_m = radius[i];
+    r.light = from_column(light + 3 * i * count, count);
+    r.stderr_light = from_column(error + 3 * i * bands, bands);
+    if (!gradients) return;
+    r.gradient_x = from_column(along[0] + 3 * i * count, count);
+    r.gradient_y = from_column(along[1] + 3 * i * count, count);
+  });
+  for (std::size_t i = 0; i < n; ++i) {
+    if (const char* wrong = what_is_wrong(cache.records[i])) {
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("record ", i, " has ", wrong,
+                       "; the file is damaged or was made by a faulty program: make it again"));
+    }
+  }
+  return cache;
+}
+
+}  // namespace phos

@@ -1,0 +1,105 @@
+// Radiance records: the light that arrives from each direction, as hemispherical harmonics; their file, and
+// interpolation between them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cache/brdf_table.h"
+#include "cache/irradiance_cache.h"
+#include "core/vector.h"
+#include "file/container.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// One record. Radiance L(w) that arrives along w is the sum of c_i H_i(w), HSH of hsh/basis.h, w in the
+/// record's frame; light that comes straight from a lamp is not in it. Numbers of RGB stand side by side.
+struct RadianceRecord {
+  Vec3 position{0};          ///< m
+  Frame frame;               ///< z: unit normal on the side it lights; y = z x x
+  float distance_m = 0;      ///< mean distance to the surrounding surfaces, unclamped
+  float radius_m = 0;        ///< R of the weight; the zone of influence is accuracy * radius
+  std::vector<float> light;  ///< [order^2][3] c_i = integral of L H_i dw, cd/m2 sqrt(sr)
+  /// [order^2][3] their change per metre along frame.x and frame.y; empty: not known, taken as 0.
+  std::vector<float> gradient_x, gradient_y;
+  /// [order][3] standard error of one coefficient of each band (root mean square over the band, which turns
+  /// about the normal do not change). Errors of different coefficients are about independent.
+  std::vector<float> stderr_light;
+
+  int order() const { return static_cast<int>(stderr_light.size() / 3); }
+};
+
+/// Are all its numbers finite? The distance may be infinite.
+bool is_finite(const RadianceRecord& record);
+
+/// What a radiance record says of irradiance: exactly the first two zonal coefficients, E = sqrt(pi/2) c_00 +
+/// sqrt(pi/6) c_10 (FORMULAS-hsh 1), its gradient of translation from theirs, none of rotation. Place, radius
+/// and distance are the record's own: what settles radii of irradiance records settles these too.
+IrradianceRecord irradiance_of(const RadianceRecord& record);
+
+struct RadianceCache {
+  std::vector<RadianceRecord> records;  ///< all of one order, all with gradients or all without
+  double accuracy = 0.2;                ///< a that placed them
+  std::string scene_hash;
+  int order() const { return records.empty() ? 0 : records.front().order(); }
+};
+
+/// The `.radiance` file, n records of order N: position f32[n,3] m, frame f32[n,2,3] (x axis, normal),
+/// coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are none),
+/// stderr f32[n,3,N] by band, distance and radius f32[n] m. Its header names the basis.
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance);
+/// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named) or one of
+/// another kind.
+RadianceCache read_radiance(const Container& file);
+
+/// Light that leaves a point by its glossy lobe.
+struct GlossyLight {
+  Rgb radiance{0};   ///< cd/m2, at least 0: what harmonics ring below it is cut off
+  Rgb stderr_cd{0};  ///< cd/m2, of the records' own error
+  float weight = 0;  ///< sum of weights; 0: a miss
+};
+
+/// Lookup structure over radiance records, with the weights and the acceptance of RecordTree. Point queries
+/// in any order and from any thread; records are added serially.
+class RadianceTree {
+ public:
+  /// Of records of one order; throws Error(usage) unless 1 <= order <= HshRotator::kMaxOrder. With
+  /// `leak_test`, a record is valid only where no surface stands between it and the point (the tree holds a
+  /// reference).
+  RadianceTree(const Bounds& bounds, double accuracy, int order, const RayScene* leak_test = nullptr);
+  ~RadianceTree();
+  RadianceTree(RadianceTree&&) noexcept;
+  int order() const;
+  std::size_t size() const;
+  const RadianceRecord& operator[](std::size_t record) const;
+  void insert(RadianceRecord record);
+  /// Their irradiance, radii and what they cover.
+  const RecordTree& irradiance() const;
+
+  /// Memory of one thread, and what the last lookup found.
+  struct Worker {
+    std::vector<const IrradianceRecord*> found;
+    std::vector<float> sum, turned;
+    std::vector<float> light;         ///< [order^2][3] of the order asked for, in the frame asked for
+    std::vector<float> stderr_light;  ///< [order][3]
+  };
+  /// Sets worker.light to the light that arrives at p in `frame` (z its normal, unit), to `order` bands (at
+  /// most those of the records; bands above are cut off before records are turned, which is exact between
+  /// equal normals): the sum of w R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would
+  /// change a record by more than its own energy is shortened to that. Returns the sum of weights; 0: no
+  /// record is valid, all is 0.
+  float interpolate(const Vec3& p, const Frame& frame, int order, Worker& worker) const;
+  /// Light that leaves p towards wo (unit, local in `frame`) through the lobe of `brdf`. Where
+  /// brdf.order(wo) is 0 the lobe is to be traced: that is not done here, and looks like a miss.
+  GlossyLight outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,
+                       Worker& worker) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos

@@ -1,0 +1,78 @@
+#include "cache/radiance_gather.h"
+
+#include <algorithm>
+
+#include "cache/direct_light.h"
+#include "cache/next_surface.h"
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+/// Sets the random numbers of radiance records apart from those of irradiance records at the same places.
+constexpr std::uint64_t kOwnStreams = 0x72616469616e6365;
+
+void require_finite(const RadianceRecord& r) {
+  if (is_finite(r)) return;
+  throw Error(ExitCode::numerical, "",
+              text("radiance at (", r.position.x, ", ", r.position.y, ", ", r.position.z,
+                   ") m exceeds the range of numbers; give the lights or the scene other units"));
+}
+
+struct Worker : Estimator::Worker {
+  explicit Worker(int order) : projector(order) {}
+  std::unique_ptr<Estimator::Worker> gather;
+  RadianceProjector projector;
+  Hemisphere hemisphere;
+};
+
+}  // namespace
+
+struct RadianceEstimator::Impl {
+  const RayScene& rays;
+  GatherEstimator gather;
+  RecordOptions options;
+  int order;
+  RadianceGradient gradient;
+};
+
+RadianceEstimator::RadianceEstimator(const RayScene& rays, const Luminaires& lights,
+                                     const GatherSource& source, const RecordOptions& resolved, int order,
+                                     RadianceGradient gradient, std::uint64_t seed)
+    : impl_(new Impl{rays, {rays, lights, source, resolved, seed ^ kOwnStreams}, resolved, order, gradient}) {
+  const RadianceProjector refuses_a_bad_order(order);
+}
+RadianceEstimator::~RadianceEstimator() = default;
+
+std::unique_ptr<Estimator::Worker> RadianceEstimator::make_worker() const {
+  auto worker = std::make_unique<Worker>(impl_->order);
+  worker->gather = impl_->gather.make_worker();
+  return worker;
+}
+
+RadianceRecord RadianceEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
+  auto& w = static_cast<Worker&>(worker);
+  const RecordOptions& options = impl_->options;
+  impl_->gather.sample(site, options.rays, 0, w.hemisphere, *w.gather, Measure::solid);
+  w.counters.merge(w.gather->counters);
+  w.gather->counters = Counters();
+  // The radius asks for gradients even where the record is to have none.
+  const bool without = impl_->gradient == RadianceGradient::none;
+  const RadianceGradient gradient = without ? RadianceGradient::analytic : impl_->gradient;
+  RadianceRecord record =
+      w.projector.project(w.hemisphere, gradient, static_cast<float>(*options.min_radius_m));
+  record.position = site.position;
+  require_finite(record);
+  const float reach = reach_m(record, w.hemisphere, options);
+  if (without) record.gradient_x.clear(), record.gradient_y.clear();
+  const float rounding_m = receiver(impl_->rays.scene(), site.position, site.normal).error_m;
+  const float next_m = height_over_next_m(impl_->rays, site.position, site.normal, 2 * rounding_m, reach);
+  record.radius_m = bounded_radius_m(std::min(reach, next_m / kNextSurface), site, options);
+  return record;
+}
+
+const Hemisphere& RadianceEstimator::seen(const Estimator::Worker& worker) {
+  return static_cast<const Worker&>(worker).hemisphere;
+}
+
+}  // namespace phos

@@ -1,0 +1,261 @@
+#include "cache/radiance_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cache/record_of.h"
+#include "core/error.h"
+#include "hsh/basis.h"
+#include "hsh/quadrature.h"
+#include "hsh/rotation.h"
+
+namespace phos {
+namespace {
+
+/// Rays whose harmonics are made at once: the tables of order 10 fit the nearest caches.
+constexpr std::size_t kBlock = 64;
+/// Least cosine of an emitter in a gradient, which it divides.
+constexpr float kLeastCosine = 0.05f;
+/// Of the distance of a hit: how far the numeric gradient moves the place to either side. Differences of this
+/// step are right to its square, and their rounding is 1e-7 of its inverse.
+constexpr float kStep = 1.f / 128;
+
+using Row = std::array<float, kBlock>;
+/// Weights of the rays of a block, by colour.
+using RgbRows = std::array<Row, 3>;
+
+void set(RgbRows& rows, std::size_t k, const Rgb& value) {
+  for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(c)][k] = value[c];
+}
+
+/// Adds the sum of harmonic x weight over a block to each colour.
+void add_products(const float* harmonic, const RgbRows& weights, double* sums) {
+  constexpr std::size_t kLanes = 8;
+  float lanes[3][kLanes] = {};
+  for (std::size_t k = 0; k < kBlock; k += kLanes)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        lanes[c][lane] += harmonic[k + lane] * weights[c][k + lane];
+  for (std::size_t c = 0; c < 3; ++c) {
+    float sum = 0;
+    for (const float lane : lanes[c]) sum += lane;
+    sums[c] += static_cast<double>(sum);
+  }
+}
+
+/// Rays of a block in the frame of the hemisphere. Those that are missing from the last block carry nothing.
+struct Block {
+  Row x, y, z;
+  RgbRows value;              ///< L omega
+  RgbRows per_m;              ///< L omega / r
+  std::array<Row, 2> normal;  ///< tangential part of the hit's normal over its cosine with the ray
+
+  Block(const Hemisphere& h, std::size_t first, float least_m) {
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      const std::size_t i = first + k;
+      const bool there = i < h.size();
+      const Vec3 w = there ? h.frame.to_local(h.direction[i]) : Vec3(0, 0, 1);
+      const Vec3 n = there ? h.frame.to_local(h.hit_normal[i]) : Vec3(0, 0, -1);
+      const Rgb light = there ? h.solid_sr(i) * h.radiance[i] : Rgb(0);
+      const float cosine = std::max(kLeastCosine, -glm::dot(n, w));
+      x[k] = w.x, y[k] = w.y, z[k] = w.z;
+      set(value, k, light);
+      set(per_m, k, there ? light / std::max(h.distance_m[i], least_m) : Rgb(0));
+      normal[0][k] = n.x / cosine, normal[1][k] = n.y / cosine;
+    }
+  }
+};
+
+std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
+
+/// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: what of a
+/// harmonic's square varies within the cell, since the addition theorem makes P_l of the sum over a band. On
+/// the sphere of which HSH are harmonics, cells are of equal area too.
+std::vector<double> variation_in_cell(int ring, int rings, int slices, int order) {
+  constexpr int kPoints = 6;
+  std::vector<double> node, weight, variation(static_cast<std::size_t>(order));
+  gauss_legendre(kPoints, node, weight);
+  const auto each = [&](const auto& use) {
+    for (std::size_t a = 0; a < kPoints; ++a) use(0.5 + 0.5 * node[a], 0.5 * weight[a]);
+  };
+  each([&](double u, double wu) {
+    each([&](double v, double wv) {
+      const double z = 1 - 2 * (ring + u) / rings, z2 = 1 - 2 * (ring + v) / rings;
+      const double across = std::sqrt((1 - z * z) * (1 - z2 * z2));
+      // The difference of two places in a slice is spread as a triangle.
+      each([&](double t, double wt) {
+        const double cosine = z * z2 + across * std::cos(2 * std::numbers::pi / slices * t);
+        const double share = wu * wv * wt * 2 * (1 - t);
+        double before = 0, p = 1;
+        for (int l = 0; l < order; ++l) {
+          variation[static_cast<std::size_t>(l)] += share * (1 - p);
+          const double next = ((2 * l + 1) * cosine * p - l * before) / (l + 1);
+          before = p, p = next;
+        }
+      });
+    });
+  });
+  return variation;
+}
+
+float harmonic_mean_m(const Hemisphere& h) {
+  double weights = 0, nearness = 0;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const auto weight = static_cast<double>(h.solid_sr(i));
+    weights += weight, nearness += weight / static_cast<double>(h.distance_m[i]);
+  }
+  return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
+}
+
+}  // namespace
+
+struct RadianceProjector::Impl {
+  explicit Impl(int order) : basis(order), count(static_cast<std::size_t>(harmonic_count(order))) {}
+  HarmonicBasis<float> basis;
+  std::size_t count;
+  std::vector<float> h = std::vector<float>(count * kBlock), hx = h, hy = h;
+  std::vector<double> light, gradient[2];
+  int rings = 0, slices = 0;                   ///< that `variation` is for
+  std::vector<std::vector<double>> variation;  ///< by ring and band
+
+  const float* row(const std::vector<float>& table, std::size_t i) const { return table.data() + i * kBlock; }
+
+  void values(const Block& block) {
+    basis.evaluate_batch(BasisKind::hsh, kBlock, block.x.data(), block.y.data(), block.z.data(), h.data());
+    for (std::size_t i = 0; i < count; ++i) add_products(row(h, i), block.value, &light[3 * i]);
+  }
+
+  /// L omega / r ((n_a / cos + 3 w_a) H - G_a), with the sign of n as on the side that shines.
+  void analytic(const Block& block) {
+    basis.evaluate_batch(BasisKind::hsh, kBlock, block.x.data(), block.y.data(), block.z.data(), h.data(),
+                         hx.data(), hy.data(), nullptr);
+    RgbRows along[2], minus;
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        along[0][c][k] = block.per_m[c][k] * (block.normal[0][k] + 3 * block.x[k]);
+        along[1][c][k] = block.per_m[c][k] * (block.normal[1][k] + 3 * block.y[k]);
+        minus[c][k] = -block.per_m[c][k];
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      add_products(row(h, i), block.value, &light[3 * i]);
+      add_products(row(h, i), along[0], &gradient[0][3 * i]);
+      add_products(row(h, i), along[1], &gradient[1][3 * i]);
+      add_products(row(hx, i), minus, &gradient[0][3 * i]);
+      add_products(row(hy, i), minus, &gradient[1][3 * i]);
+    }
+  }
+
+  /// From a place moved by kStep of a hit's distance along an axis, the hit lies in another direction, and
+  /// its solid angle is (1 + step n_a / cos) / (distance ratio)^3 of what it was.
+  void numeric(const Block& block) {
+    values(block);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      for (const float step : {kStep, -kStep}) {
+        Block moved = block;
+        for (std::size_t k = 0; k < kBlock; ++k) {
+          Vec3 w(block.x[k], block.y[k], block.z[k]);
+          w[static_cast<int>(axis)] -= step;
+          const float far = glm::length(w);
+          moved.x[k] = w.x / far, moved.y[k] = w.y / far, moved.z[k] = w.z / far;
+          const float seen = (1 + step * block.normal[axis][k]) / (far * far * far);
+          for (std::size_t c = 0; c < 3; ++c) moved.value[c][k] = block.per_m[c][k] * seen / (2 * step);
+        }
+        basis.evaluate_batch(BasisKind::hsh, kBlock, moved.x.data(), moved.y.data(), moved.z.data(),
+                             h.data());
+        for (std::size_t i = 0; i < count; ++i) add_products(row(h, i), moved.value, &gradient[axis][3 * i]);
+      }
+    }
+  }
+
+  std::vector<float> standard_error(const Hemisphere& hemisphere) {
+    const auto order = static_cast<std::size_t>(basis.order());
+    if (!hemisphere.stratified() || hemisphere.measure != Measure::solid)
+      return std::vector<float>(3 * order);
+    if (rings != hemisphere.rings || slices != hemisphere.slices) {
+      rings = hemisphere.rings, slices = hemisphere.slices;
+      variation.clear();
+      for (int ring = 0; ring < rings; ++ring)
+        variation.push_back(variation_in_cell(ring, rings, slices, basis.order()));
+    }
+    const double cell_sr = 2 * std::numbers::pi / static_cast<double>(hemisphere.size());
+    const std::vector<float> one(hemisphere.size(), 1);
+    std::vector<DVec3> squares(order, strata_variance(hemisphere, one));
+    for (int ring = 0; ring < rings; ++ring) {
+      // Squares of the mean light of cells, from neighbours so that their noise is not in it.
+      DVec3 energy(0);
+      for (int k = 0; k < slices; ++k)
+        energy += DVec3(hemisphere.radiance[hemisphere.at(ring, k)]) *
+                  DVec3(hemisphere.radiance[hemisphere.at(ring, k + 1)]);
+      for (std::size_t l = 0; l < order; ++l)
+        squares[l] += variation[static_cast<std::size_t>(ring)][l] * energy;
+    }
+    std::vector<float> error;
+    for (const DVec3& s : squares)
+      for (int c = 0; c < 3; ++c)
+        error.push_back(static_cast<float>(cell_sr * std::sqrt(std::max(0., s[c]) / (2 * std::numbers::pi))));
+    return error;
+  }
+};
+
+RadianceProjector::RadianceProjector(int order) {
+  if (order < 1 || order > HshRotator::kMaxOrder) {
+    throw Error(ExitCode::usage, "",
+                text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
+  }
+  impl_ = std::make_unique<Impl>(order);
+}
+RadianceProjector::~RadianceProjector() = default;
+
+RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient mode, float least_m) {
+  least_m = std::max(least_m, std::numeric_limits<float>::min());
+  impl_->light.assign(3 * impl_->count, 0);
+  for (auto& g : impl_->gradient) g.assign(3 * impl_->count, 0);
+  for (std::size_t first = 0; first < h.size(); first += kBlock) {
+    const Block block(h, first, least_m);
+    switch (mode) {
+      case RadianceGradient::analytic:
+        impl_->analytic(block);
+        break;
+      case RadianceGradient::numeric:
+        impl_->numeric(block);
+        break;
+      case RadianceGradient::none:
+        impl_->values(block);
+    }
+  }
+  RadianceRecord record;
+  record.frame = h.frame;
+  record.distance_m = harmonic_mean_m(h);
+  record.light = narrowed(impl_->light);
+  if (mode != RadianceGradient::none)
+    record.gradient_x = narrowed(impl_->gradient[0]), record.gradient_y = narrowed(impl_->gradient[1]);
+  record.stderr_light = impl_->standard_error(h);
+  return record;
+}
+
+float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOptions& resolved) {
+  const float around_m = resolved.radius == RadiusRule::least ? least_distance_m(h) : record.distance_m;
+  const float most_m = std::min(around_m, static_cast<float>(*resolved.max_radius_m));
+  // Norms over the coefficients, by colour.
+  const auto norm = [](const std::vector<float>& v) {
+    DVec3 squares(0);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const auto x = static_cast<double>(v[i]);
+      squares[static_cast<int>(i % 3)] += x * x;
+    }
+    return glm::sqrt(squares);
+  };
+  const DVec3 light = norm(record.light), x = norm(record.gradient_x), y = norm(record.gradient_y);
+  const Vec3 slope[3] = {Vec3(x[0], y[0], 0), Vec3(x[1], y[1], 0), Vec3(x[2], y[2], 0)};
+  return std::max(within_gradient_m(Rgb(light), slope, most_m), std::numeric_limits<float>::min());
+}
+
+float bounded_radius_m(float radius_m, const RecordSite& site, const RecordOptions& resolved) {
+  const float least_m = std::max(static_cast<float>(*resolved.min_radius_m), site.least_radius_m);
+  const float most_m = std::min(static_cast<float>(*resolved.max_radius_m), site.most_radius_m);
+  return std::max(least_m, std::min(radius_m, most_m));
+}
+
+}  // namespace phos

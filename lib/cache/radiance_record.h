@@ -1,0 +1,49 @@
+// Light around a place as hemispherical harmonics: from a sampled hemisphere to a radiance record.
+#pragma once
+
+#include <memory>
+
+#include "cache/estimator.h"
+#include "cache/hemisphere.h"
+#include "cache/radiance_cache.h"
+#include "cache/record_options.h"
+
+namespace phos {
+
+/// How the change of coefficients with the place is found. Both let what the rays hit shine on as it does
+/// and stay in sight: they are blind to occlusion.
+enum class RadianceGradient {
+  analytic,  ///< derivative of each ray's own term (Krivanek et al. 2005, RR-5264; FORMULAS-hsh 3)
+  numeric,   ///< differences between displaced places, the hits kept: slower, the same to a few 1e-5
+  none,
+};
+
+/// Turns hemispheres into coefficients; holds the basis and memory, for one thread.
+class RadianceProjector {
+ public:
+  /// Throws Error(usage) unless 1 <= order <= HshRotator::kMaxOrder.
+  explicit RadianceProjector(int order);
+  ~RadianceProjector();
+
+  /// The record of a hemisphere, but for position and radius. c = sum of L H omega; in the gradients the
+  /// emitter's cosine is kept above 0.05 and distances above `least_m`. Distance: harmonic mean over solid
+  /// angle, misses counting as infinitely far. The standard error is known of hemispheres stratified by solid
+  /// angle alone (else 0): of a band's coefficients together it is
+  /// sum over cells of omega^2 (2l+1)/(2 pi) (Var L + L^2 (1 - mean of P_l between two points of the cell)),
+  /// where Var L comes from neighbouring strata (conservative, as standard_error_of).
+  RadianceRecord project(const Hemisphere& h, RadianceGradient mode, float least_m);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// How far such a record reaches before bounds: its distance (`harmonic`, or the least of the rays), at most
+/// max_radius_m, and no farther than where the gradient of a colour changes the coefficients by their own
+/// norm (as within_gradient_m).
+float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOptions& resolved);
+
+/// A radius within the bounds of the options and of the site, m.
+float bounded_radius_m(float radius_m, const RecordSite& site, const RecordOptions& resolved);
+
+}  // namespace phos
