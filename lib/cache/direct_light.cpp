@@ -5,14 +5,6 @@
 #include "core/sampling.h"
 
 namespace phos {
-namespace {
-
-bool visible(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
-  if (std::isfinite(light.distance_m)) return rays.visible(from, light.position, light.error_m);
-  return !rays.occluded({from.leave(light.direction), light.direction});
-}
-
-}  // namespace
 
 SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
   // The bound of scene/offset.h, for the largest coordinates and the longest edge that the scene can have.
@@ -47,7 +39,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
       if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
       const Rgb irradiance =
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
-      if (!(max_component(irradiance) > 0) || !visible(rays, receiver, light)) continue;
+      if (!(max_component(irradiance) > 0) || !in_sight(rays, receiver, light)) continue;
       const bool area = lights[i].kind == Light::Kind::area;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
                      static_cast<std::uint32_t>(i)});

@@ -55,11 +55,6 @@ bool PathTracer::sample_every_light(std::int64_t scatterings) const {
   return luminaires_->size() == 1 || (scatterings == 0 && luminaires_->size() <= kEveryLightUpTo);
 }
 
-bool PathTracer::lit_by(const SurfacePoint& point, const Illumination& light) const {
-  if (std::isfinite(light.distance_m)) return rays_->visible(point, light.position, light.error_m);
-  return !rays_->occluded({point.leave(light.direction), light.direction, 0, kInfinity});
-}
-
 /// Next-event estimation: light straight from the lights, scattered at `point`. scatter(direction, density)
 /// returns f cos and sets the density, per sr, with which the path's own sampling would choose that
 /// direction.
@@ -73,7 +68,7 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
     if (!luminaires_->illuminate(i, point.position, u_triangle, random.uniform2(), light)) return;
     float scatter_density = 0;
     const Rgb f_cos = scatter(light.direction, scatter_density);
-    if (!positive(f_cos) || !lit_by(point, light)) return;
+    if (!positive(f_cos) || !in_sight(*rays_, point, light)) return;
     const float density = light.density * probability;
     if (light.density > 0)
       sum += f_cos * light.value * (power_weight(density, scatter_density) / density);

@@ -48,7 +48,6 @@ class PathTracer {
   template <class Scatter>
   Rgb light_at(const SurfacePoint& point, bool every_light, const Scatter& scatter,
                RandomStream& random) const;
-  bool lit_by(const SurfacePoint& point, const Illumination& light) const;
   Rgb emission_at(const SurfacePoint& point, const Walk& walk) const;
   Rgb emission_beyond(const Walk& walk) const;
   static void add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum);

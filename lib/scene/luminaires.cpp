@@ -17,6 +17,11 @@ Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point) {
   return material.emission * Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
 }
 
+bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
+  if (std::isfinite(light.distance_m)) return rays.visible(from, light.position, light.error_m);
+  return !rays.occluded({from.leave(light.direction), light.direction});
+}
+
 Rgb background_luminance(const Scene& scene, const Vec3& direction) {
   return scene.environment ? scene.environment->luminance(direction) : Rgb(0);
 }

@@ -40,6 +40,9 @@ struct EmissionPoint {
   float density = 0;  ///< per m2 (of one side)
 };
 
+/// Is there nothing between a point and a sample of a light?
+bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light);
+
 class Luminaires {
  public:
   explicit Luminaires(const Scene& scene);
@@ -52,7 +55,8 @@ class Luminaires {
   /// Environment: as Environment::sample() chooses, by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
-  /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on it.
+  /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on
+  /// it.
   bool by_u_alone(std::size_t i) const { return shape_[i].cdf.empty() || shape_[i].parallelogram; }
   /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m`
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.

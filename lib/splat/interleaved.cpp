@@ -80,7 +80,7 @@ class Interleaved {
     shared_.assign(pixels_, SharedLight());
     sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
     for (std::size_t lamp = 0; lamp < lights_.size(); ++lamp) {
-      if (is_delta(lights_[lamp].kind)) {
+      if (!lights_[lamp].extended()) {
         for_each([&](std::size_t i) { shared_[i].illuminance += from_point(lamp, i); });
         continue;
       }
@@ -103,9 +103,6 @@ class Interleaved {
   }
 
  private:
-  static bool is_delta(Light::Kind kind) {
-    return kind == Light::Kind::point || kind == Light::Kind::spot || kind == Light::Kind::directional;
-  }
   static std::uint8_t state(const Sight& s) {
     return static_cast<std::uint8_t>((s.seen > 0 ? kSeen : 0) | (s.sent > s.seen ? kBlocked : 0));
   }
@@ -135,9 +132,7 @@ class Interleaved {
   }
 
   bool visible(const SurfacePoint& p, const Illumination& light) const {
-    if (!(glm::dot(p.geometric_normal, light.direction) > 0)) return false;
-    return std::isfinite(light.distance_m) ? rays_.visible(p, light.position, light.error_m)
-                                           : !rays_.occluded({p.leave(light.direction), light.direction});
+    return glm::dot(p.geometric_normal, light.direction) > 0 && in_sight(rays_, p, light);
   }
 
   Rgb from_point(std::size_t lamp, std::size_t i) const {
