@@ -9,6 +9,7 @@
 #include "image/image_provenance.h"
 #include "scene/load.h"
 #include "scene/rays.h"
+#include "splat/caches.h"
 #include "splat/render.h"
 
 namespace {
@@ -28,7 +29,8 @@ void warn_of_misses(const Tool& tool, const Rendering& rendering) {
   if (rendering.missed == 0) return;
   const double share = static_cast<double>(rendering.missed) / static_cast<double>(rendering.looked_up);
   tool.warn(text(shortest(std::ceil(1e4 * share) / 100),
-                 " % of the visible points have no record near enough (farther ones light them); write them with --misses, fill them "
+                 " % of the visible points have no record near enough (farther ones light them); write them "
+                 "with --misses, fill them "
                  "with phos-irradiance --at, or raise --accuracy"));
 }
 
@@ -71,7 +73,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> cache_paths;
   bool allow_mismatch = false;
   options.input("SCENE", scene_path, "glTF or OBJ scene");
-  options.inputs("CACHE", cache_paths, "irradiance caches of that scene; several are joined");
+  options.inputs(
+      "CACHE", cache_paths,
+      "irradiance caches of that scene, several are joined; its .brdf file (for --environment-mode hsh)");
   ExrCompression compression = ExrCompression::zip;
   RenderOptions render;
   SceneOptions scene_options;
@@ -104,24 +108,17 @@ int main(int argc, char** argv) {
                   "a picture that is not made anew has no misses; leave out --reuse");
     if (tool.up_to_date()) return;
 
-    std::vector<Container> files;
-    for (const std::string& path : cache_paths) files.push_back(Container::open(path, "irradiance"));
+    const std::vector<Container> files = open_caches(cache_paths);
     const Scene scene = [&] {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
-    IrradianceCache cache;
-    for (const Container& file : files) {
-      if (!allow_mismatch) require_same_scene(file, scene_path, scene.hash, scene.parts);
-      const IrradianceCache more = read_irradiance(file);
-      if (!cache.records.empty() && more.quantity != cache.quantity)
-        throw Error(ExitCode::mismatch, file.path(),
-                    text("holds ", more.quantity, " light, ", files.front().path(), " holds ", cache.quantity,
-                         "; make both with the same --paths of phos-irradiance"));
-      cache.accuracy = cache.records.empty() ? more.accuracy : std::min(cache.accuracy, more.accuracy);
-      cache.quantity = more.quantity;
-      cache.records.insert(cache.records.end(), more.records.begin(), more.records.end());
-    }
+    if (!allow_mismatch)
+      for (const Container& file : files) require_same_scene(file, scene_path, scene.hash, scene.parts);
+    const SplatCaches caches = read_caches(files);
+    const IrradianceCache& cache = caches.irradiance;
+    if (!caches.brdf.empty() && render.environment == EnvironmentBy::traced)
+      tool.say("the .brdf file is not used: it serves --environment-mode hsh");
     if (cache.quantity == "all")
       tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
     resolve(render, find_camera(scene, render.camera), cache);
@@ -130,7 +127,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});
     }();
-    Rendering rendering = render_scene(rays, cache, render);
+    Rendering rendering = render_scene(rays, cache, render, caches.brdf);
     put_stats(tool, rendering);
     tell_of_records(tool, render, rendering);
     require_finite(rendering.image);

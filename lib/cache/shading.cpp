@@ -47,7 +47,8 @@ Interpolated Shading::cached(const SurfacePoint& point, ShadingLog& log) const {
 }
 
 DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                            const SampleRange& samples, int gloss_rays, RandomStream& sequence) const {
+                            const SampleRange& samples, int gloss_rays, RandomStream& sequence,
+                            bool environment) const {
   DirectLight sum;
   const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
   for (std::size_t i = 0; i < lights_.size(); ++i) {
@@ -55,6 +56,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
     const float u0 = sequence.uniform();
     const Vec2 shift = sequence.uniform2();
     if (out_of_sight(extent_[i], point)) continue;
+    if (!environment && lights_[i].kind == Light::Kind::environment) continue;
     const int n = extended ? samples.count : 1;
     Rgb mean(0), square(0);
     for (int s = 0; s < n; ++s) {
@@ -67,10 +69,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       const float cosine = glm::dot(point.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
       if (extended && !(light.density > 0)) continue;
-      const bool visible = std::isfinite(light.distance_m)
-                               ? rays_.visible(point, light.position, light.error_m)
-                               : !rays_.occluded({point.leave(light.direction), light.direction});
-      if (!visible) continue;
+      if (!in_sight(rays_, point, light)) continue;
       const Rgb arriving = light.value * cosine / (extended ? light.density : 1.f);
       sum.illuminance += arriving / static_cast<float>(n);
       Rgb f = options_.cached_direct ? bsdf.evaluate_gloss(wo, light.direction)
@@ -94,7 +93,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
 
 GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                           const SampleRange& samples, int light_samples, int depth, RandomStream& sequence,
-                          RandomStream& random, ShadingLog& log) const {
+                          RandomStream& random, ShadingLog& log, bool environment) const {
   GlossLight sum;
   Rgb square(0);
   const Vec2 shift = sequence.uniform2();
@@ -104,6 +103,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) {
+      if (!environment) continue;
       const float density = lights_.density_beyond(sample.direction);
       const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
                               (1.f - light_weight(light_samples, density, samples.count, sample.density));

@@ -67,15 +67,16 @@ class Shading {
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
-  /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct.
+  /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct; without the environment if its
+  /// light is had another way.
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
-                     int gloss_rays, RandomStream& sequence) const;
+                     int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
   /// they land. `light_samples` is what direct() was called with; 0 if it was not, so that lamps count whole.
   GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                    int light_samples, int depth, RandomStream& sequence, RandomStream& random,
-                   ShadingLog& log) const;
+                   ShadingLog& log, bool environment = true) const;
 
   /// Light through mirrors and smooth glass: every branch, deterministic, to options.specular_depth. cd/m2
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,

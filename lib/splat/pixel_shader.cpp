@@ -9,8 +9,12 @@ void ShadingResult::join(const ShadingResult& other) {
 }
 
 PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
-                         bool cached_direct)
-    : rays_(rays), shading_(shading), options_(options), cached_direct_(cached_direct) {}
+                         bool cached_direct, const EnvironmentHarmonics* environment)
+    : rays_(rays),
+      shading_(shading),
+      options_(options),
+      cached_direct_(cached_direct),
+      environment_(environment) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                                const Splat& splat, const SharedLight* shared, ShadingResult& result) const {
@@ -30,8 +34,9 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
     ++result.looked_up;
     from_cache(point, bsdf, splat, light, result);
   }
-  from_lights(sample, point, bsdf, wo, shared, sequence, light);
-  if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, sequence, random, light, result.log);
+  const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
+  from_lights(sample, point, bsdf, wo, shared, by_rays, sequence, light);
+  if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
   return light;
 }
@@ -78,9 +83,22 @@ SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixe
   return {sample.index * n, n, static_cast<int>(group) * n};
 }
 
+bool PixelShader::from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                                   PixelSample& light, ShadingLog& log) const {
+  if (!environment_ || !(bsdf.has_diffuse() || bsdf.has_gloss())) return false;
+  const std::optional<EnvironmentHarmonics::Light> found = environment_->light(point, bsdf, wo);
+  if (!found) return false;
+  if (found->clamped) log.counters.count(kDarkerThanBlackEvent);
+  light.direct += found->gloss;
+  if (cached_direct_) return true;
+  light.direct += found->irradiance_lx * bsdf.diffuse_reflectance() / kPi;
+  light.illuminance_lx += luminance(found->irradiance_lx);
+  return true;
+}
+
 void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
-                              const Vec3& wo, const SharedLight* shared, RandomStream& sequence,
-                              PixelSample& light) const {
+                              const Vec3& wo, const SharedLight* shared, bool environment,
+                              RandomStream& sequence, PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
   if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
   if (shared && !(options_.direct == DirectBy::interleaved && bsdf.has_gloss())) {
@@ -92,8 +110,9 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
     light.illuminance_lx += luminance(shared->illuminance);
     return;
   }
-  const DirectLight direct = shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
-                                             range(sample, options_.gloss_samples).count, sequence);
+  const DirectLight direct =
+      shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
+                      range(sample, options_.gloss_samples).count, sequence, environment);
   light.direct += direct.radiance;
   light.noisy += direct.radiance;
   light.variance += direct.variance;
@@ -101,14 +120,14 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
 }
 
 void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
-                             const Vec3& wo, RandomStream& sequence, RandomStream& random, PixelSample& light,
-                             ShadingLog& log) const {
+                             const Vec3& wo, bool environment, RandomStream& sequence, RandomStream& random,
+                             PixelSample& light, ShadingLog& log) const {
   // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
   const int light_samples = options_.direct == DirectBy::traced || options_.direct == DirectBy::interleaved
                                 ? range(sample, options_.light_samples).count
                                 : 0;
   const GlossLight gloss = shading_.gloss(point, bsdf, wo, range(sample, options_.gloss_samples),
-                                          light_samples, 0, sequence, random, log);
+                                          light_samples, 0, sequence, random, log, environment);
   light.glossy += gloss.radiance;
   light.noisy += gloss.radiance;
   light.variance += gloss.variance;

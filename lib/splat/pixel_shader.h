@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cache/shading.h"
+#include "splat/environment_harmonics.h"
 #include "splat/interleaved.h"
 #include "splat/layers.h"
 #include "splat/render.h"
@@ -28,7 +29,9 @@ struct ShadingResult {
 /// Const, usable from any thread; holds references.
 class PixelShader {
  public:
-  PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct);
+  /// `environment`: null where the environment is traced.
+  PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct,
+              const EnvironmentHarmonics* environment = nullptr);
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
   struct Splat {
@@ -47,15 +50,21 @@ class PixelShader {
                   ShadingResult& result) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
+  /// Is the environment's light had without rays?
+  bool from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, PixelSample& light,
+                        ShadingLog& log) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                   const SharedLight* shared, RandomStream& sequence, PixelSample& light) const;
+                   const SharedLight* shared, bool environment, RandomStream& sequence,
+                   PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                  RandomStream& sequence, RandomStream& random, PixelSample& light, ShadingLog& log) const;
+                  bool environment, RandomStream& sequence, RandomStream& random, PixelSample& light,
+                  ShadingLog& log) const;
 
   const RayScene& rays_;
   const Shading& shading_;
   const RenderOptions& options_;
   bool cached_direct_;
+  const EnvironmentHarmonics* environment_;
 };
 
 }  // namespace phos

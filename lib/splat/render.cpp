@@ -121,6 +121,14 @@ void declare_options(Options& options, RenderOptions& r) {
                   "at least); or "
                   "shadow maps per area light (or environment)",
                   {1, 65536});
+  options.choice<EnvironmentBy>(
+      "environment-mode", r.environment,
+      {{"traced", EnvironmentBy::traced}, {"hsh", EnvironmentBy::hsh}, {"sh", EnvironmentBy::sh}},
+      "light of the environment on what is seen: by rays; or by hemispherical harmonics, without noise and "
+      "WITHOUT SHADOWS, as in an open place (where the tables of a .brdf file, or those made here, say that a "
+      "lobe is too sharp, it is traced); or by spherical ones, to compare");
+  options.integer("environment-order", r.environment_order, "N",
+                  "bands of those harmonics: N x N coefficients", {1, 30});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
   options.integer("gloss-samples", r.gloss_samples, "N",
                   "rays per pixel on a glossy surface, shared among its samples", {0, 65536});
@@ -136,6 +144,8 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
     throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
   if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
     throw Error(ExitCode::usage, "--edge-samples", "sends rays for direct light too; give --direct traced");
+  if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
+    throw Error(ExitCode::usage, "--environment-mode", "by harmonics is for --direct traced alone");
 }
 
 namespace {
@@ -143,7 +153,8 @@ namespace {
 /// A picture in the making: its samples pass by pass, then more of them at edges.
 class Painter {
  public:
-  Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options, Rendering& result)
+  Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
+          std::span<const BrdfTable> brdfs, Rendering& result)
       : rays_(rays),
         cache_(cache),
         options_(options),
@@ -156,7 +167,8 @@ class Painter {
         lights_(rays.scene()),
         records_(tree()),
         shading_(rays, lights_, records_, shading_options()),
-        shader_(rays, shading_, options, cached_direct()),
+        environment_(harmonics(brdfs)),
+        shader_(rays, shading_, options, cached_direct(), environment_.get()),
         layers_(width_, height_, LayerSet(options.layers)),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),
@@ -186,6 +198,17 @@ class Painter {
                        options_.leak_test == LeakTest::ray ? &rays_ : nullptr);
     for (const IrradianceRecord& r : cache_.records) records.insert(r);
     return records;
+  }
+
+  /// Null where the environment is traced.
+  std::unique_ptr<EnvironmentHarmonics> harmonics(std::span<const BrdfTable> brdfs) const {
+    if (options_.environment == EnvironmentBy::traced) return nullptr;
+    const Scene& scene = rays_.scene();
+    if (!scene.environment)
+      throw Error(ExitCode::usage, "--environment-mode", "there is no environment; give --environment FILE");
+    const Stopwatch watch(result_.seconds, "environment");
+    return std::make_unique<EnvironmentHarmonics>(scene, *scene.environment, options_.environment,
+                                                  static_cast<int>(options_.environment_order), brdfs);
   }
 
   ShadingOptions shading_options() const {
@@ -331,6 +354,7 @@ class Painter {
   Luminaires lights_;
   RecordTree records_;
   Shading shading_;
+  std::unique_ptr<const EnvironmentHarmonics> environment_;
   PixelShader shader_;
   std::unique_ptr<GlRenderer> gl_;
   Layers layers_;
@@ -348,9 +372,10 @@ class Painter {
 
 }  // namespace
 
-Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options) {
+Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
+                       std::span<const BrdfTable> brdfs) {
   Rendering result;
-  Painter(rays, cache, options, result).make();
+  Painter(rays, cache, options, brdfs, result).make();
   if (options.overlay == Overlay::records)
     result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
                                 find_camera(rays.scene(), options.camera), options.overlay_colour);

@@ -15,6 +15,7 @@
 #include "core/options.h"
 #include "image/image.h"
 #include "scene/rays.h"
+#include "splat/environment_harmonics.h"
 #include "splat/overlay.h"
 
 namespace phos {
@@ -42,6 +43,8 @@ struct RenderOptions {
   DirectBy direct = DirectBy::traced;
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
   std::int64_t shadow_map_size = 1024;
+  EnvironmentBy environment = EnvironmentBy::traced;
+  std::int64_t environment_order = 10;
   std::int64_t max_misses = 100000;
   std::string isa;
   std::uint64_t seed = 0;
@@ -62,8 +65,11 @@ struct Rendering {
   std::string renderer;           ///< of the splatter
 };
 
-/// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu.
-Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render);
+/// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu. `brdfs`: of this
+/// scene's glossy materials, for an environment by harmonics; those that it lacks are projected. Throws
+/// Error(usage) for harmonics of a scene without environment.
+Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render,
+                       std::span<const BrdfTable> brdfs = {});
 
 /// CSV: x,y,z (m), nx,ny,nz. What phos-irradiance --at reads. Atomic.
 void write_misses(const std::string& path, const std::vector<Miss>& misses);
