@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "cache/record_of.h"
 #include "core/error.h"
@@ -29,19 +30,45 @@ void set(RgbRows& rows, std::size_t k, const Rgb& value) {
   for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(c)][k] = value[c];
 }
 
+/// Four floats that one instruction takes.
+using Lanes = float __attribute__((vector_size(16)));
+constexpr std::size_t kLanes = 4;
+
+Lanes load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+void add(const Lanes (&lanes)[3], double* sums) {
+  for (std::size_t c = 0; c < 3; ++c)
+    sums[c] += static_cast<double>((lanes[c][0] + lanes[c][1]) + (lanes[c][2] + lanes[c][3]));
+}
+
 /// Adds the sum of harmonic x weight over a block to each colour.
 void add_products(const float* harmonic, const RgbRows& weights, double* sums) {
-  constexpr std::size_t kLanes = 8;
-  float lanes[3][kLanes] = {};
-  for (std::size_t k = 0; k < kBlock; k += kLanes)
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        lanes[c][lane] += harmonic[k + lane] * weights[c][k + lane];
-  for (std::size_t c = 0; c < 3; ++c) {
-    float sum = 0;
-    for (const float lane : lanes[c]) sum += lane;
-    sums[c] += static_cast<double>(sum);
+  Lanes sum[3] = {};
+  for (std::size_t k = 0; k < kBlock; k += kLanes) {
+    const Lanes h = load(harmonic + k);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += h * load(&weights[c][k]);
   }
+  add(sum, sums);
+}
+
+/// What one harmonic over a block adds to its coefficient and to the slopes of it along x and y: the harmonic
+/// weighs `value` and `along`, its own slopes weigh -per_m.
+void add_with_slopes(const float* harmonic, const float* slope_x, const float* slope_y, const RgbRows& value,
+                     const RgbRows (&along)[2], const RgbRows& per_m, double* sums, double* x, double* y) {
+  Lanes of_value[3] = {}, of_x[3] = {}, of_y[3] = {};
+  for (std::size_t k = 0; k < kBlock; k += kLanes) {
+    const Lanes h = load(harmonic + k), hx = load(slope_x + k), hy = load(slope_y + k);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Lanes weight = load(&per_m[c][k]);
+      of_value[c] += h * load(&value[c][k]);
+      of_x[c] += h * load(&along[0][c][k]) - hx * weight;
+      of_y[c] += h * load(&along[1][c][k]) - hy * weight;
+    }
+  }
+  add(of_value, sums), add(of_x, x), add(of_y, y);
 }
 
 /// Rays of a block in the frame of the hemisphere. Those that are missing from the last block carry nothing.
@@ -103,7 +130,7 @@ float harmonic_mean_m(const Hemisphere& h) {
   double weights = 0, nearness = 0;
   for (std::size_t i = 0; i < h.size(); ++i) {
     const auto weight = static_cast<double>(h.solid_sr(i));
-    weights += weight, nearness += weight / static_cast<double>(h.distance_m[i]);
+    weights += weight, nearness += weight / std::fabs(static_cast<double>(h.distance_m[i]));  // -0 is 0
   }
   return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
 }
@@ -130,21 +157,16 @@ struct RadianceProjector::Impl {
   void analytic(const Block& block) {
     basis.evaluate_batch(BasisKind::hsh, kBlock, block.x.data(), block.y.data(), block.z.data(), h.data(),
                          hx.data(), hy.data(), nullptr);
-    RgbRows along[2], minus;
+    RgbRows along[2];
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t k = 0; k < kBlock; ++k) {
         along[0][c][k] = block.per_m[c][k] * (block.normal[0][k] + 3 * block.x[k]);
         along[1][c][k] = block.per_m[c][k] * (block.normal[1][k] + 3 * block.y[k]);
-        minus[c][k] = -block.per_m[c][k];
       }
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      add_products(row(h, i), block.value, &light[3 * i]);
-      add_products(row(h, i), along[0], &gradient[0][3 * i]);
-      add_products(row(h, i), along[1], &gradient[1][3 * i]);
-      add_products(row(hx, i), minus, &gradient[0][3 * i]);
-      add_products(row(hy, i), minus, &gradient[1][3 * i]);
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      add_with_slopes(row(h, i), row(hx, i), row(hy, i), block.value, along, block.per_m, &light[3 * i],
+                      &gradient[0][3 * i], &gradient[1][3 * i]);
   }
 
   /// From a place moved by kStep of a hit's distance along an axis, the hit lies in another direction, and

@@ -14,7 +14,7 @@ namespace phos {
 /// and stay in sight: they are blind to occlusion.
 enum class RadianceGradient {
   analytic,  ///< derivative of each ray's own term (Krivanek et al. 2005, RR-5264; FORMULAS-hsh 3)
-  numeric,   ///< differences between displaced places, the hits kept: slower, the same to a few 1e-5
+  numeric,   ///< differences between displaced places, the hits kept: the same to about 1e-4
   none,
 };
 

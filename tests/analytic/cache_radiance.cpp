@@ -22,16 +22,16 @@ TEST(Gradients, EqualFiniteDifferences) {
     const RadianceRecord exact = projector.project(h, RadianceGradient::analytic, 0);
     const RadianceRecord moved = projector.project(h, RadianceGradient::numeric, 0);
     const std::vector<double> truth = scene.coefficients(DVec3(0), kOrder, fine);
-    EXPECT_LT(test::distance(test::channel(exact.light), truth), 1e-5 * test::norm(truth)) << scene.name;
+    EXPECT_LT(test::distance(test::channel(exact.light), truth), 1e-6 * test::norm(truth)) << scene.name;
     for (const int axis : {0, 1}) {
       const auto at = [&](const DVec3& p) { return scene.coefficients(p, kOrder, fine); };
       const std::vector<double> slope = test::slope_along(axis, 1e-3, at);
       const double scale = test::norm(slope) + 1e-2 * test::norm(truth);  // 1/m: even light has no slope
       EXPECT_LT(test::distance(test::channel(axis == 0 ? exact.gradient_x : exact.gradient_y), slope),
-                1e-4 * scale)
+                2e-5 * scale)
           << scene.name << ", analytic, axis " << axis;
       EXPECT_LT(test::distance(test::channel(axis == 0 ? moved.gradient_x : moved.gradient_y), slope),
-                2e-3 * scale)
+                5e-4 * scale)
           << scene.name << ", numeric, axis " << axis;
     }
   }

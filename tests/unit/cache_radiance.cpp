@@ -1,0 +1,309 @@
+// Radiance records: their file, interpolation between them, and light that leaves by a glossy lobe.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "cache/radiance_gather.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "support/gathered.h"
+#include "support/one_material.h"
+#include "support/radiance_records.h"
+#include "support/radiance_scenes.h"
+#include "support/run.h"
+
+namespace phos {
+namespace {
+
+using test::radiance_record;
+
+const Frame kFlat;
+
+Rgb sky(const Vec3& w) { return Rgb(1 + 0.5f * w.x, 1 + 0.4f * w.y * w.z, 0.5f + 0.3f * w.x * w.y); }
+
+Bounds unit_box() {
+  Bounds b;
+  b.include(Vec3(-1)), b.include(Vec3(1));
+  return b;
+}
+
+/// Largest difference of two sets of numbers.
+float farthest(const std::vector<float>& a, const std::vector<float>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  float most = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+BrdfTable phong(float exponent) {
+  Material m = test::make_material(Model::phong, Rgb(0.1f), Rgb(0.8f, 0.5f, 0.2f));
+  m.exponent = exponent;
+  Counters counters;
+  return project_brdf(test::scene_of(m), 0, {}, counters);
+}
+
+TEST(RadianceFile, KeepsEveryNumber) {
+  for (const bool gradients : {true, false}) {
+    RadianceCache cache = test::random_radiance(7, 4);
+    if (!gradients)
+      for (RadianceRecord& r : cache.records) r.gradient_x.clear(), r.gradient_y.clear();
+    const std::string path = test::scratch("radiance") + "/a.radiance";
+    write_radiance(path, cache, test::radiance_provenance());
+    const Container file = Container::open(path, "radiance");
+    EXPECT_EQ(file.tensors().size(), gradients ? 8u : 6u);
+    EXPECT_EQ(file.provenance().extra.find("order")->as_integer(), 4);
+    const RadianceCache back = read_radiance(file);
+    EXPECT_EQ(back.accuracy, cache.accuracy);
+    EXPECT_EQ(back.scene_hash, "none");
+    ASSERT_EQ(back.records.size(), 7u);
+    for (std::size_t i = 0; i < 7; ++i) {
+      const RadianceRecord &a = cache.records[i], &b = back.records[i];
+      EXPECT_EQ(a.position, b.position);
+      EXPECT_EQ(a.frame.x, b.frame.x);
+      EXPECT_EQ(a.frame.z, b.frame.z);
+      EXPECT_LT(glm::length(a.frame.y - b.frame.y), 1e-6f);
+      EXPECT_EQ(a.distance_m, b.distance_m);
+      EXPECT_EQ(a.radius_m, b.radius_m);
+      EXPECT_EQ(a.light, b.light);
+      EXPECT_EQ(a.gradient_x, b.gradient_x);
+      EXPECT_EQ(a.gradient_y, b.gradient_y);
+      EXPECT_EQ(a.stderr_light, b.stderr_light);
+    }
+  }
+}
+
+/// Colour before coefficient, as the format says.
+TEST(RadianceFile, ColumnsAreByColour) {
+  const RadianceCache cache = test::random_radiance(2, 3);
+  const std::string path = test::scratch("radiance") + "/b.radiance";
+  write_radiance(path, cache, test::radiance_provenance());
+  const Container file = Container::open(path);
+  const auto column = file.values<float>("coefficients", {2, 3, 9});
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 9; ++k)
+        EXPECT_EQ(column[(i * 3 + c) * 9 + k], cache.records[i].light[3 * k + c]);
+}
+
+TEST(RadianceFile, SameCacheSameBytesAndNoneIsAFileToo) {
+  const std::string folder = test::scratch("radiance");
+  const auto bytes = [](const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const std::string name : {"/c.radiance", "/d.radiance"})
+    write_radiance(folder + name, test::random_radiance(5, 2), test::radiance_provenance());
+  EXPECT_EQ(bytes(folder + "/c.radiance"), bytes(folder + "/d.radiance"));
+  write_radiance(folder + "/none.radiance", {}, test::radiance_provenance());
+  EXPECT_TRUE(read_radiance(Container::open(folder + "/none.radiance")).records.empty());
+}
+
+TEST(RadianceTree, ARecordAtItsOwnPlaceIsItself) {
+  RadianceTree tree(unit_box(), 0.3, 5);
+  const RadianceRecord r = radiance_record(sky, Vec3(0), kFlat, 5);
+  tree.insert(r);
+  RadianceTree::Worker worker;
+  EXPECT_FLOAT_EQ(tree.interpolate(Vec3(0), kFlat, 5, worker), 1);
+  EXPECT_LT(farthest(worker.light, r.light), 1e-6f);
+  EXPECT_LT(farthest(worker.stderr_light, r.stderr_light), 1e-6f);
+  // Beyond its reach, or seen from the back, there is nothing.
+  EXPECT_EQ(tree.interpolate({0.31f, 0, 0}, kFlat, 5, worker), 0);
+  EXPECT_EQ(farthest(worker.light, std::vector<float>(75)), 0);
+  EXPECT_EQ(tree.interpolate(Vec3(0), make_frame({0, 0, -1}), 5, worker), 0);
+}
+
+/// A function turned about the normal has the coefficients of the other frame, whatever bands are asked for.
+TEST(RadianceTree, TurnsAboutTheNormal) {
+  RadianceTree tree(unit_box(), 0.3, 6);
+  tree.insert(radiance_record(sky, Vec3(0), kFlat, 6));
+  RadianceTree::Worker worker;
+  for (const float angle : {0.3f, 2.f, -1.2f}) {
+    const Frame frame = test::turned_about_z(kFlat, angle);
+    for (const int order : {1, 3, 6, 9}) {
+      tree.interpolate(Vec3(0), frame, order, worker);
+      EXPECT_LT(farthest(worker.light, test::projected(sky, frame, std::min(order, 6))), 3e-6f)
+          << angle << " " << order;
+    }
+  }
+}
+
+/// Tilted, light that is the same from everywhere stays so, and other light nearly so: what comes from below
+/// the old horizon is not known.
+TEST(RadianceTree, TurnsToAnotherNormal) {
+  RadianceTree even(unit_box(), 0.5, 8), tree(unit_box(), 0.5, 8);
+  const auto one = [](const Vec3&) { return Rgb(1); };
+  even.insert(radiance_record(one, Vec3(0), kFlat, 8));
+  const RadianceRecord r = radiance_record(sky, Vec3(0), kFlat, 8);
+  tree.insert(r);
+  RadianceTree::Worker worker;
+  for (const float tilt : {0.05f, 0.15f, 0.3f}) {
+    const Frame frame = make_frame({0.6f * std::sin(tilt), -0.8f * std::sin(tilt), std::cos(tilt)});
+    EXPECT_GT(even.interpolate(Vec3(0), frame, 8, worker), 0);
+    EXPECT_LT(farthest(worker.light, test::projected(one, frame, 8)), 2e-3f) << tilt;
+    tree.interpolate(Vec3(0), frame, 8, worker);
+    const auto off = [&](const std::vector<float>& light) {
+      const std::vector<double> truth = test::channel(test::projected(sky, frame, 8));
+      return test::distance(test::channel(light), truth) / test::norm(truth);
+    };
+    EXPECT_LT(off(worker.light), 0.1 * static_cast<double>(tilt));
+    // It was turned: left as it is, the light would be wrong by more.
+    EXPECT_GT(off(r.light), 2.5 * off(worker.light)) << off(r.light);
+  }
+}
+
+/// Light that changes evenly with the place is right between records, in whatever frames they keep it.
+TEST(RadianceTree, ExtrapolatesByGradients) {
+  const auto light_at = [](const Vec3& p) {
+    return [p](const Vec3& w) { return (1 + 0.5f * p.x - 0.3f * p.y) * sky(w); };
+  };
+  RadianceTree tree(unit_box(), 0.5, 4);
+  for (const Vec3& p : {Vec3(0), Vec3(0.2f, 0.1f, 0), Vec3(-0.1f, 0.2f, 0)}) {
+    const Frame frame = test::turned_about_z(kFlat, 3 * p.x);
+    RadianceRecord r = radiance_record(light_at(p), p, frame, 4);
+    const std::vector<float> base = test::projected(sky, frame, 4);
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      r.gradient_x[i] = base[i] * (0.5f * frame.x.x - 0.3f * frame.x.y);
+      r.gradient_y[i] = base[i] * (0.5f * frame.y.x - 0.3f * frame.y.y);
+    }
+    tree.insert(r);
+  }
+  RadianceTree::Worker worker;
+  const Vec3 p(0.05f, 0.1f, 0);
+  const float weight = tree.interpolate(p, kFlat, 4, worker);
+  EXPECT_EQ(worker.found.size(), 3u);
+  EXPECT_LT(farthest(worker.light, test::projected(light_at(p), kFlat, 4)), 5e-6f);
+  EXPECT_FLOAT_EQ(weight, tree.irradiance().interpolate(p, {0, 0, 1}).weight);
+  const Rgb e = tree.irradiance().interpolate(p, {0, 0, 1}).irradiance;
+  EXPECT_NEAR(e.x, 1.2533141f * worker.light[0] + 0.7236013f * worker.light[6], 1e-5f);
+}
+
+/// A step that would change the light by more than its own energy is shortened to that.
+TEST(RadianceTree, BoundsTheExtrapolation) {
+  RadianceTree tree(unit_box(), 0.5, 3);
+  RadianceRecord r = radiance_record(sky, Vec3(0), kFlat, 3);
+  for (std::size_t i = 0; i < r.light.size(); ++i) r.gradient_x[i] = -100 * r.light[i];
+  tree.insert(r);
+  RadianceTree::Worker worker;
+  tree.interpolate({0.005f, 0, 0}, kFlat, 3, worker);
+  EXPECT_NEAR(worker.light[0], 0.5f * r.light[0], 1e-4f);
+  tree.interpolate({0.4f, 0, 0}, kFlat, 3, worker);
+  EXPECT_NEAR(worker.light[0], 0, 1e-4f);
+}
+
+/// Light leaving by a lobe is the integral of the lobe and the light: what the table's own lookup says of the
+/// light projected there.
+TEST(RadianceTree, LightThatLeaves) {
+  const BrdfTable table = phong(8);
+  const BrdfLookup brdf(table);
+  RadianceTree tree(unit_box(), 0.3, 10);
+  tree.insert(radiance_record(sky, Vec3(0), test::turned_about_z(kFlat, 1), 10));
+  RadianceTree::Worker worker;
+  const std::vector<float> light = test::projected(sky, kFlat, 10);
+  for (const Vec3& towards : {Vec3(0, 0, 1), Vec3(0.5f, 0.2f, 0.8f), Vec3(-0.9f, 0.1f, 0.4f)}) {
+    const Vec3 wo = glm::normalize(towards);
+    if (brdf.order(wo) == 0) continue;
+    const GlossyLight out = tree.outgoing(Vec3(0), kFlat, wo, brdf, worker);
+    EXPECT_EQ(worker.light.size(), 3 * static_cast<std::size_t>(harmonic_count(brdf.order(wo))));
+    const Rgb expected = brdf.outgoing(wo, light);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(out.radiance[c], expected[c], 1e-5f);
+      EXPECT_GT(out.radiance[c], 0);
+      // All bands err by 0.01: as much as the lobe is large.
+      float energy = 0;
+      const std::vector<float> lobe = brdf.coefficients(wo);
+      for (std::size_t i = static_cast<std::size_t>(c); i < worker.light.size(); i += 3)
+        energy += lobe[i] * lobe[i];
+      EXPECT_NEAR(out.stderr_cd[c], 0.01f * std::sqrt(energy), 1e-6f);
+    }
+  }
+  EXPECT_EQ(tree.outgoing({0.5f, 0, 0}, kFlat, {0, 0, 1}, brdf, worker).weight, 0);
+}
+
+/// Light from one narrow direction rings in the harmonics: what would be negative is black.
+TEST(RadianceTree, NeverLessThanBlack) {
+  const BrdfTable table = phong(30);
+  const BrdfLookup brdf(table);
+  RadianceTree tree(unit_box(), 0.3, 10);
+  const Vec3 lamp = glm::normalize(Vec3(0.6f, 0, 0.8f));
+  tree.insert(
+      radiance_record([&](const Vec3& w) { return Rgb(std::pow(std::max(0.f, glm::dot(w, lamp)), 200.f)); },
+                      Vec3(0), kFlat, 10));
+  RadianceTree::Worker worker;
+  float least_before = 0;
+  for (int i = 0; i < 60; ++i) {
+    const float a = 0.1f * static_cast<float>(i);
+    const Vec3 wo(0.5f * std::cos(a), 0.5f * std::sin(a), 0.8660254f);
+    if (brdf.order(wo) == 0) continue;
+    const Rgb out = tree.outgoing(Vec3(0), kFlat, wo, brdf, worker).radiance;
+    least_before = std::min(least_before, brdf.outgoing(wo, worker.light).x);
+    EXPECT_GE(std::min({out.x, out.y, out.z}), 0);
+  }
+  EXPECT_LT(least_before, 0) << "nothing rang: the test tests nothing";
+}
+
+TEST(RadianceTree, SameFromAnyThread) {
+  const RadianceCache cache = test::random_radiance(200, 5);
+  RadianceTree tree(unit_box(), 0.5, 5);
+  for (const RadianceRecord& r : cache.records) tree.insert(r);
+  const auto look = [&](std::size_t i, RadianceTree::Worker& worker) {
+    const RadianceRecord& r = cache.records[i % cache.records.size()];
+    return tree.interpolate(r.position + Vec3(0.01f), r.frame, 5, worker);
+  };
+  std::vector<std::vector<float>> alone(400), together(400);
+  RadianceTree::Worker worker;
+  for (std::size_t i = 0; i < alone.size(); ++i) look(i, worker), alone[i] = worker.light;
+  set_threads(4);
+  parallel_chunks(together.size(), 16, [&](std::size_t begin, std::size_t end) {
+    RadianceTree::Worker own;
+    for (std::size_t i = begin; i < end; ++i) look(i, own), together[i] = own.light;
+  });
+  set_threads(0);
+  EXPECT_EQ(alone, together);
+}
+
+TEST(RadianceTree, RefusesOrdersThatItDoesNotHold) {
+  EXPECT_THROW(RadianceTree(unit_box(), 0.3, 0), Error);
+  EXPECT_THROW(RadianceTree(unit_box(), 0.3, 31), Error);
+  EXPECT_THROW(RadianceProjector(0), Error);
+  RadianceTree tree(unit_box(), 0.3, 4);
+  EXPECT_DEATH(tree.insert(radiance_record(sky, Vec3(0), kFlat, 5)), "order 5 among records of order 4");
+}
+
+/// The same record from any thread and in any order of places; another item, another record.
+TEST(RadianceEstimator, DependsOnSiteAndSeedAlone) {
+  test::Gathered g(test::uniform_box(0.5f).scene);
+  const RecordOptions options = test::gather_options(g.scene, Quantity::indirect, 1, 256);
+  const auto make = [&](std::uint64_t item, std::uint64_t seed) {
+    const RadianceEstimator estimator(g.rays, g.lights, {}, options, 4, RadianceGradient::analytic, seed);
+    const auto worker = estimator.make_worker();
+    estimator.make({{1, 0, 1}, {0, 1, 0}, 77}, *worker);
+    return estimator.make({{0.5f, 0, 0.5f}, {0, 1, 0}, item}, *worker);
+  };
+  EXPECT_EQ(make(3, 1).light, make(3, 1).light);
+  EXPECT_NE(make(3, 1).light, make(4, 1).light);
+  EXPECT_NE(make(3, 1).light, make(3, 2).light);
+}
+
+/// Lower orders are the first bands of higher ones, and gradients can be left out at no change of the rest.
+TEST(RadianceEstimator, OrdersAndGradientsAreIndependent) {
+  test::Gathered g(test::uniform_box(0.5f).scene);
+  const RecordOptions options = test::gather_options(g.scene, Quantity::indirect, 1, 256);
+  const auto make = [&](int order, RadianceGradient gradient) {
+    const RadianceEstimator estimator(g.rays, g.lights, {}, options, order, gradient, 1);
+    const auto worker = estimator.make_worker();
+    return estimator.make({{0.5f, 0, 0.5f}, {0, 1, 0}, 1}, *worker);
+  };
+  const RadianceRecord high = make(7, RadianceGradient::analytic), low = make(3, RadianceGradient::analytic),
+                       without = make(7, RadianceGradient::none);
+  EXPECT_LT(farthest(low.light, {high.light.begin(), high.light.begin() + 27}), 1e-6f * high.light[0]);
+  EXPECT_LT(farthest(low.stderr_light, {high.stderr_light.begin(), high.stderr_light.begin() + 9}),
+            1e-6f * high.light[0]);
+  EXPECT_LT(farthest(without.light, high.light), 1e-6f * high.light[0]);
+  EXPECT_TRUE(without.gradient_x.empty() && without.gradient_y.empty());
+  EXPECT_EQ(without.radius_m, high.radius_m) << "the radius asks for gradients all the same";
+}
+
+}  // namespace
+}  // namespace phos
