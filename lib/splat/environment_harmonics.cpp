@@ -1,6 +1,7 @@
 #include "splat/environment_harmonics.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,18 @@ namespace phos {
 namespace {
 
 constexpr std::int64_t kMostOrder = 30;
+
+/// Points of a plane have one frame: each thread keeps its latest.
+struct Latest {
+  std::uint64_t owner = 0;
+  Frame frame;
+  std::vector<float> incident;
+};
+
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -115,7 +128,8 @@ std::vector<float> project_environment(const Environment& map, int order) {
 
 EnvironmentHarmonics::EnvironmentHarmonics(const Scene& scene, const Environment& map, EnvironmentBy by,
                                            int order, std::span<const BrdfTable> tables)
-    : sh_order_(by == EnvironmentBy::sh ? order : 2 * order),
+    : id_(next_id()),
+      sh_order_(by == EnvironmentBy::sh ? order : 2 * order),
       tables_(tables.begin(), tables.end()),
       table_of_(scene.material.size(), -1) {
   if (order < 1 || order > kMostOrder)
@@ -176,7 +190,10 @@ std::optional<EnvironmentHarmonics::Light> EnvironmentHarmonics::light(const Sur
   if (bsdf.has_gloss()) {
     const BrdfTable* table = table_of(point.material);
     if (!table || BrdfLookup(*table).order(local) == 0) return {};
-    light.gloss = BrdfLookup(*table).outgoing(local, incident(frame));
+    static thread_local Latest latest;
+    if (latest.owner != id_ || latest.frame.z != frame.z || latest.frame.x != frame.x)
+      latest = {id_, frame, incident(frame)};
+    light.gloss = BrdfLookup(*table).outgoing(local, latest.incident);
   }
   light.irradiance_lx = irradiance_lx(point.normal);
   const Rgb least = -light.irradiance_lx * bsdf.diffuse_reflectance() / kPi;

@@ -55,6 +55,7 @@ class EnvironmentHarmonics {
  private:
   const BrdfTable* table_of(std::uint32_t material) const;
 
+  std::uint64_t id_;  // no two of them have the same
   int sh_order_;
   std::vector<BrdfTable> tables_;
   std::vector<std::int32_t> table_of_;  // per material, -1: none

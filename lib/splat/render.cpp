@@ -125,7 +125,8 @@ void declare_options(Options& options, RenderOptions& r) {
       "environment-mode", r.environment,
       {{"traced", EnvironmentBy::traced}, {"hsh", EnvironmentBy::hsh}, {"sh", EnvironmentBy::sh}},
       "light of the environment on what is seen: by rays; or by hemispherical harmonics, without noise and "
-      "WITHOUT SHADOWS, as in an open place (where the tables of a .brdf file, or those made here, say that a "
+      "WITHOUT SHADOWS, as in an open place (where the tables of a .brdf file, or those made here, say that "
+      "a "
       "lobe is too sharp, it is traced); or by spherical ones, to compare");
   options.integer("environment-order", r.environment_order, "N",
                   "bands of those harmonics: N x N coefficients", {1, 30});
