@@ -1,7 +1,9 @@
 // Projects the glossy materials of a scene on hemispherical harmonics.
 #include <cmath>
 
+#include "cache/brdf_bases.h"
 #include "cache/brdf_table.h"
+#include "file/atomic_file.h"
 #include "file/tool.h"
 #include "scene/describe.h"
 #include "scene/load.h"
@@ -72,17 +74,23 @@ int main(int argc, char** argv) {
             "need no table; a scene without gloss gives an empty file. The file feeds phos-radiance and "
             "phos-splat.",
             1);
-  std::string scene_path;
+  std::string scene_path, bases_path;
   SceneOptions scene_options;
   BrdfTableOptions brdf;
   Options& options = tool.options();
   options.input("SCENE", scene_path, "glTF (.glb, .gltf) or OBJ scene");
   declare_options(options, brdf);
   declare_options(options, scene_options);
+  options.section("Output");
+  options.file("bases", bases_path,
+               "write here how much of each lobe's energy so many functions hold, of hemispherical harmonics "
+               "and of the bases they compete with (CSV)");
   options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that keep 95 % of the energy");
   options.example("phos-brdf room.glb --error 0.01 --max-order 15 -o room.brdf", "sharper, at more cost");
   return tool.run(argc, argv, [&] {
     tool.add_input("scene", scene_files(scene_path, scene_options));
+    if (options.given("reuse") && !bases_path.empty())
+      throw Error(ExitCode::usage, "--bases", "is not written where nothing is made anew; leave out --reuse");
     if (tool.up_to_date()) return;
     const Scene scene = load_scene(scene_path, scene_options);
     std::vector<BrdfTable> tables;
@@ -101,6 +109,12 @@ int main(int argc, char** argv) {
     }
     if (tables.empty()) tool.say("nothing glossy here: the file is empty");
     tool.stat("materials", materials);
+    if (!bases_path.empty()) {
+      const Tool::Timer timer = tool.time("bases");
+      AtomicFile file(bases_path);
+      file.write(basis_accuracy_csv(scene, glossy_materials(scene)));
+      file.commit();
+    }
     write_brdf(tool.output(), tables, tool.provenance("brdf", scene.hash, scene.parts));
   });
 }
