@@ -67,6 +67,10 @@ float harmonic_distance_m(const Hemisphere& h);
 /// Least distance over rays more than 10 degrees above the horizon (Tabellion and Lamorlette 2004), m.
 float least_distance_m(const Hemisphere& h);
 
+/// Does the nearer of what two neighbouring rays hit hide part of the other (B5)? Then their edge moves with
+/// the nearer. Distances below `least_m` count as that much.
+bool one_hides_other(const Hemisphere& h, std::size_t a, std::size_t b, float least_m);
+
 /// Gradients of irradiance_of. Rotation by ring means of the tangent (B1; unstructured: the analytic sum on 8
 /// rings). Translation by `mode`: hybrid, analytic, ward_heckbert, krivanek or none; an unstructured set
 /// and one of equal solid angles allow analytic and none. Distances below `least_m` count as that much (a ray

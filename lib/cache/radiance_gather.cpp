@@ -58,7 +58,7 @@ RadianceRecord RadianceEstimator::make(const RecordSite& site, Estimator::Worker
   w.gather->counters = Counters();
   // The radius asks for gradients even where the record is to have none.
   const bool without = impl_->gradient == RadianceGradient::none;
-  const RadianceGradient gradient = without ? RadianceGradient::analytic : impl_->gradient;
+  const RadianceGradient gradient = without ? RadianceGradient::hybrid : impl_->gradient;
   RadianceRecord record =
       w.projector.project(w.hemisphere, gradient, static_cast<float>(*options.min_radius_m));
   record.position = site.position;

@@ -7,6 +7,7 @@
 
 #include "cache/record_of.h"
 #include "core/error.h"
+#include "core/sampling.h"
 #include "hsh/basis.h"
 #include "hsh/quadrature.h"
 #include "hsh/rotation.h"
@@ -92,6 +93,14 @@ struct Block {
       normal[0][k] = n.x / cosine, normal[1][k] = n.y / cosine;
     }
   }
+};
+
+/// Light that comes into sight at edges of what hides it, by direction, per metre of movement along x and y.
+struct Edges {
+  Row x{}, y{}, z{};
+  RgbRows along[2]{};
+  std::size_t size = 0;
+  void clear() { *this = {}, z.fill(1); }
 };
 
 std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
@@ -191,6 +200,54 @@ struct RadianceProjector::Impl {
     }
   }
 
+  /// Adds what is at the edges, and forgets it.
+  void take(Edges& edges) {
+    if (edges.size == 0) return;
+    basis.evaluate_batch(BasisKind::hsh, kBlock, edges.x.data(), edges.y.data(), edges.z.data(), h.data());
+    for (std::size_t i = 0; i < count; ++i)
+      for (const std::size_t axis : {0u, 1u})
+        add_products(row(h, i), edges.along[axis], &gradient[axis][3 * i]);
+    edges.clear();
+  }
+
+  /// The edge between what is near and what is far moves with the near: what the analytic gradient takes to
+  /// move with the far is short of the difference, as solid angle: length of the edge across the movement x
+  /// difference of 1/r.
+  void occlusion(const Hemisphere& seen, float least_m) {
+    Edges edges;
+    edges.clear();
+    const auto edge = [&](std::size_t before, std::size_t cell, const Vec3& w, float length,
+                          const Vec2& across) {
+      if (!one_hides_other(seen, before, cell, least_m)) return;
+      const float a = 1 / std::max(seen.distance_m[before], least_m),
+                  b = 1 / std::max(seen.distance_m[cell], least_m);
+      const Rgb far = a >= b ? seen.radiance[cell] : -seen.radiance[before];
+      const Rgb shown = length * std::fabs(a - b) * far;
+      edges.x[edges.size] = w.x, edges.y[edges.size] = w.y, edges.z[edges.size] = w.z;
+      set(edges.along[0], edges.size, across.x * shown), set(edges.along[1], edges.size, across.y * shown);
+      if (++edges.size == kBlock) take(edges);
+    };
+    const auto slice_count = static_cast<float>(seen.slices);
+    const auto cosine = [&](float ring) { return 1 - ring / static_cast<float>(seen.rings); };
+    const auto sine = [&](float c) { return std::sqrt(std::max(0.f, (1 - c) * (1 + c))); };
+    for (int j = 0; j < seen.rings; ++j) {
+      const auto ring = static_cast<float>(j);
+      const float upper = cosine(ring), middle = cosine(ring + 0.5f), lower = cosine(ring + 1);
+      // Of the arc from the upper to the lower edge.
+      const float arc = std::atan2(sine(lower), lower) - std::atan2(sine(upper), upper);
+      for (int k = 0; k < seen.slices; ++k) {
+        const Vec2 centre = cos_sin((static_cast<float>(k) + 0.5f) / slice_count),
+                   side = cos_sin(static_cast<float>(k) / slice_count);
+        if (j > 0) {
+          edge(seen.at(j - 1, k), seen.at(j, k), Vec3(sine(upper) * centre, upper),
+               2 * kPi / slice_count * sine(upper) * upper, centre);
+        }
+        edge(seen.at(j, k - 1), seen.at(j, k), Vec3(sine(middle) * side, middle), arc, {-side.y, side.x});
+      }
+    }
+    take(edges);
+  }
+
   std::vector<float> standard_error(const Hemisphere& hemisphere) {
     const auto order = static_cast<std::size_t>(basis.order());
     if (!hemisphere.stratified() || hemisphere.measure != Measure::solid)
@@ -238,6 +295,7 @@ RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient 
     const Block block(h, first, least_m);
     switch (mode) {
       case RadianceGradient::analytic:
+      case RadianceGradient::hybrid:
         impl_->analytic(block);
         break;
       case RadianceGradient::numeric:
@@ -247,6 +305,8 @@ RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient 
         impl_->values(block);
     }
   }
+  if (mode == RadianceGradient::hybrid && h.stratified() && h.measure == Measure::solid)
+    impl_->occlusion(h, least_m);
   RadianceRecord record;
   record.frame = h.frame;
   record.distance_m = harmonic_mean_m(h);

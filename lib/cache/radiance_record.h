@@ -10,11 +10,13 @@
 
 namespace phos {
 
-/// How the change of coefficients with the place is found. Both let what the rays hit shine on as it does
-/// and stay in sight: they are blind to occlusion.
+/// How the change of coefficients with the place is found. What the rays hit shines on as it does; analytic
+/// and numeric let all of it stay in sight, and so are blind to occlusion.
 enum class RadianceGradient {
   analytic,  ///< derivative of each ray's own term (Krivanek et al. 2005, RR-5264; FORMULAS-hsh 3)
-  numeric,   ///< differences between displaced places, the hits kept: the same to about 1e-4
+  hybrid,    ///< and edges between neighbouring rays, that move with what is nearer (as B5 of irradiance);
+             ///< of hemispheres stratified by solid angle, else analytic
+  numeric,   ///< differences between displaced places, the hits kept: the same as analytic to about 1e-4
   none,
 };
 

@@ -157,12 +157,11 @@ bool in_front(const Hemisphere& h, std::size_t at, std::size_t of) {
 }
 
 /// B5: at an edge before which lies something near, that moves with the near thing.
-Sum occlusion(const Hemisphere& h, const Cells& cells) {
+Sum occlusion(const Hemisphere& h, const Cells& cells, float least_m) {
   Sum sum;
   cells.for_each_wall([&](std::size_t before, std::size_t cell, double length, const DVec2& direction) {
+    if (!one_hides_other(h, before, cell, least_m)) return;
     const double a = cells.nearness(before), b = cells.nearness(cell);
-    if (!(std::max(a, b) > kJump * std::min(a, b))) return;
-    if (in_front(h, before, cell) && in_front(h, cell, before)) return;
     const DVec3 far = a >= b ? cells.light(cell) : -cells.light(before);
     sum.add(length * std::fabs(a - b) * far, direction);
   });
@@ -170,6 +169,14 @@ Sum occlusion(const Hemisphere& h, const Cells& cells) {
 }
 
 }  // namespace
+
+bool one_hides_other(const Hemisphere& h, std::size_t a, std::size_t b, float least_m) {
+  const auto far = [&](std::size_t i) {
+    return static_cast<double>(std::max({h.distance_m[i], least_m, std::numeric_limits<float>::min()}));
+  };
+  const double ra = far(a), rb = far(b);
+  return std::max(ra, rb) > kJump * std::min(ra, rb) && !(in_front(h, a, b) && in_front(h, b, a));
+}
 
 Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m) {
   Gradients g;
@@ -195,7 +202,7 @@ Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m) {
       break;
     case GradientMode::hybrid: {
       translation = analytic(h, least_m);
-      const Sum edges = occlusion(h, cells);
+      const Sum edges = occlusion(h, cells, least_m);
       for (int c = 0; c < 3; ++c) translation.rows[c] += edges.rows[c];
       break;
     }

@@ -84,7 +84,7 @@ TEST(Furnace, OneCoefficientIsAll) {
   const RecordTree all = test::uniform_tree(Vec3(0), {2, 1, 1.5f}, 2);  // M / (1 - rho)
   const GatherSource source{.indirect = &all, .holds_direct = true};
   const double radiance = 1 / std::numbers::pi;  // rho E / pi
-  for (const auto mode : {RadianceGradient::analytic, RadianceGradient::numeric}) {
+  for (const auto mode : {RadianceGradient::analytic, RadianceGradient::hybrid, RadianceGradient::numeric}) {
     const RadianceEstimator estimator(rays, lights, source, options, 10, mode, 1);
     const auto worker = estimator.make_worker();
     for (std::uint64_t i = 0; i < s.checks.size(); ++i) {

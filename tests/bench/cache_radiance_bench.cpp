@@ -37,7 +37,7 @@ const Ground& ground() {
 void record(benchmark::State& state) {
   const Ground& g = ground();
   const RadianceEstimator estimator(g.rays, g.lights, {}, g.options, static_cast<int>(state.range(0)),
-                                    RadianceGradient::analytic, 1);
+                                    RadianceGradient::hybrid, 1);
   const auto worker = estimator.make_worker();
   std::size_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(estimator.make(g.sites[i++ % g.sites.size()], *worker));
@@ -58,6 +58,7 @@ BENCHMARK_CAPTURE(projection, analytic, RadianceGradient::analytic)
     ->Arg(5)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(projection, hybrid, RadianceGradient::hybrid)->Arg(10)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(projection, numeric, RadianceGradient::numeric)->Arg(10)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(projection, none, RadianceGradient::none)->Arg(10)->Unit(benchmark::kMillisecond);
 

@@ -21,7 +21,7 @@ struct One {
   explicit One(const Scene& scene, std::int64_t rays = 1024, int order = 6)
       : gathered(scene),
         options(test::gather_options(scene, Quantity::indirect, 1, rays)),
-        estimator(gathered.rays, gathered.lights, {}, options, order, RadianceGradient::analytic, 1),
+        estimator(gathered.rays, gathered.lights, {}, options, order, RadianceGradient::hybrid, 1),
         worker(estimator.make_worker()) {}
   RadianceRecord at(const Vec3& p, const Vec3& n) {
     const RadianceRecord r = estimator.make({p, n, 1}, *worker);

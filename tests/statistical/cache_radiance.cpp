@@ -65,6 +65,32 @@ TEST(Radiance, NoBiasAndAnHonestError) {
   }
 }
 
+/// A dark plate before a lamp: the edge of its shadow moves with the plate, which only neighbouring rays
+/// tell. The mean over many hemispheres, relative to the truth, by finite differences; edges lie anywhere in
+/// their cells, and on the mean of those on their walls.
+TEST(Radiance, HybridGradientsSeeOcclusion) {
+  const test::GradientScene scene = test::gradient_scene("rect_occluded");
+  const auto at = [&](const DVec3& p) { return test::coefficients(scene, scene.receiver + p, kOrder); };
+  const std::vector<double> slope_x = test::slope_along(0, 0.01, at),
+                            slope_y = test::slope_along(1, 0.01, at);
+  RadianceProjector projector(kOrder);
+  const auto error = [&](RadianceGradient mode, int rings) {
+    Spread x, y;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      RandomStream random(33, Stage::test, i);
+      const RadianceRecord r = projector.project(test::seen_over_solid_angle(scene, rings, random), mode, 0);
+      x.add(test::channel(r.gradient_x)), y.add(test::channel(r.gradient_y));
+    }
+    std::vector<double> mean_x, mean_y;
+    for (std::size_t i = 0; i < slope_x.size(); ++i) mean_x.push_back(x.mean(i)), mean_y.push_back(y.mean(i));
+    return std::hypot(test::distance(mean_x, slope_x), test::distance(mean_y, slope_y)) /
+           std::hypot(test::norm(slope_x), test::norm(slope_y));
+  };
+  EXPECT_GT(error(RadianceGradient::analytic, 36), 0.3);
+  EXPECT_LT(error(RadianceGradient::hybrid, 16), 0.15);
+  EXPECT_LT(error(RadianceGradient::hybrid, 36), 0.08);
+}
+
 /// Rays without strata would err by (n^2 |L|^2 - |c|^2) / N (FORMULAS-hsh 2); strata make it less, and much
 /// less for even light, whose error is that of the harmonics within cells alone and is stated exactly.
 TEST(Radiance, StrataTakeMostOfTheNoise) {

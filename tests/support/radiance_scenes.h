@@ -85,14 +85,14 @@ inline std::vector<RadianceScene> radiance_scenes() {
                 [](const DVec3& q) { return 2 + std::sin(q.x) + 0.5 * q.y * q.z; })};
 }
 
-/// Coefficients of a scene of rectangles (not occluded) seen from p, by quadrature over its surfaces, and
-/// what they are after a step: the light stays where it is.
+/// Coefficients of a scene of rectangles seen from p, by quadrature over its surfaces: the light stays where
+/// it is. An occluder takes away what its projection from p covers of the first.
 inline std::vector<double> coefficients(const GradientScene& scene, const DVec3& p, int order) {
   constexpr int kNodes = 48;
   const HarmonicBasis<double> basis(order);
   std::vector<double> sum(static_cast<std::size_t>(basis.count())), value(sum), node, weight;
   gauss_legendre(kNodes, node, weight);
-  for (const Rectangle& r : scene.rectangles) {
+  const auto add = [&](const Rectangle& r, double luminance) {
     for (std::size_t i = 0; i < kNodes; ++i) {
       for (std::size_t j = 0; j < kNodes; ++j) {
         // Harmonics are smooth in the root of the height: walls stand on the horizon.
@@ -101,11 +101,18 @@ inline std::vector<double> coefficients(const GradientScene& scene, const DVec3&
         const DVec3 step = r.point(r.lo + DVec2(u, v) * (r.hi - r.lo)) - p;
         const double d2 = glm::dot(step, step), d = std::sqrt(d2);
         basis.evaluate(BasisKind::hsh, step.x / d, step.y / d, step.z / d, value.data());
-        const double light = r.luminance * area * std::fabs(step[r.axis]) / (d2 * d);
+        const double light = luminance * area * std::fabs(step[r.axis]) / (d2 * d);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += light * value[k];
       }
     }
-  }
+  };
+  for (const Rectangle& r : scene.rectangles) add(r, r.luminance);
+  if (!scene.occluded) return sum;
+  const Rectangle &lamp = scene.rectangles.front(), &occluder = scene.rectangles.back();
+  const double grown = (lamp.at - p.z) / (occluder.at - p.z);
+  const DVec2 eye(p), lo = glm::max(lamp.lo, eye + (occluder.lo - eye) * grown),
+                      hi = glm::min(lamp.hi, eye + (occluder.hi - eye) * grown);
+  if (lo.x < hi.x && lo.y < hi.y) add({lamp.axis, lamp.at, lo, hi}, -lamp.luminance);
   return sum;
 }
 

@@ -295,7 +295,7 @@ TEST(RadianceEstimator, OrdersAndGradientsAreIndependent) {
     const auto worker = estimator.make_worker();
     return estimator.make({{0.5f, 0, 0.5f}, {0, 1, 0}, 1}, *worker);
   };
-  const RadianceRecord high = make(7, RadianceGradient::analytic), low = make(3, RadianceGradient::analytic),
+  const RadianceRecord high = make(7, RadianceGradient::hybrid), low = make(3, RadianceGradient::hybrid),
                        without = make(7, RadianceGradient::none);
   EXPECT_LT(farthest(low.light, {high.light.begin(), high.light.begin() + 27}), 1e-6f * high.light[0]);
   EXPECT_LT(farthest(low.stderr_light, {high.stderr_light.begin(), high.stderr_light.begin() + 9}),
