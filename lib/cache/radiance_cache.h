@@ -88,9 +88,9 @@ class RadianceTree {
   };
   /// Sets worker.light to the light that arrives at p in `frame` (z its normal, unit), to `order` bands (at
   /// most those of the records; bands above are cut off before records are turned, which is exact between
-  /// equal normals): the sum of w R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would
-  /// change a record by more than its own energy is shortened to that. Returns the sum of weights; 0: no
-  /// record is valid, all is 0.
+  /// equal normals and costs about 1% of the light that leaves where they differ by 20 degrees): the sum of w
+  /// R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would change a record by more than its
+  /// own energy is shortened to that. Returns the sum of weights; 0: no record is valid, all is 0.
   float interpolate(const Vec3& p, const Frame& frame, int order, Worker& worker) const;
   /// Light that leaves p towards wo (unit, local in `frame`) through the lobe of `brdf`. Where
   /// brdf.order(wo) is 0 the lobe is to be traced: that is not done here, and looks like a miss.

@@ -264,11 +264,37 @@ TEST(RadianceTree, SameFromAnyThread) {
 }
 
 TEST(RadianceTree, RefusesOrdersThatItDoesNotHold) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_THROW(RadianceTree(unit_box(), 0.3, 0), Error);
   EXPECT_THROW(RadianceTree(unit_box(), 0.3, 31), Error);
   EXPECT_THROW(RadianceProjector(0), Error);
   RadianceTree tree(unit_box(), 0.3, 4);
   EXPECT_DEATH(tree.insert(radiance_record(sky, Vec3(0), kFlat, 5)), "order 5 among records of order 4");
+}
+
+TEST(RadianceEstimator, RaysLieInCellsOfEqualSolidAngle) {
+  test::Gathered g(test::uniform_box(0.5f).scene);
+  const RecordOptions options = test::gather_options(g.scene, Quantity::indirect, 1, 1000);
+  const RadianceEstimator estimator(g.rays, g.lights, {}, options, 2, RadianceGradient::none, 1);
+  const auto worker = estimator.make_worker();
+  estimator.make({{0.5f, 0, 0.5f}, {0, 1, 0}, 1}, *worker);
+  const Hemisphere& h = RadianceEstimator::seen(*worker);
+  EXPECT_EQ(h.measure, Measure::solid);
+  double solid = 0, projected = 0;
+  for (int j = 0; j < h.rings; ++j) {
+    for (int k = 0; k < h.slices; ++k) {
+      const std::size_t i = h.at(j, k);
+      const Vec3 w = h.frame.to_local(h.direction[i]);
+      EXPECT_NEAR((1 - w.z) * static_cast<float>(h.rings), static_cast<float>(j) + 0.5f, 0.5001f);
+      const float turns = std::atan2(w.y, w.x) / (2 * kPi);
+      EXPECT_NEAR((turns < 0 ? turns + 1 : turns) * static_cast<float>(h.slices),
+                  static_cast<float>(k) + 0.5f, 0.501f);
+      EXPECT_NEAR(h.projected_sr[i], h.solid_sr(i) * w.z, 1e-6f * h.solid_sr(i));
+      solid += static_cast<double>(h.solid_sr(i)), projected += static_cast<double>(h.projected_sr[i]);
+    }
+  }
+  EXPECT_NEAR(solid, 2 * std::numbers::pi, 1e-4);
+  EXPECT_NEAR(projected, std::numbers::pi, 0.01);
 }
 
 /// The same record from any thread and in any order of places; another item, another record.
