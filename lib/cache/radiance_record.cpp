@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "cache/radiance_error.h"
 #include "cache/record_of.h"
 #include "core/error.h"
 #include "core/sampling.h"
 #include "hsh/basis.h"
-#include "hsh/quadrature.h"
 #include "hsh/rotation.h"
 
 namespace phos {
@@ -105,36 +105,6 @@ struct Edges {
 
 std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
 
-/// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: what of a
-/// harmonic's square varies within the cell, since the addition theorem makes P_l of the sum over a band. On
-/// the sphere of which HSH are harmonics, cells are of equal area too.
-std::vector<double> variation_in_cell(int ring, int rings, int slices, int order) {
-  constexpr int kPoints = 6;
-  std::vector<double> node, weight, variation(static_cast<std::size_t>(order));
-  gauss_legendre(kPoints, node, weight);
-  const auto each = [&](const auto& use) {
-    for (std::size_t a = 0; a < kPoints; ++a) use(0.5 + 0.5 * node[a], 0.5 * weight[a]);
-  };
-  each([&](double u, double wu) {
-    each([&](double v, double wv) {
-      const double z = 1 - 2 * (ring + u) / rings, z2 = 1 - 2 * (ring + v) / rings;
-      const double across = std::sqrt((1 - z * z) * (1 - z2 * z2));
-      // The difference of two places in a slice is spread as a triangle.
-      each([&](double t, double wt) {
-        const double cosine = z * z2 + across * std::cos(2 * std::numbers::pi / slices * t);
-        const double share = wu * wv * wt * 2 * (1 - t);
-        double before = 0, p = 1;
-        for (int l = 0; l < order; ++l) {
-          variation[static_cast<std::size_t>(l)] += share * (1 - p);
-          const double next = ((2 * l + 1) * cosine * p - l * before) / (l + 1);
-          before = p, p = next;
-        }
-      });
-    });
-  });
-  return variation;
-}
-
 float harmonic_mean_m(const Hemisphere& h) {
   double weights = 0, nearness = 0;
   for (std::size_t i = 0; i < h.size(); ++i) {
@@ -147,13 +117,13 @@ float harmonic_mean_m(const Hemisphere& h) {
 }  // namespace
 
 struct RadianceProjector::Impl {
-  explicit Impl(int order) : basis(order), count(static_cast<std::size_t>(harmonic_count(order))) {}
+  explicit Impl(int order)
+      : basis(order), count(static_cast<std::size_t>(harmonic_count(order))), error(order) {}
   HarmonicBasis<float> basis;
   std::size_t count;
   std::vector<float> h = std::vector<float>(count * kBlock), hx = h, hy = h;
   std::vector<double> light, gradient[2];
-  int rings = 0, slices = 0;                   ///< that `variation` is for
-  std::vector<std::vector<double>> variation;  ///< by ring and band
+  RadianceError error;
 
   const float* row(const std::vector<float>& table, std::size_t i) const { return table.data() + i * kBlock; }
 
@@ -247,35 +217,6 @@ struct RadianceProjector::Impl {
     }
     take(edges);
   }
-
-  std::vector<float> standard_error(const Hemisphere& hemisphere) {
-    const auto order = static_cast<std::size_t>(basis.order());
-    if (!hemisphere.stratified() || hemisphere.measure != Measure::solid)
-      return std::vector<float>(3 * order);
-    if (rings != hemisphere.rings || slices != hemisphere.slices) {
-      rings = hemisphere.rings, slices = hemisphere.slices;
-      variation.clear();
-      for (int ring = 0; ring < rings; ++ring)
-        variation.push_back(variation_in_cell(ring, rings, slices, basis.order()));
-    }
-    const double cell_sr = 2 * std::numbers::pi / static_cast<double>(hemisphere.size());
-    const std::vector<float> one(hemisphere.size(), 1);
-    std::vector<DVec3> squares(order, strata_variance(hemisphere, one));
-    for (int ring = 0; ring < rings; ++ring) {
-      // Squares of the mean light of cells, from neighbours so that their noise is not in it.
-      DVec3 energy(0);
-      for (int k = 0; k < slices; ++k)
-        energy += DVec3(hemisphere.radiance[hemisphere.at(ring, k)]) *
-                  DVec3(hemisphere.radiance[hemisphere.at(ring, k + 1)]);
-      for (std::size_t l = 0; l < order; ++l)
-        squares[l] += variation[static_cast<std::size_t>(ring)][l] * energy;
-    }
-    std::vector<float> error;
-    for (const DVec3& s : squares)
-      for (int c = 0; c < 3; ++c)
-        error.push_back(static_cast<float>(cell_sr * std::sqrt(std::max(0., s[c]) / (2 * std::numbers::pi))));
-    return error;
-  }
 };
 
 RadianceProjector::RadianceProjector(int order) {
@@ -313,7 +254,7 @@ RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient 
   record.light = narrowed(impl_->light);
   if (mode != RadianceGradient::none)
     record.gradient_x = narrowed(impl_->gradient[0]), record.gradient_y = narrowed(impl_->gradient[1]);
-  record.stderr_light = impl_->standard_error(h);
+  record.stderr_light = impl_->error.of(h);
   return record;
 }
 

@@ -29,10 +29,7 @@ class RadianceProjector {
 
   /// The record of a hemisphere, but for position and radius. c = sum of L H omega; in the gradients the
   /// emitter's cosine is kept above 0.05 and distances above `least_m`. Distance: harmonic mean over solid
-  /// angle, misses counting as infinitely far. The standard error is known of hemispheres stratified by solid
-  /// angle alone (else 0): of a band's coefficients together it is
-  /// sum over cells of omega^2 (2l+1)/(2 pi) (Var L + L^2 (1 - mean of P_l between two points of the cell)),
-  /// where Var L comes from neighbouring strata (conservative, as standard_error_of).
+  /// angle, misses counting as infinitely far. Standard error: RadianceError.
   RadianceRecord project(const Hemisphere& h, RadianceGradient mode, float least_m);
 
  private:
