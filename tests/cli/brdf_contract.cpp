@@ -29,7 +29,9 @@ std::string scene_of(const std::vector<std::string>& materials) {
 
 std::string phong(const std::string& name, double kd, double ks, double exponent) {
   const auto grey = [](double v) {
-    return "[" + std::to_string(v) + "," + std::to_string(v) + "," + std::to_string(v) + "]";
+    const std::string one = std::to_string(v);
+    return text("[", one, ",", one, ",", one, "]");
+    return std::string("[").append(digits + comma + digits + comma + digits).append("]");
   };
   return R"({"name":")" + name + R"(","extras":{"phos":{"brdf":"phong","kd":)" + grey(kd) + R"(,"ks":)" +
          grey(ks) + R"(,"exponent":)" + std::to_string(exponent) + "}}}";
