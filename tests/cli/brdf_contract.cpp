@@ -1,6 +1,7 @@
 // phos-brdf at the command line: what it says, what it refuses, and what it leaves behind.
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/json.h"
 #include "file/container.h"
 #include "file/json_parse.h"
