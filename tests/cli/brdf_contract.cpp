@@ -32,7 +32,6 @@ std::string phong(const std::string& name, double kd, double ks, double exponent
   const auto grey = [](double v) {
     const std::string one = std::to_string(v);
     return text("[", one, ",", one, ",", one, "]");
-    return std::string("[").append(digits + comma + digits + comma + digits).append("]");
   };
   return R"({"name":")" + name + R"(","extras":{"phos":{"brdf":"phong","kd":)" + grey(kd) + R"(,"ks":)" +
          grey(ks) + R"(,"exponent":)" + std::to_string(exponent) + "}}}";
