@@ -22,6 +22,10 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
+/// Samples of an edge pixel that tell whether its neighbours' light is its own, and the difference, relative,
+/// from which on it is not.
+constexpr int kEdgeTests = 4;
+constexpr float kUneven = 0.25f;
 
 /// Adds its own life to an entry of a JSON object.
 class Stopwatch {
@@ -255,7 +259,7 @@ class Painter {
 
   void find_edges(const GBuffer& gbuffer) {
     const Stopwatch watch(result_.seconds, "edges");
-    edges_ = edge_pixels(gbuffer);
+    edges_ = edge_pixels(rays_.scene(), gbuffer);
     for (const std::uint32_t i : edges_) count_[i] = most_samples();
   }
   std::uint16_t most_samples() const {
@@ -300,23 +304,38 @@ class Painter {
       for (std::size_t s = 0; s < more; ++s)
         ray[s] = ray_of(i, subpixel_offset(samples_ + static_cast<int>(s)));
       rays_.intersect(ray, hit);
-      for (std::size_t s = 0; s < more; ++s)
-        layers_.add(i, shade_edge({i, static_cast<int>(s), true}, ray[s], hit[s], result));
+      bool even = !pass_.shared.empty();
+      for (std::size_t s = 0; s < more; ++s) {
+        const SampleOfPixel sample{i, static_cast<int>(s), true};
+        layers_.add(i, std::isfinite(hit[s].distance_m) ? shade_edge(sample, ray[s], hit[s], even, result)
+                                                        : background(ray[s]));
+      }
     });
   }
 
-  PixelSample shade_edge(const SampleOfPixel& sample, const Ray& ray, const Hit& hit,
+  /// `even`: the light of neighbours has been right so far. The first samples of a pixel put it to the test:
+  /// shadows may be narrower than the pixel.
+  PixelSample shade_edge(const SampleOfPixel& sample, const Ray& ray, const Hit& hit, bool& even,
                          ShadingResult& result) const {
-    if (!std::isfinite(hit.distance_m)) return background(ray);
     const SurfacePoint point = rays_.surface(ray, hit);
-    if (pass_.shared.empty()) return shader_.shade(sample, ray, point, {}, nullptr, result);
-    const SeenSurface seen{point.position, point.smooth_normal, static_cast<float>(point.material)};
-    const std::optional<std::size_t> j = nearest_alike(seen, pass_.gbuffer, sample.pixel);
+    std::optional<std::size_t> j;
+    if (!pass_.shared.empty())
+      j = nearest_alike({point.position, point.smooth_normal, static_cast<float>(point.material)},
+                        pass_.gbuffer, sample.pixel);
     if (!j) return shader_.shade(sample, ray, point, {}, nullptr, result);
+    const SharedLight& shared = pass_.shared[*j];
+    const PixelShader::Splat splat{pass_.splats.light[*j], pass_.splats.error[*j]};
     // Where a lamp is seen in part, its shadow may have an edge here.
-    const SharedLight* shared = pass_.shared[*j].variance == Rgb(0) ? &pass_.shared[*j] : nullptr;
-    return shader_.shade(sample, ray, point, {pass_.splats.light[*j], pass_.splats.error[*j]}, shared,
-                         result);
+    const bool test = sample.index < kEdgeTests;
+    if (even && !test && shared.variance == Rgb(0))
+      return shader_.shade(sample, ray, point, splat, &shared, result);
+    const PixelSample light = shader_.shade(sample, ray, point, splat, nullptr, result);
+    if (test) {
+      const float expected = luminance(shared.illuminance * light.albedo) / kPi,
+                  found = luminance(light.direct);
+      if (std::fabs(found - expected) > kUneven * std::max(found, expected)) even = false;
+    }
+    return light;
   }
 
   /// body(i, result) for i < n; results are joined in order.

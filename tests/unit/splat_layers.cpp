@@ -60,7 +60,7 @@ TEST(Edges, WhereSurfacesMeet) {
   const RayScene rays(s.scene);
   constexpr int kSide = 100;
   const GBuffer g = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, {0.5f, 0.5f});
-  const std::vector<std::uint32_t> edges = edge_pixels(g);
+  const std::vector<std::uint32_t> edges = edge_pixels(s.scene, g);
   ASSERT_FALSE(edges.empty());
   EXPECT_LT(edges.size(), g.hit.size() / 5);
   std::vector<bool> edge(g.hit.size());
@@ -76,13 +76,38 @@ TEST(Edges, WhereSurfacesMeet) {
   const Camera grazing = look_at({-7, 0.1f, 0}, {0, 0, 0}, {0, 1, 0}, 0.1f);
   const GBuffer flat = trace_gbuffer(floor_rays, grazing, kSide, 8, {0.5f, 0.5f});
   std::size_t beside_sky = 0;
-  for (const std::uint32_t i : edge_pixels(flat)) {
+  for (const std::uint32_t i : edge_pixels(floor.scene, flat)) {
     const bool sky = !flat.covered(i) || (i >= kSide && !flat.covered(i - kSide)) ||
                      (i + kSide < flat.hit.size() && !flat.covered(i + kSide)) || !flat.covered(i - 1) ||
                      !flat.covered(i + 1);
     beside_sky += sky;
     EXPECT_TRUE(sky) << i;
   }
+}
+
+/// A strip that stands out of a wall, a fifth of a pixel wide, is between pixels, and found all the same.
+TEST(Edges, WhereSomethingNarrowerThanAPixelStandsInBetween) {
+  Scene scene;
+  begin_instance(scene, "wall", add_lambert(scene, "wall", 0.5f));
+  add_quad(scene, {-2, -2, 0}, {4, 0, 0}, {0, 2, 0});
+  add_quad(scene, {-2, 0.01f, 0}, {4, 0, 0}, {0, 2, 0});
+  begin_instance(scene, "strip", add_lambert(scene, "strip", 0.9f));
+  add_quad(scene, {-2, 0, 0.1f}, {4, 0, 0}, {0, 0.01f, 0});
+  const Camera camera = look_at({0, 0.02f, 4}, {0, 0.02f, 0}, {0, 1, 0}, 2 * std::atan(0.25f));
+  scene.camera.push_back(camera);
+  finalize(scene);
+  constexpr int kSide = 40;  // a pixel is 5 cm
+  const RayScene rays(scene);
+  const GBuffer g = trace_gbuffer(rays, camera, kSide, kSide, {0.5f, 0.5f});
+  for (const Vec4& seen : g.albedo) ASSERT_EQ(seen.w, g.albedo[0].w) << "the strip hides between the pixels";
+  std::size_t above = 0, below = 0;
+  for (const std::uint32_t i : edge_pixels(scene, g)) {
+    const float y = g.position[i].y;
+    EXPECT_LT(std::fabs(y), 0.06f);
+    (y > 0.01f ? above : below) += 1;
+  }
+  EXPECT_EQ(above, kSide);
+  EXPECT_EQ(below, kSide);
 }
 
 /// Samples at edges alone come as close to many samples everywhere as those do at edges.
