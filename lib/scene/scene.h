@@ -73,7 +73,8 @@ struct Material {
   Rgb specular_colour{1};  ///< KHR_materials_specular
   float transmission = 0;  ///< KHR_materials_transmission
   /// KHR_materials_anisotropy: alpha along the tangent, turned by `anisotropy_rad` towards the bitangent, is
-  /// mix(alpha, 1, anisotropy^2). The map's red and green hold a direction, its blue a factor of `anisotropy`.
+  /// mix(alpha, 1, anisotropy^2). The map's red and green hold a direction, its blue a factor of
+  /// `anisotropy`.
   float anisotropy = 0, anisotropy_rad = 0;
   std::int32_t measured = -1;  ///< of Scene::measured
   TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map;

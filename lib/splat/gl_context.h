@@ -15,11 +15,12 @@ namespace phos {
   X(AttachShader)                                                                                            \
   X(BindBufferBase)                                                                                          \
   X(BindFramebuffer)                                                                                         \
-  X(BindTextureUnit) X(BindVertexArray) X(BlendFunc) X(CheckNamedFramebufferStatus)                          \
-      X(ClearNamedFramebufferfv) X(ClearNamedFramebufferuiv) X(ClipControl) X(ColorMask) X(CompileShader)    \
-          X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateShader) X(CreateTextures)          \
-              X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)  \
-                  X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) \
+  X(BindTextureUnit)                                                                                         \
+  X(BindVertexArray) X(BlendFunc) X(CheckNamedFramebufferStatus) X(ClearNamedFramebufferfv)                  \
+      X(ClearNamedFramebufferuiv) X(ClipControl) X(ColorMask) X(CompileShader) X(CreateBuffers)              \
+          X(CreateFramebuffers) X(CreateProgram) X(CreateShader) X(CreateTextures) X(CreateVertexArrays)     \
+              X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader) X(DeleteTextures)      \
+                  X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)                   \
                       X(DrawArraysInstanced) X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(Finish)  \
                           X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv)                    \
                               X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage)             \

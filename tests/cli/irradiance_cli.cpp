@@ -134,8 +134,8 @@ TEST(Irradiance, BadInputs) {
   expect_failure(irradiance({scene(), "-o", out}), 2, "count photons");
   expect_failure(irradiance({photons(), "-o", out}), 2, "no scene");
   expect_failure(irradiance({scene(), "--estimate", "gather", "-o", out}), 2, "earlier cache");
-  expect_failure(irradiance({scene(), photons(), "--estimate", "gather", "--gradients", "blend", "-o", out}), 2,
-                 "gradients");
+  expect_failure(irradiance({scene(), photons(), "--estimate", "gather", "--gradients", "blend", "-o", out}),
+                 2, "gradients");
   expect_failure(irradiance({scene(), photons(), "--gather-bounces", "0", "-o", out}), 2, "gather-bounces");
   expect_failure(irradiance({data("spheres.glb"), photons(), "-o", out}), 4, "another scene");
   expect_failure(irradiance({scene(), photons(), "--accuracy", "0", "-o", out}), 2, "accuracy");
