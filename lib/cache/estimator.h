@@ -9,6 +9,8 @@
 
 namespace phos {
 
+struct RadianceRecord;
+
 inline constexpr std::uint32_t kNoPhoton = ~0u;
 
 /// A place where a record is wanted.
@@ -28,6 +30,8 @@ struct Made {
   /// tell the same photons' tale.
   float least_radius_m = 0;
   float site_least_m = 0, site_most_m = kInfinity;  ///< of its RecordSite
+  /// What it stands for, where radiance records are placed: `record` is then irradiance_of() that.
+  std::shared_ptr<const RadianceRecord> radiance{};
 };
 
 /// One way of estimating irradiance. Const and usable from any thread, each with a worker of its own.
