@@ -1,70 +1,13 @@
 // Projects the glossy materials of a scene on hemispherical harmonics.
-#include <cmath>
-
 #include "cache/brdf_bases.h"
+#include "cache/brdf_report.h"
 #include "cache/brdf_table.h"
 #include "file/atomic_file.h"
 #include "file/tool.h"
 #include "scene/describe.h"
 #include "scene/load.h"
 
-namespace {
-
 using namespace phos;
-
-std::string percent(double share) { return text(std::round(1000 * share) / 10, " %"); }
-
-std::string title(const BrdfTable& table) {
-  return table.material.empty() ? text("material ", table.material_index) : text('"', table.material, '"');
-}
-
-std::string sentence(const BrdfTable& table, const std::string& model) {
-  const BrdfSummary s = summarize(table);
-  std::string out = text(title(table), ": ", model, table.isotropic ? ", " : ", anisotropic, ");
-  if (s.greatest_order == 0) {
-    out += "every direction is to be traced (--max-order or --error would have to be higher)";
-  } else {
-    out += text("orders ", s.least_order, " to ", s.greatest_order, ", mean ",
-                std::round(10 * s.mean_order) / 10, "; ", percent(s.traced_share),
-                " of directions traced; the others leave out ", percent(s.mean_error),
-                " of the energy, at most ", percent(s.worst_error));
-  }
-  out += text("; ", s.bytes, " bytes");
-  return table.note.empty() ? out : text(out, "; ", table.note);
-}
-
-Json figures(const BrdfTable& table, const std::string& model) {
-  const BrdfSummary s = summarize(table);
-  Json j;
-  j["material"] = table.material;
-  j["index"] = table.material_index;
-  j["model"] = model;
-  j["isotropic"] = table.isotropic;
-  j["order_least"] = s.least_order;
-  j["order_greatest"] = s.greatest_order;
-  j["order_mean"] = s.mean_order;
-  j["traced_share"] = s.traced_share;
-  j["error_mean"] = s.mean_error;
-  j["error_worst"] = s.worst_error;
-  j["albedo"] = table.albedo;
-  j["bytes"] = s.bytes;
-  if (!table.note.empty()) j["note"] = table.note;
-  return j;
-}
-
-void check_events(const Tool& tool, const BrdfTable& table, const Counters& counters) {
-  if (const std::uint64_t n = counters[kGainsEnergyEvent]; n > 0) {
-    tool.warn(text(title(table), " gains energy: it reflects up to ", table.albedo,
-                   " of the light that reaches it (", n, " of ", table.entries(),
-                   " directions above 1); lower its reflectances"));
-  }
-  if (const std::uint64_t n = counters[kIntricateLobeEvent]; n > 0) {
-    tool.warn(text(title(table), " is too intricate for the quadrature towards ", n, " of ", table.entries(),
-                   " directions: they are traced"));
-  }
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   Tool tool("phos-brdf", "projects glossy materials on hemispherical harmonics",
@@ -101,9 +44,9 @@ int main(int argc, char** argv) {
         Counters counters;
         const BrdfTable& table = tables.emplace_back(project_brdf(scene, material, brdf, counters));
         const std::string model = model_name(scene.material[material].model);
-        tool.say(sentence(table, model));
-        check_events(tool, table, counters);
-        materials.push_back(figures(table, model));
+        tool.say(sentence_of(table, model));
+        for (const std::string& warning : warnings_of(table, counters)) tool.warn(warning);
+        materials.push_back(figures_of(table, model));
         tool.counters().merge(counters);
       }
     }

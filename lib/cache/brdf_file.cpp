@@ -1,6 +1,7 @@
 // The `.brdf` file.
 #include <cmath>
 
+#include "cache/brdf_report.h"
 #include "cache/brdf_table.h"
 #include "core/error.h"
 #include "hsh/basis.h"
@@ -30,18 +31,6 @@ std::size_t stored_per_entry(const BrdfTable& table) {
 std::size_t entries_of(const BrdfTable& table) {
   const auto side = static_cast<std::size_t>(table.resolution);
   return table.isotropic ? side : side * side;
-}
-
-Json header_of(const BrdfTable& table) {
-  Json j;
-  j["material"] = table.material;
-  j["index"] = table.material_index;
-  j["isotropic"] = table.isotropic;
-  j["resolution"] = table.resolution;
-  j["order"] = table.order;
-  j["albedo"] = table.albedo;
-  if (!table.note.empty()) j["note"] = table.note;
-  return j;
 }
 
 /// What a header says of one table; it is text from outside, so every look-up may fail.

@@ -1,11 +1,20 @@
 #include "cache/candidates.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "cache/direct_light.h"
 #include "cache/record_maker.h"
 #include "core/random.h"
 
 namespace phos {
+namespace {
+
+/// Roundings of positions by which a place may lie beside its surface: its own, and that of a CSV file.
+constexpr float kBeside = 16;
+constexpr int kMostSurfaces = 8;  // looked at about a place: others do not lie so near each other
+
+}  // namespace
 
 Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uint64_t seed,
                              std::int64_t most) {
@@ -29,6 +38,36 @@ Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uin
 Candidates point_candidates(std::span<const SurfaceSample> points) {
   return {points.size(), [points](std::size_t i, std::vector<RecordSite>& sites) {
             sites.push_back({points[i].position, points[i].normal, kPointItems + i});
+          }};
+}
+
+std::optional<std::uint32_t> material_at(const RayScene& rays, const Vec3& p, const Vec3& n) {
+  const float beside_m = kBeside * receiver(rays.scene(), p, n).error_m;
+  Ray ray{p + beside_m * n, -n, 0, 2 * beside_m};
+  std::optional<std::uint32_t> nearest;
+  float least_m = kInfinity;
+  for (int i = 0; i < kMostSurfaces; ++i) {
+    Hit hit;
+    if (!rays.intersect(ray, hit)) break;
+    const float off_m = std::fabs(hit.distance_m - beside_m);
+    if (off_m < least_m) least_m = off_m, nearest = rays.surface(ray, hit).material;
+    ray.t_min_m = std::nextafter(hit.distance_m, kInfinity);
+  }
+  return nearest;
+}
+
+Candidates on_materials(const RayScene& rays, MaterialFilter wanted, Candidates all) {
+  return {all.count, [&rays, wanted = std::move(wanted), sites_of = std::move(all.sites)](
+                         std::size_t i, std::vector<RecordSite>& sites) {
+            const std::size_t before = sites.size();
+            sites_of(i, sites);
+            const auto unwanted = [&](const RecordSite& site) {
+              const std::optional<std::uint32_t> material = material_at(rays, site.position, site.normal);
+              return !material || !wanted(*material);
+            };
+            sites.erase(
+                std::remove_if(sites.begin() + static_cast<std::ptrdiff_t>(before), sites.end(), unwanted),
+                sites.end());
           }};
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace phos {
 struct SurfaceSample {
   Vec3 position{0}, normal{0, 0, 1};
 };
+
+/// Does a material want records?
+using MaterialFilter = std::function<bool(std::uint32_t material)>;
 
 /// Places numbered from 0, each of which holds any number of sites: one where a photon landed, several where
 /// a pixel sees a mirror.
@@ -37,6 +41,12 @@ Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uin
 /// Points in the order given. Holds a reference to them.
 Candidates point_candidates(std::span<const SurfaceSample> points);
 
+/// Those of them whose sites lie on a material that is wanted (material_at).
+Candidates on_materials(const RayScene& rays, MaterialFilter wanted, Candidates all);
+/// Material of the surface at p that faces n (unit): the nearest one within some roundings of positions to
+/// either side. Nothing: there is none.
+std::optional<std::uint32_t> material_at(const RayScene& rays, const Vec3& p, const Vec3& n);
+
 /// A picture whose visible points need records.
 struct View {
   Camera camera;
@@ -48,9 +58,9 @@ struct View {
 inline constexpr int kViewSamples = 4;  ///< of a pixel: those of phos-splat by default
 
 /// What each pixel shows: its visible point and all that mirrors, smooth glass and a few glossy rays show
-/// from there, where they have a diffuse part. Coarse to fine over the whole picture, for each sample of a
-/// pixel in turn. Holds a reference to rays.
-Candidates view_candidates(const RayScene& rays, const View& view);
+/// from there, where they have a diffuse part (or are `wanted`, if that is given). Coarse to fine over the
+/// whole picture, for each sample of a pixel in turn. Holds a reference to rays.
+Candidates view_candidates(const RayScene& rays, const View& view, const MaterialFilter& wanted = {});
 
 /// Side of the patch of surface that one pixel covers: the root of its area, m. `st` is the middle of the
 /// pixel in [0,1]^2, `travelled_m` the length of the ray's way (mirrors: all of it), `cosine` that between

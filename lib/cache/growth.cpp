@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cache/radiance_cache.h"
 #include "core/error.h"
 
 namespace phos {
@@ -30,16 +31,24 @@ float RadiusRules::add(const Made& made, const std::function<void(std::size_t, f
   return within_bounds(radius, made);
 }
 
-void RadiusRules::finish(std::vector<IrradianceRecord>& records) {
+void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance) {
   for (std::size_t i = kept_; i < made_.size(); ++i) {
     IrradianceRecord r = made_[i].record;
     const float raw = clamp_.radius_m(i);
     r.radius_m = within_bounds(raw, made_[i]);
-    if (raw < r.radius_m) {
+    const bool raised = raw < r.radius_m;
+    const float slope = raised ? raw / r.radius_m : 1;  // what is left of gradients
+    if (raised) {
       ++raised_to_least_;
-      for (Vec3& g : r.translation_gradient) g *= raw / r.radius_m;
+      for (Vec3& g : r.translation_gradient) g *= slope;
     }
     records.push_back(r);
+    if (!radiance || !made_[i].radiance) continue;
+    RadianceRecord& full = radiance->emplace_back(*made_[i].radiance);
+    full.radius_m = r.radius_m;
+    if (!raised) continue;
+    for (float& g : full.gradient_x) g *= slope;
+    for (float& g : full.gradient_y) g *= slope;
   }
 }
 

@@ -28,8 +28,9 @@ class RadiusRules {
   /// A new record. Returns its radius by now; calls shrunk(place in order, radius) for others that lose some.
   float add(const Made& made, const std::function<void(std::size_t, float)>& shrunk);
   /// Appends the new records with their final radii. Where a lower bound is above the right radius, gradients
-  /// are reduced so that extrapolation stays bounded.
-  void finish(std::vector<IrradianceRecord>& records);
+  /// are reduced so that extrapolation stays bounded. Of those that stand for radiance records, these are
+  /// appended to `radiance` (if it is not null), treated alike.
+  void finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance = nullptr);
 
   std::size_t size() const { return made_.size(); }
   std::uint64_t clamped_to_neighbour() const { return clamped_to_neighbour_; }

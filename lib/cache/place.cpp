@@ -14,7 +14,7 @@ View view_of(const PlacementOptions& p, const Scene& scene) {
 
 }  // namespace
 
-void declare_options(Options& options, PlacementOptions& p) {
+void declare_place_options(Options& options, PlacementOptions& p) {
   options.section("Placement");
   options.choice<Place>(
       "place", p.place,
@@ -30,9 +30,6 @@ void declare_options(Options& options, PlacementOptions& p) {
   options.integer("max-candidates", p.max_candidates, "N", "photons tried as places for records; 0: all",
                   {0, 1e12});
   options.integer("passes", p.passes, "N", "passes over the candidates at most", {1, 100});
-  options.text("part", p.part, "K/N",
-               "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
-               Recorded::no);
   options.text("camera", p.camera, "NAME", "with --place view: camera of the scene; the first if not given");
   options.integer("width", p.width, "PIXELS",
                   "with --place view: width; 0: from the height and the camera's aspect", {0, 65536});
@@ -45,6 +42,13 @@ void declare_options(Options& options, PlacementOptions& p) {
   options.number("max-radius-pixels", p.max_radius_pixels, "PIXELS",
                  "with --place view: largest radius as seen there (10 to 20 is usual); 0: no such bound",
                  kNotNegative);
+}
+
+void declare_options(Options& options, PlacementOptions& p) {
+  declare_place_options(options, p);
+  options.text("part", p.part, "K/N",
+               "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
+               Recorded::no);
 }
 
 void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& source) {
@@ -78,7 +82,9 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
 PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                       const RecordOptions& records, const PlacementOptions& placement,
                       const PlacementSource& source, Counters& counters) {
-  const auto by = [&](const Candidates& candidates) {
+  const auto by = [&](Candidates candidates) {
+    if (source.wanted && placement.place != Place::view)
+      candidates = on_materials(rays, source.wanted, std::move(candidates));
     return place_records(cache, estimator, rays, records, placement, candidates, counters);
   };
   switch (placement.place) {
@@ -87,11 +93,11 @@ PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const 
     case Place::given:
       return by(point_candidates(source.points));
     case Place::every:
-      return place_every(cache, estimator, rays, records, source.points, counters);
+      return place_every(cache, estimator, rays, records, source.points, counters, source.wanted);
     case Place::view:
-      return by(view_candidates(rays, view_of(placement, rays.scene())));
+      return by(view_candidates(rays, view_of(placement, rays.scene()), source.wanted));
     case Place::surface:
-      return place_on_surfaces(cache, estimator, rays, records, placement, counters);
+      return place_on_surfaces(cache, estimator, rays, records, placement, counters, source.wanted);
     case Place::automatic:
       break;
   }

@@ -1,6 +1,7 @@
 #include "cache/placement.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "cache/growth.h"
 #include "cache/placer.h"
@@ -65,7 +66,7 @@ Cover cover_of(const Candidates& candidates, const Growth& growth) {
 void finish_placement(Growth& growth, const ParallelMaker& maker, IrradianceCache& cache,
                       PlacementReport& report, Counters& counters) {
   const std::size_t before = cache.records.size();
-  growth.rules().finish(cache.records);
+  growth.rules().finish(cache.records, &report.radiance);
   report.kept = cache.records.size() - before;
   report.made = maker.made(), report.making_s = maker.seconds();
   report.clamped_to_neighbour = growth.rules().clamped_to_neighbour();
@@ -94,7 +95,16 @@ PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator
 
 PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                             const RecordOptions& resolved, std::span<const SurfaceSample> points,
-                            Counters& counters) {
+                            Counters& counters, const MaterialFilter& wanted) {
+  std::vector<SurfaceSample> chosen;
+  if (wanted) {
+    const auto unwanted = [&](const SurfaceSample& p) {
+      const std::optional<std::uint32_t> material = material_at(rays, p.position, p.normal);
+      return !material || !wanted(*material);
+    };
+    std::remove_copy_if(points.begin(), points.end(), std::back_inserter(chosen), unwanted);
+    points = chosen;
+  }
   PlacementReport report;
   report.candidates = points.size(), report.passes = 1;
   Growth growth(cache, rays, resolved);

@@ -8,6 +8,7 @@
 
 #include "cache/candidates.h"
 #include "cache/estimator.h"
+#include "cache/radiance_cache.h"
 #include "cache/record_options.h"
 #include "core/options.h"
 #include "photon/photon_map.h"
@@ -35,6 +36,8 @@ struct PlacementOptions {
 };
 
 void declare_options(Options& options, PlacementOptions& placement);
+/// All but --part.
+void declare_place_options(Options& options, PlacementOptions& placement);
 
 /// What placement may read besides the scene.
 struct PlacementSource {
@@ -42,6 +45,8 @@ struct PlacementSource {
   bool points_given = false;
   std::span<const SurfaceSample> points{};
   std::uint64_t seed = 0;  ///< of the order in which photons are tried
+  /// Materials that want records; empty: all surfaces that light can land on (of views: diffuse ones).
+  MaterialFilter wanted{};
 };
 
 /// Fills in place, and width and height of a view. Throws Error(usage) for what does not go together: photons
@@ -57,6 +62,8 @@ struct PlacementReport {
   /// By fresh points, of what light can reach: of its area, and with each triangle counting alike, so that
   /// small things beside large ones count too.
   std::optional<double> uncovered_share, uncovered_share_of_triangles;
+  /// What the new records stand for, in their order, where the estimator makes radiance records.
+  std::vector<RadianceRecord> radiance;
 };
 
 /// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all
@@ -71,18 +78,19 @@ PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator
                               const RecordOptions& resolved, const PlacementOptions& placement,
                               const Candidates& candidates, Counters& counters);
 
-/// Adds a record at each point, covered or not.
+/// Adds a record at each point (with `wanted`, of those materials), covered or not.
 PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                             const RecordOptions& resolved, std::span<const SurfaceSample> points,
-                            Counters& counters);
+                            Counters& counters, const MaterialFilter& wanted = {});
 
 /// Covers every surface that is not purely specular, from both sides, but for sides inside of solids.
 /// Triangles are cut in four until each piece lies within the reach of one record or is small beside it; a
 /// record is made at the middle of a piece that nothing covers. Repeated, since neighbours shrink each
-/// other's reach, until a pass finds less than kSurfaceShare of the area open, or `passes` are done.
+/// other's reach, until a pass finds less than kSurfaceShare of the area open, or `passes` are done. With
+/// `wanted`, surfaces of other materials are none.
 PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                                   const RecordOptions& resolved, const PlacementOptions& placement,
-                                  Counters& counters);
+                                  Counters& counters, const MaterialFilter& wanted = {});
 inline constexpr double kSurfaceShare = 1e-4;
 
 class Growth;

@@ -14,30 +14,24 @@ namespace {
 constexpr double kFirst = 1.2533141373155003;   // sqrt(pi / 2)
 constexpr double kSecond = 0.7236012545582676;  // sqrt(pi / 6)
 
-Rgb irradiance_of(const std::vector<float>& light) {
-  constexpr std::size_t kZonal = 3 * harmonic_index(1, 0);
-  Rgb e;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double sum = kFirst * static_cast<double>(light[c]);
-    if (light.size() > kZonal) sum += kSecond * static_cast<double>(light[kZonal + c]);
-    e[static_cast<int>(c)] = static_cast<float>(sum);
-  }
-  return e;
-}
-
 std::size_t count_of(int order) { return static_cast<std::size_t>(harmonic_count(order)); }
 
-/// A column of [colour][number] for each record, from and to [number][colour].
-void to_column(const std::vector<float>& record, float* column) {
-  const std::size_t n = record.size() / 3;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) column[c * n + i] = record[3 * i + c];
+/// A column of [colour][number] for each record, n numbers of which it may use fewer, from and to
+/// [number][colour].
+void to_column(const std::vector<float>& record, float* column, std::size_t n) {
+  for (std::size_t i = 0; i < record.size(); ++i) column[i % 3 * n + i / 3] = record[i];
 }
-std::vector<float> from_column(const float* column, std::size_t n) {
-  std::vector<float> record(3 * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) record[3 * i + c] = column[c * n + i];
+std::vector<float> from_column(const float* column, std::size_t n, std::size_t used) {
+  std::vector<float> record(3 * used);
+  for (std::size_t i = 0; i < record.size(); ++i) record[i] = column[i % 3 * n + i / 3];
   return record;
+}
+/// Is what a record does not use of its column 0?
+bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (std::any_of(column + c * n + used, column + (c + 1) * n, [](float x) { return x != 0; }))
+      return false;
+  return true;
 }
 
 bool all_finite(const std::vector<float>& v) {
@@ -65,6 +59,17 @@ bool is_finite(const RadianceRecord& r) {
          std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
 }
 
+Rgb irradiance_of(std::span<const float> light) {
+  constexpr std::size_t kZonal = 3 * harmonic_index(1, 0);
+  Rgb e;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = kFirst * static_cast<double>(light[c]);
+    if (light.size() > kZonal) sum += kSecond * static_cast<double>(light[kZonal + c]);
+    e[static_cast<int>(c)] = static_cast<float>(sum);
+  }
+  return e;
+}
+
 IrradianceRecord irradiance_of(const RadianceRecord& r) {
   IrradianceRecord e;
   e.position = r.position, e.normal = r.frame.z;
@@ -82,6 +87,12 @@ IrradianceRecord irradiance_of(const RadianceRecord& r) {
   return e;
 }
 
+int RadianceCache::order() const {
+  int most = 0;
+  for (const RadianceRecord& r : records) most = std::max(most, r.order());
+  return most;
+}
+
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance) {
   const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
                     count = count_of(cache.order());
@@ -90,20 +101,22 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   std::vector<float> distance(n), radius(n), light(3 * n * count), error(3 * n * bands);
   std::vector<float> along[2];
   for (auto& g : along) g.resize(gradients ? light.size() : 0);
+  std::vector<std::uint8_t> order(n);
   for (std::size_t i = 0; i < n; ++i) {
     const RadianceRecord& r = cache.records[i];
-    const std::size_t expected = gradients ? 3 * count : 0;
-    PHOS_CHECK(r.order() == cache.order() && r.light.size() == 3 * count && r.gradient_x.size() == expected &&
+    const std::size_t own = 3 * count_of(r.order()), expected = gradients ? own : 0;
+    PHOS_CHECK(r.order() >= 1 && r.light.size() == own && r.gradient_x.size() == expected &&
                    r.gradient_y.size() == expected,
                "record ", i, " is of another shape");
     PHOS_CHECK(what_is_wrong(r) == nullptr, "record ", i, " has ", what_is_wrong(r));
     position[i] = r.position, frame[2 * i] = r.frame.x, frame[2 * i + 1] = r.frame.z;
     distance[i] = r.distance_m, radius[i] = r.radius_m;
-    to_column(r.light, &light[3 * i * count]);
-    to_column(r.stderr_light, &error[3 * i * bands]);
+    order[i] = static_cast<std::uint8_t>(r.order());
+    to_column(r.light, &light[3 * i * count], count);
+    to_column(r.stderr_light, &error[3 * i * bands], bands);
     if (!gradients) continue;
-    to_column(r.gradient_x, &along[0][3 * i * count]);
-    to_column(r.gradient_y, &along[1][3 * i * count]);
+    to_column(r.gradient_x, &along[0][3 * i * count], count);
+    to_column(r.gradient_y, &along[1][3 * i * count], count);
   }
   ContainerWriter file;
   file.add_vectors("position", position, "m");
@@ -114,6 +127,8 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
     file.add<float>("gradient_x", along[0], {n, 3, count}, "cd/m2 sqrt(sr)/m");
     file.add<float>("gradient_y", along[1], {n, 3, count}, "cd/m2 sqrt(sr)/m");
   }
+  if (std::any_of(order.begin(), order.end(), [&](std::uint8_t o) { return o != order.front(); }))
+    file.add<std::uint8_t>("order", order, {n}, "1");
   file.add<float>("distance", distance, {n}, "m");
   file.add<float>("radius", radius, {n}, "m");
   provenance.kind = "radiance";
@@ -153,27 +168,39 @@ RadianceCache read_radiance(const Container& file) {
   const bool gradients = file.has("gradient_x") || file.has("gradient_y");
   const float* along[2] = {gradients ? column("gradient_x", {n, 3, count}) : nullptr,
                            gradients ? column("gradient_y", {n, 3, count}) : nullptr};
+  const std::uint8_t* own_order =
+      file.has("order") ? file.values<std::uint8_t>("order", {n}).data() : nullptr;
   RadianceCache cache;
   cache.accuracy = accuracy->as_number();
   cache.scene_hash = file.provenance().scene_hash;
   cache.records.resize(n);
+  std::vector<const char*> wrong(n);
   parallel_for(n, 256, [&](std::size_t i) {
     RadianceRecord& r = cache.records[i];
+    const std::size_t own_bands = own_order ? own_order[i] : bands, own = own_bands * own_bands;
+    if (own < 1 || own_bands > bands) {
+      wrong[i] = "no order that the file holds";
+      return;
+    }
+    const auto take = [&](const float* of_all, std::size_t stride, std::size_t used) {
+      const float* row = of_all + 3 * i * stride;
+      if (!rest_is_zero(row, stride, used)) wrong[i] = "numbers beyond its own order";
+      return from_column(row, stride, used);
+    };
     const float* f = frame + 6 * i;
     r.position = position[i];
     r.frame.x = {f[0], f[1], f[2]}, r.frame.z = {f[3], f[4], f[5]};
     r.frame.y = glm::cross(r.frame.z, r.frame.x);
     r.distance_m = distance[i], r.radius_m = radius[i];
-    r.light = from_column(light + 3 * i * count, count);
-    r.stderr_light = from_column(error + 3 * i * bands, bands);
-    if (!gradients) return;
-    r.gradient_x = from_column(along[0] + 3 * i * count, count);
-    r.gradient_y = from_column(along[1] + 3 * i * count, count);
+    r.light = take(light, count, own);
+    r.stderr_light = take(error, bands, own_bands);
+    if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
+    if (!wrong[i]) wrong[i] = what_is_wrong(r);
   });
   for (std::size_t i = 0; i < n; ++i) {
-    if (const char* wrong = what_is_wrong(cache.records[i])) {
+    if (wrong[i]) {
       throw Error(ExitCode::bad_input, file.path(),
-                  text("record ", i, " has ", wrong,
+                  text("record ", i, " has ", wrong[i],
                        "; the file is damaged or was made by a faulty program: make it again"));
     }
   }

@@ -35,21 +35,26 @@ struct RadianceRecord {
 /// Are all its numbers finite? The distance may be infinite.
 bool is_finite(const RadianceRecord& record);
 
-/// What a radiance record says of irradiance: exactly the first two zonal coefficients, E = sqrt(pi/2) c_00 +
-/// sqrt(pi/6) c_10 (FORMULAS-hsh 1), its gradient of translation from theirs, none of rotation. Place, radius
-/// and distance are the record's own: what settles radii of irradiance records settles these too.
+/// Irradiance of light [order^2][3], lx: exactly the first two zonal coefficients, E = sqrt(pi/2) c_00 +
+/// sqrt(pi/6) c_10 (FORMULAS-hsh 1). May be below 0 by ringing.
+Rgb irradiance_of(std::span<const float> light);
+
+/// What a radiance record says of irradiance, its gradient of translation from theirs, none of rotation.
+/// Place, radius and distance are the record's own: what settles radii of irradiance records settles these
+/// too.
 IrradianceRecord irradiance_of(const RadianceRecord& record);
 
 struct RadianceCache {
-  std::vector<RadianceRecord> records;  ///< all of one order, all with gradients or all without
+  std::vector<RadianceRecord> records;  ///< of any orders; all with gradients or all without
   double accuracy = 0.2;                ///< a that placed them
   std::string scene_hash;
-  int order() const { return records.empty() ? 0 : records.front().order(); }
+  int order() const;  ///< the greatest; 0: there are no records
 };
 
-/// The `.radiance` file, n records of order N: position f32[n,3] m, frame f32[n,2,3] (x axis, normal),
-/// coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are none),
-/// stderr f32[n,3,N] by band, distance and radius f32[n] m. Its header names the basis.
+/// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
+/// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
+/// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds
+/// them, and numbers beyond a record's own are 0. Its header names the basis.
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance);
 /// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named) or one of
 /// another kind.
@@ -57,7 +62,7 @@ RadianceCache read_radiance(const Container& file);
 
 /// Light that leaves a point by its glossy lobe.
 struct GlossyLight {
-  Rgb radiance{0};   ///< cd/m2, at least 0: what harmonics ring below it is cut off
+  Rgb radiance{0};   ///< cd/m2; what harmonics ring below the least is cut off
   Rgb stderr_cd{0};  ///< cd/m2, of the records' own error
   float weight = 0;  ///< sum of weights; 0: a miss
 };
@@ -92,6 +97,10 @@ class RadianceTree {
   /// R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would change a record by more than its
   /// own energy is shortened to that. Returns the sum of weights; 0: no record is valid, all is 0.
   float interpolate(const Vec3& p, const Frame& frame, int order, Worker& worker) const;
+  /// Light that leaves p through a lobe, [order^2][3] in `frame`. The least is `least` (1/sr, 0 or below)
+  /// times the irradiance.
+  GlossyLight outgoing(const Vec3& p, const Frame& frame, std::span<const float> lobe, const Rgb& least,
+                       Worker& worker) const;
   /// Light that leaves p towards wo (unit, local in `frame`) through the lobe of `brdf`. Where
   /// brdf.order(wo) is 0 the lobe is to be traced: that is not done here, and looks like a miss.
   GlossyLight outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,

@@ -19,8 +19,8 @@ void require_finite(const RadianceRecord& r) {
                    ") m exceeds the range of numbers; give the lights or the scene other units"));
 }
 
-struct Worker : Estimator::Worker {
-  explicit Worker(int order) : projector(order) {}
+struct RadianceWorker : Estimator::Worker {
+  explicit RadianceWorker(int order) : projector(order) {}
   std::unique_ptr<Estimator::Worker> gather;
   RadianceProjector projector;
   Hemisphere hemisphere;
@@ -45,13 +45,13 @@ RadianceEstimator::RadianceEstimator(const RayScene& rays, const Luminaires& lig
 RadianceEstimator::~RadianceEstimator() = default;
 
 std::unique_ptr<Estimator::Worker> RadianceEstimator::make_worker() const {
-  auto worker = std::make_unique<Worker>(impl_->order);
+  auto worker = std::make_unique<RadianceWorker>(impl_->order);
   worker->gather = impl_->gather.make_worker();
   return worker;
 }
 
-RadianceRecord RadianceEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
-  auto& w = static_cast<Worker&>(worker);
+Made RadianceEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
+  auto& w = static_cast<RadianceWorker&>(worker);
   const RecordOptions& options = impl_->options;
   impl_->gather.sample(site, options.rays, 0, w.hemisphere, *w.gather, Measure::solid);
   w.counters.merge(w.gather->counters);
@@ -67,12 +67,13 @@ RadianceRecord RadianceEstimator::make(const RecordSite& site, Estimator::Worker
   if (without) record.gradient_x.clear(), record.gradient_y.clear();
   const float rounding_m = receiver(impl_->rays.scene(), site.position, site.normal).error_m;
   const float next_m = height_over_next_m(impl_->rays, site.position, site.normal, 2 * rounding_m, reach);
-  record.radius_m = bounded_radius_m(std::min(reach, next_m / kNextSurface), site, options);
-  return record;
+  record.radius_m = std::min(reach, next_m / kNextSurface);
+  return {irradiance_of(record), 0, site.least_radius_m, site.most_radius_m,
+          std::make_shared<RadianceRecord>(std::move(record))};
 }
 
 const Hemisphere& RadianceEstimator::seen(const Estimator::Worker& worker) {
-  return static_cast<const Worker&>(worker).hemisphere;
+  return static_cast<const RadianceWorker&>(worker).hemisphere;
 }
 
 }  // namespace phos

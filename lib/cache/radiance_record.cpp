@@ -275,10 +275,4 @@ float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOpt
   return std::max(within_gradient_m(Rgb(light), slope, most_m), std::numeric_limits<float>::min());
 }
 
-float bounded_radius_m(float radius_m, const RecordSite& site, const RecordOptions& resolved) {
-  const float least_m = std::max(static_cast<float>(*resolved.min_radius_m), site.least_radius_m);
-  const float most_m = std::min(static_cast<float>(*resolved.max_radius_m), site.most_radius_m);
-  return std::max(least_m, std::min(radius_m, most_m));
-}
-
 }  // namespace phos

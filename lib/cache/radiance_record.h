@@ -42,7 +42,4 @@ class RadianceProjector {
 /// norm (as within_gradient_m).
 float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOptions& resolved);
 
-/// A radius within the bounds of the options and of the site, m.
-float bounded_radius_m(float radius_m, const RecordSite& site, const RecordOptions& resolved);
-
 }  // namespace phos

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "cache/adoption.h"
 #include "core/error.h"
 
 namespace phos {
 namespace {
-
-template <class E>
-using Names = std::vector<std::pair<std::string, E>>;
 
 const Names<Estimate> kEstimates{{"hull", Estimate::hull},
                                  {"kernel", Estimate::kernel},
@@ -35,57 +32,6 @@ const Names<Kernel> kKernels{
 const Names<GatherFrom> kSources{{"cache", GatherFrom::cache}, {"photons", GatherFrom::photons}};
 const Names<RasterBorder> kBorders{
     {"none", RasterBorder::none}, {"coverage", RasterBorder::coverage}, {"stretch", RasterBorder::stretch}};
-
-template <class E>
-const std::string& name_in(const Names<E>& names, E value) {
-  const auto found =
-      std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.second == value; });
-  PHOS_CHECK(found != names.end(), "value ", static_cast<int>(value));
-  return found->first;
-}
-
-/// Takes over what an earlier run recorded, option by option.
-class Adoption {
- public:
-  Adoption(const Options& given, const Container& earlier) : given_(given), earlier_(earlier) {}
-
-  void number(const char* name, double& value) { value = settle(name, value, &Json::as_number); }
-  void number(const char* name, std::optional<double>& value) {
-    if (find(name)) value = settle(name, value.value_or(0), &Json::as_number);
-  }
-  void integer(const char* name, std::int64_t& value) { value = settle(name, value, &Json::as_integer); }
-  template <class E>
-  void choice(const char* name, E& value, const Names<E>& names) {
-    const Json* was = find(name);
-    if (!was || !was->is_string()) return;
-    if (given_.given(name) && was->as_string() != name_in(names, value))
-      disagree(name, was->as_string(), name_in(names, value));
-    for (const auto& [text, e] : names) {
-      if (was->as_string() == text) value = e;
-    }
-  }
-
- private:
-  const Json* find(const std::string& name) const {
-    const Json* was = earlier_.provenance().parameters.find(name);
-    return was && !was->is_null() ? was : nullptr;
-  }
-  template <class T>
-  T settle(const char* name, T value, T (Json::*as)() const) const {
-    const Json* was = find(name);
-    if (!was || !was->is_number()) return value;
-    const T earlier = (was->*as)();
-    if (given_.given(name) && value != earlier) disagree(name, was->dump(), Json(value).dump());
-    return earlier;
-  }
-  [[noreturn]] void disagree(const std::string& name, const std::string& was, const std::string& now) const {
-    throw Error(ExitCode::mismatch, earlier_.path(),
-                text("was made with --", name, " ", was, ", not ", now, "; leave --", name,
-                     " out to add with the same, or make a new file without --add-to"));
-  }
-  const Options& given_;
-  const Container& earlier_;
-};
 
 }  // namespace
 
@@ -120,12 +66,7 @@ void RecordOptions::resolve(float diagonal_m) {
                    "; it gives ", names));
 }
 
-void declare_options(Options& options, RecordOptions& r) {
-  options.section("Records");
-  options.choice<Estimate>(
-      "estimate", r.estimate, kEstimates,
-      "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
-      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "error allowed in interpolation: a record serves points within A times its radius",
                  {1e-3, 1, false});
@@ -133,18 +74,11 @@ void declare_options(Options& options, RecordOptions& r) {
                  kPositive);
   options.number("max-radius", r.max_radius_m, "METRES", "largest radius (default: scene diagonal / 4)",
                  kPositive);
-  options.choice<Quantity>("paths", r.paths, kQuantities,
-                           "light that counts: indirect leaves out what comes straight from a lamp");
-  options.choice<GradientMode>(
-      "gradients", r.gradients, kGradients,
-      "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
-      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
                            "ray: a record serves a point only if the two can see each other");
-  options.section("Estimates from photons");
-  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
-  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
-                  {1, 64});
+}
+
+void declare_photon_options(Options& options, RecordOptions& r) {
   options.integer("near-photons", r.near_photons, "N",
                   "photons of the first query, for the distance to surroundings", {8, 4096});
   options.integer("min-photons", r.min_photons, "N",
@@ -156,11 +90,10 @@ void declare_options(Options& options, RecordOptions& r) {
                   "rays that look for dark surroundings; 0: photons alone", {0, 4096});
   options.integer("probes", r.probes, "N", "short rays that look for the surface where a zone is in doubt",
                   {16, 65536});
-  options.section("Estimates from rays");
+}
+
+void declare_gather_options(Options& options, RecordOptions& r) {
   options.integer("rays", r.rays, "N", "rays of a hemisphere, at most", {16, 1048576});
-  options.number("error", r.error, "E",
-                 "relative standard error at which a record has rays enough (default: all --rays are spent)",
-                 kPositive);
   options.integer("gather-bounces", r.gather_bounces, "N",
                   "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
   options.choice<GatherFrom>(
@@ -172,6 +105,31 @@ void declare_options(Options& options, RecordOptions& r) {
                   "photons that a zone of the coarse cache should hold at least", {16, 1e6});
   options.choice<RadiusRule>("radius", r.radius, kRadii,
                              "radius from the harmonic mean or the least distance");
+}
+
+void declare_options(Options& options, RecordOptions& r) {
+  options.section("Records");
+  options.choice<Estimate>(
+      "estimate", r.estimate, kEstimates,
+      "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+  declare_reach_options(options, r);
+  options.choice<Quantity>("paths", r.paths, kQuantities,
+                           "light that counts: indirect leaves out what comes straight from a lamp");
+  options.choice<GradientMode>(
+      "gradients", r.gradients, kGradients,
+      "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
+      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
+  options.section("Estimates from photons");
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
+  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
+                  {1, 64});
+  declare_photon_options(options, r);
+  options.section("Estimates from rays");
+  declare_gather_options(options, r);
+  options.number("error", r.error, "E",
+                 "relative standard error at which a record has rays enough (default: all --rays are spent)",
+                 kPositive);
   options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
                   {1, 65536});
   options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
@@ -182,13 +140,17 @@ void declare_options(Options& options, RecordOptions& r) {
 }
 
 void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {
-  Adoption from(given, earlier);
+  const Adoption from(given, earlier);
+  from.choice("gradients", r.gradients, kGradients);
+  adopt_all_but_gradients(r, from);
+}
+
+void adopt_all_but_gradients(RecordOptions& r, const Adoption& from) {
   from.choice("estimate", r.estimate, kEstimates);
   from.number("accuracy", r.accuracy);
   from.number("min-radius", r.min_radius_m);
   from.number("max-radius", r.max_radius_m);
   from.choice("paths", r.paths, kQuantities);
-  from.choice("gradients", r.gradients, kGradients);
   from.choice("leak-test", r.leak_test, kLeakTests);
   from.choice("kernel", r.kernel, kKernels);
   from.integer("hemisphere-rings", r.hemisphere_rings);

@@ -70,9 +70,16 @@ struct RecordOptions {
 };
 
 void declare_options(Options& options, RecordOptions& records);
+// Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays
+// with what they read where they land.
+void declare_reach_options(Options& options, RecordOptions& records);
+void declare_photon_options(Options& options, RecordOptions& records);
+void declare_gather_options(Options& options, RecordOptions& records);
 
 /// For adding to an earlier file: options that were not given take its values; one that was given and differs
 /// throws Error(mismatch) saying which.
 void adopt_options(RecordOptions& records, const Options& given, const Container& earlier);
+class Adoption;
+void adopt_all_but_gradients(RecordOptions& records, const Adoption& from);
 
 }  // namespace phos

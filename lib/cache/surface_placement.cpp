@@ -1,6 +1,7 @@
 // Records on every surface.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "cache/growth.h"
@@ -67,7 +68,8 @@ class Jumps {
 
 class SurfaceCover {
  public:
-  SurfaceCover(const RayScene& rays, const RecordOptions& resolved, Growth& growth, Placer& placer)
+  SurfaceCover(const RayScene& rays, const RecordOptions& resolved, const MaterialFilter& wanted,
+               Growth& growth, Placer& placer)
       : rays_(rays),
         options_(resolved),
         sides_(rays),
@@ -75,7 +77,10 @@ class SurfaceCover {
         placer_(placer),
         accuracy_(static_cast<float>(resolved.accuracy)),
         least_reach_m_(static_cast<float>(resolved.accuracy * *resolved.min_radius_m)),
-        reachable_(2 * rays.scene().triangle.size()) {}
+        reachable_(2 * rays.scene().triangle.size()) {
+    std::copy_if(sides_.sides().begin(), sides_.sides().end(), std::back_inserter(wanted_),
+                 [&](Side side) { return !wanted || wanted(sides_.point(side, Vec2(1 / 3.f)).material); });
+  }
 
   /// Looks at all surface and covers what is open.
   void pass(int number);
@@ -83,10 +88,10 @@ class SurfaceCover {
   double open_share(int pass, bool by_area) const;
 
   std::uint64_t pieces() const { return pieces_; }
-  std::uint64_t sides() const { return sides_.sides().size(); }
+  std::uint64_t sides() const { return wanted_.size(); }
   std::uint64_t sides_inside() const {
-    return static_cast<std::uint64_t>(std::count_if(sides_.sides().begin(), sides_.sides().end(),
-                                                    [&](Side side) { return !reachable_[side]; }));
+    return static_cast<std::uint64_t>(
+        std::count_if(wanted_.begin(), wanted_.end(), [&](Side side) { return !reachable_[side]; }));
   }
 
  private:
@@ -99,6 +104,7 @@ class SurfaceCover {
   const RayScene& rays_;
   const RecordOptions& options_;
   SurfaceSides sides_;
+  std::vector<Side> wanted_;  // of them
   Growth& growth_;
   Placer& placer_;
   float accuracy_, least_reach_m_;
@@ -181,7 +187,7 @@ std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progres
 
 void SurfaceCover::pass(int number) {
   std::vector<Piece> pieces;
-  for (const Side side : sides_.sides()) {
+  for (const Side side : wanted_) {
     if (number == 1 || reachable_[side]) pieces.push_back({side});
   }
   for (int step = 1; !pieces.empty(); ++step) {
@@ -191,11 +197,10 @@ void SurfaceCover::pass(int number) {
 }
 
 double SurfaceCover::open_share(int pass, bool by_area) const {
-  const std::vector<Side>& sides = sides_.sides();
   std::vector<double> sum;
   double total = 0;
-  for (const Side side : sides) sum.push_back(total += by_area ? sides_.area_m2(side) : 1);
-  if (sides.empty()) return 0;
+  for (const Side side : wanted_) sum.push_back(total += by_area ? sides_.area_m2(side) : 1);
+  if (wanted_.empty()) return 0;
   struct Count {
     std::uint64_t open = 0, closed = 0;
   };
@@ -209,7 +214,7 @@ double SurfaceCover::open_share(int pass, bool by_area) const {
           const double at = (static_cast<double>(i) + random.uniform_double()) / kFreshPoints * total;
           const auto found = std::upper_bound(sum.begin(), sum.end() - 1, at) - sum.begin();
           const SurfacePoint p =
-              sides_.point(sides[static_cast<std::size_t>(found)], sample_triangle(random.uniform2()));
+              sides_.point(wanted_[static_cast<std::size_t>(found)], sample_triangle(random.uniform2()));
           if (growth_.tree().covered(p.position, p.smooth_normal)) continue;
           ++(sides_.closed_off(p) ? part.closed : part.open);
         }
@@ -224,12 +229,12 @@ double SurfaceCover::open_share(int pass, bool by_area) const {
 
 PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                                   const RecordOptions& resolved, const PlacementOptions& placement,
-                                  Counters& counters) {
+                                  Counters& counters, const MaterialFilter& wanted) {
   PlacementReport report;
   Growth growth(cache, rays, resolved);
   ParallelMaker maker(estimator);
   Placer placer(maker, growth);
-  SurfaceCover cover(rays, resolved, growth, placer);
+  SurfaceCover cover(rays, resolved, wanted, growth, placer);
   for (int pass = 1; pass <= placement.passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
     cover.pass(pass);

@@ -30,15 +30,16 @@ void spread(std::uint64_t i, int level, std::int64_t& x, std::int64_t& y) {
 /// The sites that one ray from the eye finds.
 class Sight {
  public:
-  Sight(const RayScene& rays, const View& view, const Vec2& st, std::vector<RecordSite>& sites)
-      : rays_(rays), view_(view), st_(st), sites_(sites) {}
+  Sight(const RayScene& rays, const View& view, const MaterialFilter& wanted, const Vec2& st,
+        std::vector<RecordSite>& sites)
+      : rays_(rays), view_(view), wanted_(wanted), st_(st), sites_(sites) {}
 
   void look(const Ray& ray, float travelled_m, const Rgb& throughput, int depth) {
     SurfacePoint point;
     if (!trace(rays_, ray, point)) return;
     travelled_m += point.distance_m;
     const Bsdf bsdf(rays_.scene(), point);
-    if (bsdf.has_diffuse()) add(point, travelled_m, -ray.direction);
+    if (wanted_ ? wanted_(point.material) : bsdf.has_diffuse()) add(point, travelled_m, -ray.direction);
     if (bsdf.has_specular()) follow(point, bsdf, -ray.direction, travelled_m, throughput, depth);
     if (depth == 0 && bsdf.has_gloss()) glance(point, bsdf, -ray.direction, travelled_m);
   }
@@ -81,6 +82,7 @@ class Sight {
 
   const RayScene& rays_;
   const View& view_;
+  const MaterialFilter& wanted_;
   const Vec2 st_;
   std::vector<RecordSite>& sites_;
 };
@@ -134,11 +136,11 @@ float pixel_side_m(const View& view, const Vec2& st, float travelled_m, float co
   return upright / std::sqrt(std::max(std::fabs(cosine), kLeastCosine));
 }
 
-Candidates view_candidates(const RayScene& rays, const View& view) {
+Candidates view_candidates(const RayScene& rays, const View& view, const MaterialFilter& wanted) {
   const auto longer = static_cast<std::uint64_t>(std::max(view.width, view.height));
   const auto level = static_cast<int>(std::bit_width(longer - 1));
   const std::uint64_t square = std::uint64_t{1} << (2 * level);
-  const auto sites = [&rays, view, level, square](std::size_t i, std::vector<RecordSite>& out) {
+  const auto sites = [&rays, view, wanted, level, square](std::size_t i, std::vector<RecordSite>& out) {
     std::int64_t x, y;
     spread(i % square, level, x, y);
     if (x >= view.width || y >= view.height) return;
@@ -148,7 +150,7 @@ Candidates view_candidates(const RayScene& rays, const View& view) {
         size;
     const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
     const std::size_t first = out.size();
-    Sight(rays, view, st, out).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
+    Sight(rays, view, wanted, st, out).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
     // The first few of a pixel's sites have streams of their own; the rest, behind many mirrors, share.
     for (std::size_t k = first; k < out.size(); ++k)
       out[k].item = kViewItems + 16 * i + std::min<std::size_t>(k - first, 15);

@@ -88,7 +88,8 @@ TEST(Furnace, OneCoefficientIsAll) {
     const RadianceEstimator estimator(rays, lights, source, options, 10, mode, 1);
     const auto worker = estimator.make_worker();
     for (std::uint64_t i = 0; i < s.checks.size(); ++i) {
-      const RadianceRecord r = estimator.make({s.checks[i].position, s.checks[i].normal, i}, *worker);
+      const RadianceRecord r =
+          *estimator.make({s.checks[i].position, s.checks[i].normal, i}, *worker).radiance;
       std::vector<double> rest = test::channel(r.light);
       const auto stated = test::channel(r.stderr_light);
       EXPECT_NEAR(rest[0], radiance * kEven, 1e-5);
@@ -121,7 +122,7 @@ TEST(Irradiance, EqualsThatOfIrradianceRecords) {
       variance += static_cast<double>(r.stderr_lx.y) * static_cast<double>(r.stderr_lx.y);
     }
     for (std::uint64_t i = 0; i < kTimes; ++i) {
-      const IrradianceRecord r = irradiance_of(estimator.make({p, {0, 1, 0}, i}, *worker));
+      const IrradianceRecord r = estimator.make({p, {0, 1, 0}, i}, *worker).record;
       sums[1] += static_cast<double>(r.irradiance.y);
       variance += static_cast<double>(r.stderr_lx.y) * static_cast<double>(r.stderr_lx.y);
     }

@@ -24,9 +24,9 @@ struct One {
         estimator(gathered.rays, gathered.lights, {}, options, order, RadianceGradient::hybrid, 1),
         worker(estimator.make_worker()) {}
   RadianceRecord at(const Vec3& p, const Vec3& n) {
-    const RadianceRecord r = estimator.make({p, n, 1}, *worker);
+    const RadianceRecord r = *estimator.make({p, n, 1}, *worker).radiance;
     EXPECT_TRUE(is_finite(r));
-    EXPECT_GE(r.radius_m, static_cast<float>(*options.min_radius_m));
+    EXPECT_GT(r.radius_m, 0);
     EXPECT_LE(r.radius_m, static_cast<float>(*options.max_radius_m));
     return r;
   }
@@ -164,6 +164,7 @@ class DamagedRadiance : public ::testing::Test {
     damage(columns, provenance);
     ContainerWriter writer;
     for (const auto& [name, column] : columns) writer.add<float>(name, column.second, column.first, "1");
+    if (!orders_.empty()) writer.add<std::uint8_t>("order", orders_, {orders_.size()}, "1");
     const std::string path = folder_ + "/bad.radiance";
     writer.write(path, provenance);
     try {
@@ -184,6 +185,7 @@ class DamagedRadiance : public ::testing::Test {
                                                             : test::scratch("damaged-radiance");
   Provenance provenance_;
   Columns columns_;
+  std::vector<std::uint8_t> orders_;  // of a file where they differ
 };
 
 TEST_F(DamagedRadiance, TheGoodOneIsTaken) {
@@ -217,6 +219,31 @@ TEST_F(DamagedRadiance, ColumnsThatLackOrDifferInOrder) {
   EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.extra["order"] = "three"; }), "");
   EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.kind = "irradiance"; }).find("irradiance"),
             std::string::npos);
+}
+
+TEST_F(DamagedRadiance, OrdersOfTheirOwn) {
+  const auto with = [&](std::vector<std::uint8_t> orders, const std::string& damage = "") {
+    orders_ = std::move(orders);
+    return complaint([&](Columns& c, Provenance&) {
+      for (const char* name : {"coefficients", "gradient_x", "gradient_y", "stderr"}) {
+        // Record 2 is of order 2: of each colour, numbers of the last band are none.
+        auto& [shape, values] = c[name];
+        const std::size_t numbers = shape[2], used = numbers == 9 ? 4 : 2;
+        for (std::size_t colour = 0; colour < 3; ++colour)
+          for (std::size_t k = used; k < numbers; ++k)
+            values[(2 * 3 + colour) * numbers + k] = damage == name && colour == 2 ? 1.f : 0.f;
+      }
+    });
+  };
+  EXPECT_EQ(with({3, 3, 2, 3, 3}), "");
+  EXPECT_NE(with({3, 3, 2, 0, 3}).find("record 3"), std::string::npos);
+  EXPECT_NE(with({3, 4, 2, 3, 3}).find("record 1"), std::string::npos);
+  EXPECT_NE(with({3, 3, 2, 3}), "");
+  EXPECT_NE(with({2, 3, 2, 3, 3}).find("record 0"), std::string::npos) << "its third band is not 0";
+  for (const char* name : {"coefficients", "gradient_x", "gradient_y", "stderr"}) {
+    const std::string said = with({3, 3, 2, 3, 3}, name);
+    EXPECT_NE(said.find("record 2 has numbers beyond its own order"), std::string::npos) << name << said;
+  }
 }
 
 TEST_F(DamagedRadiance, NumbersThatAreNone) {

@@ -126,7 +126,7 @@ TEST(Radiance, HonestErrorOfTracedRays) {
   std::vector<double> stated(kOrder);
   constexpr int kTimes = 200;
   for (std::uint64_t i = 0; i < kTimes; ++i) {
-    const RadianceRecord r = estimator.make({{0.5f, 0, 0.4f}, {0, 1, 0}, i}, *worker);
+    const RadianceRecord r = *estimator.make({{0.5f, 0, 0.4f}, {0, 1, 0}, i}, *worker).radiance;
     light.add(test::channel(r.light));
     const std::vector<double> error = test::channel(r.stderr_light);
     for (std::size_t l = 0; l < kOrder; ++l) stated[l] += error[l] * error[l] / kTimes;

@@ -46,12 +46,13 @@ inline Frame turned_about_z(const Frame& f, float angle) {
   return {c * f.x + s * f.y, c * f.y - s * f.x, f.z};
 }
 
-/// Any numbers, in place and kind as they should be.
-inline RadianceCache random_radiance(std::size_t n, int order) {
+/// Any numbers, in place and kind as they should be; a record of each of these orders.
+inline RadianceCache random_radiance(const std::vector<int>& orders) {
   RadianceCache cache;
   cache.accuracy = 0.3;
   cache.scene_hash = "none";
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const int order = orders[i];
     RandomStream random(5, Stage::test, i);
     RadianceRecord r;
     r.position = {random.uniform(), random.uniform(), random.uniform()};
@@ -67,6 +68,9 @@ inline RadianceCache random_radiance(std::size_t n, int order) {
     cache.records.push_back(r);
   }
   return cache;
+}
+inline RadianceCache random_radiance(std::size_t n, int order) {
+  return random_radiance(std::vector<int>(n, order));
 }
 
 inline Provenance radiance_provenance() {

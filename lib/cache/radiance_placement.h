@@ -1,0 +1,59 @@
+// Radiance records where glossy surfaces want them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cache/estimator.h"
+#include "cache/gloss_tables.h"
+#include "cache/placement.h"
+#include "cache/radiance_cache.h"
+#include "cache/radiance_record.h"
+#include "cache/record_options.h"
+#include "core/counters.h"
+#include "core/options.h"
+
+namespace phos {
+
+/// How radiance records are made.
+struct RadianceOptions {
+  RadianceOptions() { records.estimate = Estimate::gather, records.rays = 4096; }
+  RecordOptions records;
+  RadianceGradient gradients = RadianceGradient::hybrid;
+};
+void declare_options(Options& options, RadianceOptions& radiance);
+/// As adopt_options() of irradiance records.
+void adopt_options(RadianceOptions& radiance, const Options& given, const Container& earlier);
+
+/// One run of placement: records of one order, on the materials that want that.
+struct RadianceRun {
+  int order = 0;
+  PlacementReport report;  ///< without its records
+};
+
+/// The estimator of records of an order: its Made hold radiance.
+using RadianceEstimatorOf = std::function<std::unique_ptr<Estimator>(int order)>;
+
+/// Adds records to `cache`, whose own stay as they are, first and unchanged: one run for each of the tables'
+/// orders, where materials of that order are. `placement` and `source` are resolved; source.wanted is set
+/// here. Same records for any number of threads.
+std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables& tables,
+                                        const RadianceEstimatorOf& estimator_of, const RayScene& rays,
+                                        const RecordOptions& resolved, const PlacementOptions& placement,
+                                        PlacementSource source, Counters& counters);
+
+/// Records that are there, in figures.
+struct RadianceSummary {
+  std::map<int, std::size_t> records;  ///< by order
+  double error = 0;  ///< of the light, relative: norm of the coefficients' standard errors over that of them
+};
+RadianceSummary summarize(const RadianceCache& cache);
+
+/// May records of these orders be added to what a file holds? Throws Error(mismatch), naming the file, where
+/// it holds one of an order that no material wants: nothing would read it.
+void require_same_orders(const RadianceCache& earlier, const GlossTables& tables, const std::string& path);
+
+}  // namespace phos
