@@ -70,7 +70,8 @@ struct Projected {
   std::size_t rejected = 0;
 };
 
-Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis, double tolerance) {
+Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis,
+                  const BrdfTableOptions& options) {
   // Samples of the lobe find it, and tell whether all of it was found.
   std::vector<Vec3> scouts{mirrored(wo)};
   double expected = 0;
@@ -86,7 +87,8 @@ Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& 
   Projected p;
   p.resolved = lobe.resolved && lobe.magnitude >= kFound * expected, p.rejected = lobe.rejected;
   p.albedo = max_component(lobe.albedo + bsdf.diffuse_reflectance());
-  p.order = lobe.lowest_order(tolerance, p.error);
+  p.order = lobe.lowest_order(options.error, p.error);
+  if (p.order == 0 && options.too_sharp == TooSharp::cut) p.order = basis.order();
   if (!p.resolved) p.order = 0;
   p.coefficients = std::move(lobe.coefficients);
   p.coefficients.resize(3 * static_cast<std::size_t>(harmonic_count(p.order)));
@@ -153,8 +155,7 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
   const HarmonicBasis<float> basis(static_cast<int>(options.max_order));
   std::vector<Projected> projected(entries);
   parallel_for(entries, 1, [&](std::size_t e) {
-    if (source(e) == e && table.used(e))
-      projected[e] = project(bsdf, table.direction(e), basis, options.error);
+    if (source(e) == e && table.used(e)) projected[e] = project(bsdf, table.direction(e), basis, options);
   });
 
   for (const Projected& p : projected) table.order = std::max(table.order, p.order);

@@ -72,7 +72,11 @@ void declare_options(Options& options, BrdfTableOptions& brdf) {
       "0.01 is 0.1",
       {0, 1});
   options.integer("max-order", brdf.max_order, "N",
-                  "highest order; directions that need more are marked to be traced", {1, 30});
+                  "highest order; for directions that need more see --too-sharp", {1, 30});
+  options.choice<TooSharp>(
+      "too-sharp", brdf.too_sharp, {{"trace", TooSharp::trace}, {"cut", TooSharp::cut}},
+      "directions that need a higher order are marked to be traced, or their bands are cut off there, which "
+      "blurs what they reflect");
   options.integer("resolution", brdf.resolution, "N",
                   "directions of view: N x N on the parabolic map, or N angles where the material is "
                   "isotropic; interpolation errs by 1/N^2",
@@ -144,8 +148,7 @@ BrdfLookup::Around BrdfLookup::around(const Vec3& wo) const {
           4};
 }
 
-int BrdfLookup::order(const Vec3& wo) const {
-  const Around a = around(wo);
+int BrdfLookup::order(const Around& a) const {
   int most = 0;
   for (std::size_t k = 0; k < a.count; ++k) {
     if (!(a.share[k] > 0)) continue;
@@ -155,6 +158,8 @@ int BrdfLookup::order(const Vec3& wo) const {
   }
   return most;
 }
+
+int BrdfLookup::order(const Vec3& wo) const { return order(around(wo)); }
 
 Rgb BrdfLookup::outgoing(const Vec3& wo, std::span<const float> incident) const {
   const Around a = around(wo);
@@ -196,19 +201,20 @@ Rgb BrdfLookup::outgoing(const Vec3& wo, std::span<const float> incident) const 
   return out;
 }
 
-std::vector<float> BrdfLookup::coefficients(const Vec3& wo) const {
-  const Around a = around(wo);
+/// c_i(wo) below `order`.
+void BrdfLookup::blend(const Around& a, const Vec3& wo, int order, std::vector<float>& out) const {
   const std::size_t stride = coefficients_per_entry(table_);
-  std::vector<float> out(stride);
-  for (std::size_t k = 0; k < a.count; ++k)
-    for (std::size_t i = 0; i < stride; ++i)
-      out[i] += a.share[k] * table_.coefficients[a.entry[k] * stride + i];
-  if (!table_.isotropic) return out;
+  out.assign(3 * static_cast<std::size_t>(harmonic_count(order)), 0);
+  for (std::size_t k = 0; k < a.count; ++k) {
+    const float* entry = table_.coefficients.data() + a.entry[k] * stride;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += a.share[k] * entry[i];
+  }
+  if (!table_.isotropic) return;
   const float across = std::sqrt(wo.x * wo.x + wo.y * wo.y);
   const Vec2 turn = across > 0 ? Vec2(wo.x, wo.y) / across : Vec2(1, 0);
   Vec2 angle = turn;
-  for (int m = 1; m < table_.order; ++m) {
-    for (int l = m; l < table_.order; ++l) {
+  for (int m = 1; m < order; ++m) {
+    for (int l = m; l < order; ++l) {
       for (std::size_t c = 0; c < 3; ++c) {
         float& cosine = out[3 * static_cast<std::size_t>(harmonic_index(l, m)) + c];
         out[3 * static_cast<std::size_t>(harmonic_index(l, -m)) + c] = angle.y * cosine;
@@ -217,7 +223,19 @@ std::vector<float> BrdfLookup::coefficients(const Vec3& wo) const {
     }
     angle = {angle.x * turn.x - angle.y * turn.y, angle.x * turn.y + angle.y * turn.x};
   }
+}
+
+std::vector<float> BrdfLookup::coefficients(const Vec3& wo) const {
+  std::vector<float> out;
+  blend(around(wo), wo, table_.order, out);
   return out;
+}
+
+int BrdfLookup::coefficients(const Vec3& wo, std::vector<float>& out) const {
+  const Around a = around(wo);
+  const int n = order(a);
+  blend(a, wo, n, out);
+  return n;
 }
 
 }  // namespace phos

@@ -15,10 +15,17 @@
 
 namespace phos {
 
+/// What becomes of a direction whose lobe needs more bands than there may be.
+enum class TooSharp : unsigned char {
+  trace,  ///< it is marked "trace"
+  cut,    ///< its bands are cut off at the highest order: a blurred lobe of the same albedo
+};
+
 struct BrdfTableOptions {
   double error = 0.05;           ///< energy of the lobe that a direction's order may leave out, relative
-  std::int64_t max_order = 10;   ///< a direction that needs more is marked "trace"
+  std::int64_t max_order = 10;   ///< highest order of a direction
   std::int64_t resolution = 32;  ///< of the parabolic grid, and rows of an isotropic table
+  TooSharp too_sharp = TooSharp::trace;
 };
 void declare_options(Options& options, BrdfTableOptions& brdf);
 
@@ -51,8 +58,9 @@ struct BrdfTable {
   bool used(std::size_t entry) const;
 };
 
-/// Projects the glossy part of one material (its textures at their mean, said in `note`). Parallel; the same
-/// numbers on any number of threads. Counted, per entry: lobes too intricate for the quadrature, albedo
+/// Projects the glossy part of one material (its textures at their mean, said in `note`). A lobe that is too
+/// intricate for the quadrature is marked "trace", whatever the options. Parallel; the same numbers on any
+/// number of threads. Counted, per entry: lobes too intricate for the quadrature, albedo
 /// above 1. Throws Error(usage) for options out of range.
 BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTableOptions& options,
                        Counters& counters);
@@ -85,10 +93,14 @@ class BrdfLookup {
   Rgb outgoing(const Vec3& wo, std::span<const float> incident) const;
   /// c_i(wo), RGB side by side, [order^2][3] of the table's order.
   std::vector<float> coefficients(const Vec3& wo) const;
+  /// Sets `out` to the c_i(wo) of order(wo), which it returns; 0: trace it, `out` is empty.
+  int coefficients(const Vec3& wo, std::vector<float>& out) const;
 
  private:
   struct Around;
   Around around(const Vec3& wo) const;
+  int order(const Around& around) const;
+  void blend(const Around& around, const Vec3& wo, int order, std::vector<float>& out) const;
   const BrdfTable& table_;
 };
 

@@ -10,12 +10,14 @@
 namespace phos {
 
 /// Lookups of what glossy surfaces show, at the eye and where secondary rays land. Materials that want equal
-/// orders share their records; a record of fewer bands than a material wants does not serve it. Const once
-/// filled, usable from any thread, each with a worker of its own.
+/// orders share their records; a record of fewer bands than a material wants does not serve it, one of an
+/// order that no material wants serves all that want fewer bands. Const once filled, usable from any thread,
+/// each with a worker of its own.
 class GlossCache {
  public:
   GlossCache(const Bounds& bounds, double accuracy, GlossTables tables, const RayScene* leak_test = nullptr);
   void insert(RadianceRecord record);
+  /// Of records in all trees; one that serves no material is not kept.
   std::size_t size() const;
   const GlossTables& tables() const { return tables_; }
   /// The records of one order; null: there is none.

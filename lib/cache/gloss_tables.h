@@ -9,6 +9,7 @@
 #include "cache/brdf_table.h"
 #include "core/counters.h"
 #include "core/options.h"
+#include "hsh/rotation.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,9 @@ struct GlossLobe {
   Frame frame;                      ///< make_frame(point.smooth_normal), the frame of records there
   int order = 0;                    ///< its bands
   std::vector<float> coefficients;  ///< [order^2][3], 1/sqrt(sr)
+  /// 1/sr: light that leaves is at least this times the irradiance; less is ringing. Below 0 under a coat,
+  /// which takes light from the Lambert part.
+  Rgb least{0};
 };
 
 /// Tables of the materials whose gloss reads radiance records. Const, usable from any thread.
@@ -53,15 +57,17 @@ class GlossTables {
   /// Per glossy material.
   const std::vector<GlossChoice>& choices() const { return choices_; }
   const BrdfTable* table(std::uint32_t material) const;  ///< null: traced in every direction
-  /// The lobe towards wo (unit, world). False: it is traced (the table says so, there is none, or the viewer
-  /// is below the shading normal's horizon). Where a normal map turns the shading normal away from the smooth
-  /// one, the lobe is rotated.
+  /// The lobe towards wo (unit, world). False: it is traced (the table says so, there is none, the viewer is
+  /// below the shading normal's horizon, or that normal below the smooth one's). Where a normal map turns the
+  /// shading normal away from the smooth one, the lobe is rotated.
   bool lobe(const SurfacePoint& point, const Vec3& wo, GlossLobe& lobe) const;
 
  private:
   std::vector<BrdfTable> tables_;
+  std::vector<Rgb> least_;              // of each table, 1/sr
   std::vector<std::int32_t> table_of_;  // per material, -1: none
   std::vector<GlossChoice> choices_;
+  std::vector<HshRotator> turns_;  // of orders 1, 2, ...
 };
 
 }  // namespace phos

@@ -128,28 +128,35 @@ float RadianceTree::interpolate(const Vec3& p, const Frame& frame, int order, Wo
   return weight;
 }
 
-GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,
-                                   Worker& worker) const {
+GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<const float> lobe,
+                                   const Rgb& least, Worker& worker) const {
+  const auto order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(lobe.size() / 3))));
+  PHOS_CHECK(order >= 1 && lobe.size() == numbers(order), lobe.size(), " numbers of a lobe");
   GlossyLight light;
-  const int order = brdf.order(wo);
-  if (order == 0) return light;
   light.weight = interpolate(p, frame, order, worker);
   if (!(light.weight > 0)) return light;
-  light.radiance = glm::max(brdf.outgoing(wo, worker.light), Rgb(0));
-  const std::vector<float> lobe = brdf.coefficients(wo);
-  Rgb variance(0);
+  Rgb sum(0), variance(0);
   for (std::size_t l = 0, i = 0; 3 * l < worker.stderr_light.size(); ++l) {
     Rgb energy(0);  // of the lobe in this band
     for (; i < 3 * (l + 1) * (l + 1); i += 3) {
       const Rgb c(lobe[i], lobe[i + 1], lobe[i + 2]);
+      sum += c * Rgb(worker.light[i], worker.light[i + 1], worker.light[i + 2]);
       energy += c * c;
     }
     const Rgb error(worker.stderr_light[3 * l], worker.stderr_light[3 * l + 1],
                     worker.stderr_light[3 * l + 2]);
     variance += energy * error * error;
   }
+  light.radiance = glm::max(sum, least * glm::max(irradiance_of(worker.light), Rgb(0)));
   light.stderr_cd = glm::sqrt(variance);
   return light;
+}
+
+GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,
+                                   Worker& worker) const {
+  std::vector<float> lobe;
+  if (brdf.coefficients(wo, lobe) == 0) return {};
+  return outgoing(p, frame, lobe, Rgb(0), worker);
 }
 
 }  // namespace phos
