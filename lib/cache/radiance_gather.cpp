@@ -4,20 +4,12 @@
 
 #include "cache/direct_light.h"
 #include "cache/next_surface.h"
-#include "core/error.h"
 
 namespace phos {
 namespace {
 
 /// Sets the random numbers of radiance records apart from those of irradiance records at the same places.
 constexpr std::uint64_t kOwnStreams = 0x72616469616e6365;
-
-void require_finite(const RadianceRecord& r) {
-  if (is_finite(r)) return;
-  throw Error(ExitCode::numerical, "",
-              text("radiance at (", r.position.x, ", ", r.position.y, ", ", r.position.z,
-                   ") m exceeds the range of numbers; give the lights or the scene other units"));
-}
 
 struct RadianceWorker : Estimator::Worker {
   explicit RadianceWorker(int order) : projector(order) {}

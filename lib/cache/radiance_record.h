@@ -37,9 +37,15 @@ class RadianceProjector {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Throws Error(numerical) unless all its numbers are finite.
+void require_finite(const RadianceRecord& record);
+
+/// How much of radius_m the gradient leaves, m: to where that of a colour would change the coefficients by
+/// their own norm (as within_gradient_m of irradiance).
+float within_gradient_m(const RadianceRecord& record, float radius_m);
+
 /// How far such a record reaches before bounds: its distance (`harmonic`, or the least of the rays), at most
-/// max_radius_m, and no farther than where the gradient of a colour changes the coefficients by their own
-/// norm (as within_gradient_m).
+/// max_radius_m, and no farther than within_gradient_m.
 float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOptions& resolved);
 
 }  // namespace phos

@@ -175,6 +175,7 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   float narrow = surroundings_.zone_radius_m(place, s.near, distance);
   const ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, at.photon, s)
                                                                   : by_hull(place, narrow, at.photon, s);
+  s.frame = place.frame, s.zone = zone;
   // It serves no point whose photons it has not seen: their light may be another's.
   const float seen = narrow / static_cast<float>(options_.accuracy);
   if (s.gathered.zone.size() > 0) record.radius_m = std::min(record.radius_m, seen);

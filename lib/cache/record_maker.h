@@ -31,6 +31,8 @@ class RecordMaker : public Estimator {
     NearPhotons near;
     GatheredPhotons gathered;
     DensityScratch density;
+    Frame frame;        ///< of the last make()
+    ZoneEstimate zone;  ///< likewise; of its photons, density.used counted
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
