@@ -1,0 +1,32 @@
+// Drawing radiance records over a G-buffer: what they send towards the eye through glossy lobes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cache/gloss_cache.h"
+#include "splat/gbuffer.h"
+
+namespace phos {
+
+/// What blending leaves per pixel, before normalisation.
+struct GlossBuffer {
+  std::vector<Vec4> light;   ///< rgb = sum w L (cd/m2 towards the eye), w = sum w
+  std::vector<Vec4> error;   ///< rgb = sum w stderr (cd/m2), w = number of records
+  std::uint64_t pairs = 0;   ///< of a pixel and a record, that added light
+  std::uint64_t turned = 0;  ///< pixels whose records had to be rotated: looked up instead of drawn
+};
+
+/// Every radiance record's weight (at `accuracy`, that of the cache) and light, at the pixels whose lobe is
+/// read from records (all others stay 0): GlossCache::outgoing to 1e-4, but for rounding on the rim of
+/// records. Of `gbuffer`, seen by `camera` through the point `subpixel` of each pixel. Tiled and vectorised;
+/// lobes are made for a few pixels at a time. Where records are in other frames than the surface seen (curved
+/// ones), the lookup answers. Same bytes for any number of threads.
+GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const RayScene& rays,
+                               const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
+
+/// The same by lookups alone: what splatting gives; without leaks where the cache tests for them.
+GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,
+                          const Camera& camera, const Vec2& subpixel);
+
+}  // namespace phos
