@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "cache/gloss_report.h"
 #include "file/tool.h"
 #include "scene/describe.h"
 #include "scene/lint.h"
@@ -12,14 +13,18 @@ int main(int argc, char** argv) {
       "phos-scene", "checks a scene and says what computing its light requires",
       "Reads a glTF 2.0 or OBJ scene and prints its triangles, bounds, materials, lights with their lumens, "
       "cameras "
-      "and animations; what its light requires, each with a reason; and findings: mistakes in units, missing "
-      "normals, degenerate triangles, lamps that shine the wrong way, textures that are not there.",
+      "and animations; what its light requires, each with a reason; what computes the gloss of each glossy "
+      "material; and findings: mistakes in units, missing normals, degenerate triangles, lamps that shine "
+      "the "
+      "wrong way, textures that are not there.",
       1, Tool::Output::none);
   std::string path;
   SceneOptions scene_options;
   bool json = false, strict = false;
+  GlossBy gloss = GlossBy::automatic;
   tool.options().input("SCENE", path, "glTF (.glb, .gltf) or OBJ scene");
   declare_options(tool.options(), scene_options);
+  declare_options(tool.options(), gloss);
   tool.options().section("Report");
   tool.options().flag("json", json, "print one JSON object instead of text", Recorded::no);
   tool.options().flag("strict", strict, "end with code 1 if a finding is an error", Recorded::no);
@@ -28,8 +33,12 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const Scene scene = load_scene(path, scene_options);
     const std::vector<Finding> findings = lint_scene(scene);
-    const Json description = describe_scene(scene, findings);
-    const std::string out = json ? description.dump(2) + "\n" : describe_text(description);
+    const Json report = gloss_report(scene, GlossTables(scene, {}, gloss, {}, tool.counters()));
+    Json description = describe_scene(scene, findings);
+    add_gloss(description, report);
+    std::string out = json ? description.dump(2) + "\n" : describe_text(description);
+    if (!json && !report.as_array().empty())
+      out += text("\nGloss (", report.as_array().size(), ")\n", gloss_text(report));
     if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
       throw Error(ExitCode::bad_input, "stdout", "cannot be written; is the disk full?");
     }

@@ -57,10 +57,9 @@ GlossChoice choice_of(const BrdfTable& table) {
   }
   choice.why = s.least_order == s.greatest_order ? text("order ", s.least_order)
                                                  : text("orders ", s.least_order, " to ", s.greatest_order);
-  choice.why += text(s.least_order == s.greatest_order ? " leaves" : " leave", " out at most ",
-                     percent(s.worst_error), " of a lobe's energy");
-  if (s.traced_share > 0)
-    choice.why += text("; towards ", percent(s.traced_share), " of directions that is not enough");
+  choice.why +=
+      text(s.least_order == s.greatest_order ? " leaves" : " leave", " out at most ", percent(s.worst_error),
+           s.traced_share > 0 ? " of the other lobes' energy" : " of a lobe's energy");
   if (!table.note.empty()) choice.why += text("; ", table.note);
   return choice;
 }

@@ -15,8 +15,6 @@ namespace {
 /// A dielectric's own highlight (4 %) counts as gloss below this roughness; above it, it is as good as
 /// diffuse.
 constexpr float kDullRoughness = 0.9f;
-/// Sharper lobes than these are cheaper traced than kept as records of hemispherical harmonics.
-constexpr float kSharpExponent = 100, kSharpAlpha = 0.15f;
 
 void classify(const Scene& scene, MaterialSummary& s) {
   const Material& m = *s.material;
@@ -66,11 +64,6 @@ void classify(const Scene& scene, MaterialSummary& s) {
       break;
     }
   }
-}
-
-bool is_sharp(const Material& m) {
-  if (m.model == Model::phong) return m.exponent > kSharpExponent;
-  return std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
 }
 
 std::string names_of(const std::vector<const Material*>& materials) {
@@ -204,16 +197,16 @@ std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
 }
 
 std::vector<Requirement> scene_requirements(const Scene& scene) {
-  std::vector<const Material*> diffuse, smooth_gloss, sharp_gloss, specular;
+  std::vector<const Material*> diffuse, glossy, specular;
   for (const MaterialSummary& s : summarize_materials(scene)) {
     if (s.triangles == 0) continue;
     if (s.diffuse) diffuse.push_back(s.material);
-    if (s.glossy) (is_sharp(*s.material) ? sharp_gloss : smooth_gloss).push_back(s.material);
+    if (s.glossy) glossy.push_back(s.material);
     if (s.specular) specular.push_back(s.material);
   }
   std::vector<Requirement> out;
   const bool lit = !scene.light.empty();
-  const bool scatters = !diffuse.empty() || !smooth_gloss.empty() || !sharp_gloss.empty();
+  const bool scatters = !diffuse.empty() || !glossy.empty();
   if (lit && scatters) {
     out.push_back({"direct light", "lights: " + std::to_string(scene.light.size())});
     out.push_back({"global photons", "light is reflected between surfaces that are not mirrors"});
@@ -222,10 +215,7 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
     out.push_back({"caustic photons", "light can reach other surfaces by way of " + names_of(specular)});
   }
   if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
-  if (lit && !smooth_gloss.empty())
-    out.push_back({"radiance records", "glossy, broad lobes: " + names_of(smooth_gloss)});
-  if (lit && !sharp_gloss.empty())
-    out.push_back({"traced gloss", "glossy, narrow lobes: " + names_of(sharp_gloss)});
+  if (lit && !glossy.empty()) out.push_back({"gloss", "glossy: " + names_of(glossy)});
   if (!specular.empty())
     out.push_back({"specular tracing", "mirrors or smooth glass: " + names_of(specular)});
   if (!scene.animation.empty()) {

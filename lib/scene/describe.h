@@ -23,7 +23,8 @@ struct MaterialSummary {
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 const char* model_name(Model model);
 
-/// What the light of this scene needs, and why; what is not listed need not be computed.
+/// What the light of this scene needs, and why; what is not listed need not be computed. "gloss" is had by
+/// radiance records or rays: which of them suits each lobe is for others to say (cache/gloss_report.h).
 struct Requirement {
   std::string what;  ///< "irradiance records"
   std::string why;

@@ -29,6 +29,24 @@ TEST(PhosScene, JsonIsOneObject) {
   EXPECT_TRUE(d.find("requires")->is_array());
 }
 
+TEST(PhosScene, TellsWhatComputesGloss) {
+  const std::string room = data("cornell-glossy22.glb");
+  const test::Run run = run_tool({"scene", room});
+  for (const char* word : {"Gloss (1)", "records of order ", "radiance records", "% of a lobe's energy"})
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+  const Json d = parse_json(run_tool({"scene", room, "--json"}).out, "output");
+  const Json::Array gloss = d.find("gloss")->as_array();
+  ASSERT_EQ(gloss.size(), 1u);
+  EXPECT_GE(gloss[0].find("order")->as_integer(), 6);
+  EXPECT_LT(gloss[0].find("traced_share")->as_number(), 0.5);
+  const test::Run traced = run_tool({"scene", room, "--gloss", "traced"});
+  EXPECT_EQ(traced.out.rfind("radiance records"), traced.out.find("irradiance records") + 2)
+      << "no other radiance records\n"
+      << traced.out;
+  EXPECT_NE(traced.out.find("traced gloss"), std::string::npos);
+  EXPECT_EQ(run_tool({"scene", data("cornell-empty.glb")}).out.find("Gloss"), std::string::npos);
+}
+
 TEST(PhosScene, StrictFailsWithoutLight) {
   const std::string path = test::scratch("scene_dark") + "/dark.obj";
   test::spill(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
