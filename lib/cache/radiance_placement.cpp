@@ -10,7 +10,7 @@
 namespace phos {
 namespace {
 
-const Names<Estimate> kEstimates{{"gather", Estimate::gather}};
+const Names<Estimate> kEstimates{{"gather", Estimate::gather}, {"hull", Estimate::hull}};
 const Names<RadianceGradient> kGradients{{"hybrid", RadianceGradient::hybrid},
                                          {"analytic", RadianceGradient::analytic},
                                          {"numeric", RadianceGradient::numeric},
@@ -20,10 +20,18 @@ const Names<RadianceGradient> kGradients{{"hybrid", RadianceGradient::hybrid},
 
 void declare_options(Options& options, RadianceOptions& r) {
   options.section("Records");
+  options.choice<Estimate>(
+      "estimate", r.records.estimate, kEstimates,
+      "how radiance is estimated: rays over the hemisphere lit where they land, or photons over their convex "
+      "hull");
   declare_reach_options(options, r.records);
-  options.choice<RadianceGradient>("gradients", r.gradients, kGradients,
-                                   "how the light's change with the place is found: from each ray, with the "
-                                   "edges of what hides it (hybrid) or without (analytic), or by moved rays");
+  options.choice<RadianceGradient>(
+      "gradients", r.gradients, kGradients,
+      "how the light's change with the place is found: from each ray, with the "
+      "edges of what hides it (hybrid; photons show none) or without (analytic), "
+      "or by moved rays");
+  options.section("Estimates from photons");
+  declare_photon_options(options, r.records);
   options.section("Estimates from rays");
   declare_gather_options(options, r.records);
 }

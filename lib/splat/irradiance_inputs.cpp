@@ -27,9 +27,12 @@ IrradianceFiles sort_inputs(const std::vector<std::string>& paths) {
       take(files.photons, path, "photon map");
     else if (kind == "irradiance")
       take(files.source, path, "irradiance cache");
+    else if (kind == "brdf")
+      take(files.brdf, path, "file of lobes");
     else
-      throw Error(ExitCode::usage, path,
-                  text("holds ", kind, "; give a scene, photons, or a cache for rays to read"));
+      throw Error(
+          ExitCode::usage, path,
+          text("holds ", kind, "; give a scene, photons, its .brdf file, or a cache for rays to read"));
   }
   if (files.scene.empty())
     throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
@@ -48,12 +51,17 @@ EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, boo
     if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
     inputs.source = read_irradiance(file);
   }
+  if (!files.brdf.empty()) {
+    const Container file = Container::open(files.brdf, "brdf");
+    if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
+    inputs.brdf = read_brdf(file);
+  }
   return inputs;
 }
 
-IrradianceCache open_earlier(const std::string& path, const IrradianceFiles& files, const Scene& scene,
-                             bool allow_mismatch, const Options& given, RecordOptions& records) {
-  const Container file = Container::open(path, "irradiance");
+Container open_to_add(const std::string& path, const std::string& kind, const IrradianceFiles& files,
+                      const Scene& scene, bool allow_mismatch) {
+  Container file = Container::open(path, kind);
   if (!allow_mismatch) {
     require_same_scene(file, files.scene, scene.hash, scene.parts);
     const auto& inputs = file.provenance().inputs;
@@ -64,6 +72,12 @@ IrradianceCache open_earlier(const std::string& path, const IrradianceFiles& fil
                   "was made from other photons; give those, or pass --allow-mismatch to mix the two");
     }
   }
+  return file;
+}
+
+IrradianceCache open_earlier(const std::string& path, const IrradianceFiles& files, const Scene& scene,
+                             bool allow_mismatch, const Options& given, RecordOptions& records) {
+  const Container file = open_to_add(path, "irradiance", files, scene, allow_mismatch);
   adopt_options(records, given, file);
   return read_irradiance(file);
 }

@@ -1,6 +1,8 @@
 #include "splat/make_estimator.h"
 
 #include "cache/gather.h"
+#include "cache/radiance_density.h"
+#include "cache/radiance_gather.h"
 #include "cache/record_maker.h"
 #include "core/error.h"
 #include "splat/hemisphere_raster.h"
@@ -43,5 +45,22 @@ ChosenEstimator::ChosenEstimator(const RayScene& rays, const EstimateInputs& inp
   }
 }
 ChosenEstimator::~ChosenEstimator() = default;
+
+ChosenRadianceEstimators::ChosenRadianceEstimators(const RayScene& rays, const EstimateInputs& inputs,
+                                                   const RadianceOptions& options, std::uint64_t seed)
+    : rays_(rays),
+      inputs_(inputs),
+      options_(options),
+      seed_(seed),
+      lights_(rays.scene()),
+      coarse_(coarse_level(rays, inputs, options.records, seed)) {}
+
+std::unique_ptr<Estimator> ChosenRadianceEstimators::operator()(int order) const {
+  if (options_.records.estimate == Estimate::hull)
+    return std::make_unique<RadianceDensityEstimator>(*inputs_.photons, rays_, options_.records, order,
+                                                      options_.gradients, seed_);
+  return std::make_unique<RadianceEstimator>(rays_, lights_, coarse_.source(), options_.records, order,
+                                             options_.gradients, seed_);
+}
 
 }  // namespace phos

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cache/estimator.h"
+#include "cache/radiance_placement.h"
 #include "cache/record_options.h"
 #include "cache/two_level.h"
 #include "scene/luminaires.h"
@@ -26,6 +27,24 @@ class ChosenEstimator {
   Luminaires lights_;
   CoarseLevel coarse_;
   std::unique_ptr<Estimator> estimator_;
+};
+
+/// The same for radiance records, one estimator for each order.
+class ChosenRadianceEstimators {
+ public:
+  ChosenRadianceEstimators(const RayScene& rays, const EstimateInputs& inputs,
+                           const RadianceOptions& resolved, std::uint64_t seed);
+  /// Refers to this object.
+  std::unique_ptr<Estimator> operator()(int order) const;
+  std::size_t coarse_records() const { return coarse_.records(); }
+
+ private:
+  const RayScene& rays_;
+  const EstimateInputs& inputs_;
+  RadianceOptions options_;
+  std::uint64_t seed_;
+  Luminaires lights_;
+  CoarseLevel coarse_;
 };
 
 }  // namespace phos

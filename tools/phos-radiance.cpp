@@ -1,0 +1,163 @@
+// Places radiance records on glossy surfaces and estimates them.
+#include <cmath>
+
+#include "cache/radiance_placement.h"
+#include "file/tool.h"
+#include "scene/load.h"
+#include "splat/make_estimator.h"
+
+using namespace phos;
+
+namespace {
+
+void tell_of_tables(Tool& tool, const Scene& scene, const GlossTables& tables, bool projected_here) {
+  Json materials = Json::Array{};
+  for (const GlossChoice& choice : tables.choices()) {
+    const std::string& name = scene.material[choice.material].name;
+    tool.say(text(name.empty() ? text("material ", choice.material) : text('"', name, '"'), ": ",
+                  choice.order > 0 ? text("records of order ", choice.order) : "traced by rays", "; ",
+                  choice.why));
+    Json j;
+    j["material"] = name, j["order"] = choice.order, j["traced_share"] = choice.traced_share;
+    materials.push_back(j);
+  }
+  tool.stat("materials", materials);
+  if (projected_here && !tables.orders().empty())
+    tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+}
+
+void summarise(Tool& tool, const RadianceCache& cache, const std::vector<RadianceRun>& runs) {
+  std::uint64_t made = 0, kept = 0, candidates = 0, uncovered = 0;
+  double making_s = 0, open = 0;
+  Json by_order = Json::Array{};
+  for (const RadianceRun& run : runs) {
+    const PlacementReport& r = run.report;
+    made += r.made, kept += r.kept, candidates += r.candidates, uncovered += r.uncovered;
+    making_s += r.making_s, open = std::max(open, r.uncovered_share.value_or(0));
+    Json j;
+    j["order"] = run.order, j["records_new"] = r.kept, j["records_made"] = r.made;
+    j["candidates"] = r.candidates, j["candidates_uncovered"] = r.uncovered, j["passes"] = r.passes;
+    if (r.uncovered_share) j["uncovered_share"] = *r.uncovered_share;
+    by_order.push_back(j);
+  }
+  const RadianceSummary summary = summarize(cache);
+  std::string orders;
+  for (const auto& [order, count] : summary.records)
+    orders += text(orders.empty() ? "" : ", ", count, " of order ", order);
+  tool.stat("records", cache.records.size());
+  tool.stat("records_new", kept);
+  tool.stat("records_made", made);
+  tool.stat("runs", by_order);
+  tool.stat("relative_error", summary.error);
+  const double ms = made > 0 ? 1e3 * making_s / static_cast<double>(made) : 0;
+  if (made > 0) tool.stat("ms_per_record", ms);
+  const auto rounded = [](double v) { return std::round(100 * v) / 100; };
+  tool.say(text(orders.empty() ? "no records" : orders, " (", kept, " new) cover ", candidates,
+                " candidates; mean standard error ", rounded(100 * summary.error), " %",
+                made > 0 ? text("; ", rounded(ms), " ms for each") : ""));
+  if (open > 0)
+    tool.say(text("of the glossy surface that light can reach, ", rounded(100 * open),
+                  " % is out of every record's reach"));
+  else if (uncovered > 0)
+    tool.say(text(uncovered,
+                  " candidates are left uncovered by neighbour clamping; raise --passes to cover them"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-radiance", "places radiance records on glossy surfaces and estimates them",
+            "A radiance record holds the light that arrives from every direction, as hemispherical "
+            "harmonics, with its "
+            "standard error and gradients. Records are placed on materials whose lobes phos-brdf finds broad "
+            "enough, each "
+            "with the bands that its material needs, until each wanted place is within reach of one; other "
+            "gloss is left "
+            "to rays, and a scene without gloss gives an empty file. Inputs, in any order: a scene; photons "
+            "of it, unless "
+            "rays gather the first bounce only or read a cache; its .brdf file (else lobes are projected "
+            "here); and an "
+            "irradiance cache for rays to read where they land, in place of the coarse one that is otherwise "
+            "made from "
+            "the photons.",
+            1);
+  std::vector<std::string> paths;
+  SceneOptions scene_options;
+  RadianceOptions radiance;
+  PlacementOptions placement;
+  GlossBy gloss = GlossBy::automatic;
+  std::string at, add_to, isa;
+  bool allow_mismatch = false;
+  Options& options = tool.options();
+  options.inputs(
+      "SCENE [PHOTONS] [BRDF] [CACHE]", paths,
+      "scene (.glb, .gltf, .obj), photons of it, its .brdf file, an irradiance cache to gather from");
+  declare_options(options, scene_options);
+  declare_options(options, gloss);
+  declare_options(options, radiance);
+  declare_options(options, placement);
+  declare_isa(options, isa);
+  options.file("at", at,
+               "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
+  options.file("add-to", add_to, "radiance file whose records are kept; options left out are taken from it");
+  options.flag("allow-mismatch", allow_mismatch, "use files of another scene or another version of it");
+  options.example("phos-radiance room.glb room.photons room.brdf -o room.radiance",
+                  "where photons met gloss");
+  options.example("phos-radiance room.glb room.photons room.brdf --place view --camera desk -o room.radiance",
+                  "on the gloss that one camera sees");
+  options.example(
+      "phos-radiance room.glb room.photons room.brdf --at m.csv --add-to room.radiance -o room.radiance",
+      "fills what a camera misses");
+
+  return tool.run(argc, argv, [&] {
+    const IrradianceFiles files = sort_inputs(paths);
+    tool.add_input("scene", scene_files(files.scene, scene_options));
+    if (!files.photons.empty()) tool.add_input("photons", files.photons);
+    if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
+    if (!files.source.empty()) tool.add_input("source", files.source);
+    if (!at.empty()) tool.add_input("points", at);
+    if (!add_to.empty()) tool.add_input("radiance", add_to);
+    if (tool.up_to_date()) return;
+
+    const Scene scene = load_scene(files.scene, scene_options);
+    const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
+    const GlossTables tables = [&] {
+      const auto timer = tool.time("tables");
+      return GlossTables(scene, inputs.brdf, gloss, {}, tool.counters());
+    }();
+    tell_of_tables(tool, scene, tables, files.brdf.empty());
+    RadianceCache cache;
+    if (!add_to.empty()) {
+      const Container earlier = open_to_add(add_to, "radiance", files, scene, allow_mismatch);
+      adopt_options(radiance, options, earlier);
+      cache = read_radiance(earlier);
+      require_same_orders(cache, tables, add_to);
+    }
+    radiance.records.resolve(scene.bounds.diagonal_m());
+    cache.accuracy = radiance.records.accuracy;
+    cache.scene_hash = scene.hash;
+
+    std::vector<SurfaceSample> points;
+    if (!at.empty()) points = read_points(at);
+    const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
+                                 tool.seed()};
+    resolve(placement, scene, source);
+    if (tables.orders().empty()) {
+      tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
+                    ": the file is empty"));
+    } else {
+      const RayScene rays(scene, {isa});
+      const ChosenRadianceEstimators estimators = [&] {
+        const auto timer = tool.time("coarse records");
+        return ChosenRadianceEstimators(rays, inputs, radiance, tool.seed());
+      }();
+      if (estimators.coarse_records() > 0) tool.stat("coarse_records", estimators.coarse_records());
+      const auto timer = tool.time("records");
+      summarise(tool, cache,
+                place_radiance(cache, tables, std::ref(estimators), rays, radiance.records, placement, source,
+                               tool.counters()));
+      if (cache.records.empty()) tool.warn("no place wants a record (see --place): the file is empty");
+    }
+    write_radiance(tool.output(), cache, tool.provenance("radiance", scene.hash, scene.parts));
+  });
+}
