@@ -106,8 +106,9 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   if (provenance.extra.find("part")) {
     file.add<float>("least_radius", least_radius_m, {n}, "m");
   } else if (n >= kIndexedRecords) {
-    index = index_records(cache.records, cache.accuracy);
+    index = index_records(cache.records, reading_accuracy(cache.accuracy));
     add_index(file, index);
+    provenance.extra[kIndexAccuracy] = reading_accuracy(cache.accuracy);
   }
   provenance.kind = "irradiance";
   provenance.scene_hash = cache.scene_hash;

@@ -22,12 +22,13 @@ void add_index(ContainerWriter& file, const RecordIndex& index) {
 }
 
 RecordLookup::RecordLookup(const Container& file, const RayScene* leak_test)
-    : records_(file), leak_test_(leak_test), accuracy_(static_cast<float>(records_.accuracy())) {
-  if (file.has("index_box")) {
+    : records_(file), leak_test_(leak_test), accuracy_(reading_accuracy(records_.accuracy())) {
+  const Json* made_for = file.provenance().extra.find(kIndexAccuracy);
+  if (file.has("index_box") && made_for && made_for->is_number() && made_for->as_number() == accuracy_) {
     use_stored();
     return;
   }
-  made_ = index_records(read_irradiance(file).records, records_.accuracy());
+  made_ = index_records(read_irradiance(file).records, accuracy_);
   lo_ = {made_.box[0], made_.box[1], made_.box[2]};
   side_m_ = made_.box[3];
   children_ = made_.children, cell_ = made_.cell, entry_ = made_.entry;
@@ -87,12 +88,13 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
   DVec3 lo = lo_;
   double side = side_m_;
   const DVec3 point(p);
+  const auto accuracy = static_cast<float>(accuracy_);
   for (std::size_t cell = 0;;) {
     const std::uint32_t end = cell_[2 * cell + 3];
     for (std::uint32_t e = cell_[2 * cell + 1]; e < end; ++e) {
       const std::uint32_t i = entry_[e];
       const float w =
-          weight_at(records_.position(i), records_.normal(i), records_.radius_m(i), accuracy_, p, n);
+          weight_at(records_.position(i), records_.normal(i), records_.radius_m(i), accuracy, p, n);
       if (!(w > kLeastWeight)) continue;
       const IrradianceRecord r = records_[i];
       if (record_in_front(r, p, n)) continue;

@@ -34,18 +34,24 @@ struct RecordIndex {
 /// Files of fewer records have no index: it is made in memory sooner than one looks.
 inline constexpr std::size_t kIndexedRecords = 1 << 16;
 
+/// Name of the accuracy, in the header, that a file's index was made for.
+inline constexpr const char* kIndexAccuracy = "index_accuracy";
+
 /// Depends on the records and their order alone.
 RecordIndex index_records(std::span<const IrradianceRecord> records, double accuracy);
 /// As tensors index_box, index_children, index_cells and index_entries; `index` must live until write().
 void add_index(ContainerWriter& file, const RecordIndex& index);
 
-/// Lookup in a file's records where they lie: the same sums as RecordTree. Any thread, any order.
+/// Lookup in a file's records where they lie: the same sums as RecordTree at their reading_accuracy(). Any
+/// thread, any order.
 class RecordLookup {
  public:
-  /// Throws Error(bad_input) for damaged records or a damaged index. A file without index gets one in memory.
+  /// Throws Error(bad_input) for damaged records or a damaged index. A file without index, or with
+  /// one for another accuracy, gets one in memory.
   /// Keeps the mapping open; holds a reference to `leak_test` (see RecordTree).
   explicit RecordLookup(const Container& file, const RayScene* leak_test = nullptr);
   const RecordColumns& records() const { return records_; }
+  double accuracy() const { return accuracy_; }  ///< at which they are read
   /// Is the index that of the file?
   bool stored() const { return made_.children.empty(); }
   bool covered(const Vec3& p, const Vec3& n) const;
@@ -58,7 +64,7 @@ class RecordLookup {
   void check_stored() const;
   RecordColumns records_;
   const RayScene* leak_test_;
-  float accuracy_;
+  double accuracy_;
   RecordIndex made_;  // empty if the file has its own
   DVec3 lo_{0};
   double side_m_ = 1;

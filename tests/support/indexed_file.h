@@ -43,7 +43,9 @@ inline void write_indexed(const std::string& to, const std::string& from, const 
   for (const auto& [name, tensor] : file.tensors())
     writer.add<float>(name, file.values<float>(name, tensor.shape), tensor.shape, tensor.unit);
   add_index(writer, index);
-  writer.write(to, file.provenance());
+  Provenance provenance = file.provenance();
+  provenance.extra[kIndexAccuracy] = reading_accuracy(provenance.extra["accuracy"].as_number());
+  writer.write(to, provenance);
 }
 
 }  // namespace phos::test

@@ -61,6 +61,32 @@ TEST(RecordIndex, GivesTheTreesSumsBitForBit) {
   }
 }
 
+TEST(RecordIndex, OfAnotherAccuracyIsMadeAnew) {
+  const std::string folder = scratch("index");
+  IrradianceCache cache = random_cache(700);
+  cache.accuracy = 0.2;
+  const double read_at = reading_accuracy(cache.accuracy);
+  EXPECT_DOUBLE_EQ(read_at, 0.5);
+  const std::string plain = text(folder, "/narrow"), indexed = text(folder, "/narrow-indexed");
+  write_irradiance(plain, cache, irradiance_provenance());
+  // Whoever wrote this one knew nothing of the accuracy at which it is read.
+  const Container file = Container::open(plain);
+  ContainerWriter writer;
+  for (const auto& [name, tensor] : file.tensors())
+    writer.add<float>(name, file.values<float>(name, tensor.shape), tensor.shape, tensor.unit);
+  const RecordIndex index = index_records(cache.records, cache.accuracy);
+  add_index(writer, index);
+  writer.write(indexed, file.provenance());
+  const RecordLookup lookup(Container::open(indexed));
+  EXPECT_FALSE(lookup.stored());
+  RecordTree tree({}, read_at);
+  for (const IrradianceRecord& r : cache.records) tree.insert(r);
+  for (const IrradianceRecord& r : cache.records) {
+    const Vec3 p = r.position + 0.4f * r.radius_m * glm::normalize(Vec3(1, 2, 3));
+    EXPECT_NEAR(lookup.interpolate(p, r.normal).weight, tree.interpolate(p, r.normal).weight, 1e-5f);
+  }
+}
+
 TEST(RecordIndex, NoRecordsIsNothingAnywhere) {
   const std::string path = text(scratch("index"), "/none");
   IrradianceCache cache;
