@@ -84,7 +84,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   place_records(fresh, estimator, rays, resolved, {}, point_candidates(open), report.counters);
   report.records_made = fresh.records.size();
 
-  RecordTree records(rays.scene().bounds, fresh.accuracy,
+  RecordTree records(rays.scene().bounds, reading_accuracy(fresh.accuracy),
                      options.leak_test == LeakTest::ray ? &rays : nullptr);
   for (const IrradianceRecord& r : fresh.records) records.insert(r);
   std::vector<Reading> readings(open.size());
@@ -153,10 +153,10 @@ Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
 
 std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   if (empty()) return nullptr;
-  const double accuracy = lookups_[0].records().accuracy();
+  const double accuracy = lookups_[0].accuracy();
   auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy, leak_test_);
   for (const RecordLookup& lookup : lookups_) {
-    const auto reach = static_cast<float>(lookup.records().accuracy() / accuracy);
+    const auto reach = static_cast<float>(lookup.accuracy() / accuracy);
     for (std::size_t i = 0; i < lookup.records().size(); ++i) {
       IrradianceRecord r = lookup.records()[i];
       r.radius_m *= reach;

@@ -10,9 +10,6 @@ namespace {
 
 /// Photons tried as places: a coarse cache needs far fewer records than that.
 constexpr std::int64_t kCandidates = 400000;
-/// Records are read somewhat beyond the reach at which they were placed, so that few places have none.
-constexpr double kReadBeyond = 1.5;
-
 RecordOptions coarse_options(const RecordOptions& fine) {
   RecordOptions coarse = fine;
   coarse.estimate = Estimate::hull;
@@ -49,7 +46,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
 }
 
 void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, reading_accuracy(cache.accuracy));
   for (const IrradianceRecord& r : cache.records) tree_->insert(r);
   far_ = std::make_unique<FarRecords>(*tree_);
 }

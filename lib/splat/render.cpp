@@ -98,8 +98,8 @@ void declare_options(Options& options, RenderOptions& r) {
   options.section("Light from the cache");
   options.number("accuracy", r.accuracy, "A",
                  "how far a record reaches: error allowed between records (smaller: fewer, closer records "
-                 "are blended; more "
-                 "misses); what the cache was placed with if not given",
+                 "are blended; more noise, more misses); if not given, 2.5 times what the cache was placed "
+                 "with, but no more than 0.5",
                  kPositive);
   options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
                           "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
@@ -143,7 +143,7 @@ void declare_options(Options& options, RenderOptions& r) {
 
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
   resolve_size(camera, kPictureSide, r.width, r.height);
-  if (!r.accuracy) r.accuracy = cache.accuracy;
+  if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
     throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");

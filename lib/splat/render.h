@@ -37,7 +37,7 @@ struct RenderOptions {
   std::vector<std::string> layers{"all"};
   Overlay overlay = Overlay::none;
   OverlayColour overlay_colour = OverlayColour::radius;
-  std::optional<double> accuracy;  ///< a; empty = what the cache was placed with
+  std::optional<double> accuracy;  ///< a; empty = reading_accuracy() of the cache
   SplatBy splat = SplatBy::gl;
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
