@@ -1,6 +1,8 @@
 // Places radiance records on glossy surfaces and estimates them.
 #include <cmath>
+#include <sstream>
 
+#include "cache/gloss_report.h"
 #include "cache/radiance_placement.h"
 #include "file/tool.h"
 #include "scene/load.h"
@@ -10,57 +12,47 @@ using namespace phos;
 
 namespace {
 
-void tell_of_tables(Tool& tool, const Scene& scene, const GlossTables& tables, bool projected_here) {
-  Json materials = Json::Array{};
-  for (const GlossChoice& choice : tables.choices()) {
-    const std::string& name = scene.material[choice.material].name;
-    tool.say(text(name.empty() ? text("material ", choice.material) : text('"', name, '"'), ": ",
-                  choice.order > 0 ? text("records of order ", choice.order) : "traced by rays", "; ",
-                  choice.why));
-    Json j;
-    j["material"] = name, j["order"] = choice.order, j["traced_share"] = choice.traced_share;
-    materials.push_back(j);
-  }
-  tool.stat("materials", materials);
-  if (projected_here && !tables.orders().empty())
-    tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+void tell_of_gloss(Tool& tool, const Json& report, bool projected_here) {
+  tool.stat("gloss", report);
+  std::istringstream lines(gloss_text(report));
+  for (std::string line; std::getline(lines, line);) tool.say(line.substr(line.find_first_not_of(' ')));
+  if (projected_here) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
 }
 
 void summarise(Tool& tool, const RadianceCache& cache, const std::vector<RadianceRun>& runs) {
-  std::uint64_t made = 0, kept = 0, candidates = 0, uncovered = 0;
-  double making_s = 0, open = 0;
+  PlacementReport all;
+  double open_share = 0;
   Json by_order = Json::Array{};
   for (const RadianceRun& run : runs) {
     const PlacementReport& r = run.report;
-    made += r.made, kept += r.kept, candidates += r.candidates, uncovered += r.uncovered;
-    making_s += r.making_s, open = std::max(open, r.uncovered_share.value_or(0));
+    all.made += r.made, all.kept += r.kept, all.making_s += r.making_s;
+    all.candidates += r.candidates, all.uncovered += r.uncovered;
     Json j;
     j["order"] = run.order, j["records_new"] = r.kept, j["records_made"] = r.made;
     j["candidates"] = r.candidates, j["candidates_uncovered"] = r.uncovered, j["passes"] = r.passes;
     if (r.uncovered_share) j["uncovered_share"] = *r.uncovered_share;
+    open_share = std::max(open_share, r.uncovered_share.value_or(0));
     by_order.push_back(j);
   }
   const RadianceSummary summary = summarize(cache);
+  const double ms = all.made > 0 ? 1e3 * all.making_s / static_cast<double>(all.made) : 0;
+  tool.stat("records", cache.records.size());
+  tool.stat("records_new", all.kept);
+  tool.stat("records_made", all.made);
+  tool.stat("runs", by_order);
+  tool.stat("relative_error", summary.error);
+  if (all.made > 0) tool.stat("ms_per_record", ms);
   std::string orders;
   for (const auto& [order, count] : summary.records)
     orders += text(orders.empty() ? "" : ", ", count, " of order ", order);
-  tool.stat("records", cache.records.size());
-  tool.stat("records_new", kept);
-  tool.stat("records_made", made);
-  tool.stat("runs", by_order);
-  tool.stat("relative_error", summary.error);
-  const double ms = made > 0 ? 1e3 * making_s / static_cast<double>(made) : 0;
-  if (made > 0) tool.stat("ms_per_record", ms);
   const auto rounded = [](double v) { return std::round(100 * v) / 100; };
-  tool.say(text(orders.empty() ? "no records" : orders, " (", kept, " new) cover ", candidates,
-                " candidates; mean standard error ", rounded(100 * summary.error), " %",
-                made > 0 ? text("; ", rounded(ms), " ms for each") : ""));
-  if (open > 0)
-    tool.say(text("of the glossy surface that light can reach, ", rounded(100 * open),
-                  " % is out of every record's reach"));
-  else if (uncovered > 0)
-    tool.say(text(uncovered,
-                  " candidates are left uncovered by neighbour clamping; raise --passes to cover them"));
+  tool.say(text("records: ", orders.empty() ? "none" : orders, "; ", all.kept, " new, for ", all.candidates,
+                " candidates", all.made > 0 ? text(", ", rounded(ms), " ms each") : "",
+                "; mean standard error ", rounded(100 * summary.error), " % of the light"));
+  if (open_share > 0)
+    tool.say(text(rounded(100 * open_share), " % of the glossy surface is out of every record's reach"));
+  else if (all.uncovered > 0)
+    tool.say(text(all.uncovered, " candidates are left uncovered by neighbour clamping; raise --passes"));
 }
 
 }  // namespace
@@ -95,7 +87,7 @@ int main(int argc, char** argv) {
   declare_options(options, scene_options);
   declare_options(options, gloss);
   declare_options(options, radiance);
-  declare_options(options, placement);
+  declare_place_options(options, placement);
   declare_isa(options, isa);
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
@@ -125,7 +117,6 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("tables");
       return GlossTables(scene, inputs.brdf, gloss, {}, tool.counters());
     }();
-    tell_of_tables(tool, scene, tables, files.brdf.empty());
     RadianceCache cache;
     if (!add_to.empty()) {
       const Container earlier = open_to_add(add_to, "radiance", files, scene, allow_mismatch);
@@ -142,6 +133,7 @@ int main(int argc, char** argv) {
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
     resolve(placement, scene, source);
+    tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
     if (tables.orders().empty()) {
       tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
                     ": the file is empty"));
