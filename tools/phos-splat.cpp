@@ -1,8 +1,7 @@
-// phos-splat: scene + irradiance cache -> OpenEXR picture.
+// phos-splat: scene + caches -> OpenEXR picture.
 #include <algorithm>
 #include <cmath>
 
-#include "cache/irradiance_cache.h"
 #include "file/container.h"
 #include "file/tool.h"
 #include "image/image.h"
@@ -10,42 +9,25 @@
 #include "scene/load.h"
 #include "scene/rays.h"
 #include "splat/caches.h"
-#include "splat/render.h"
+#include "splat/picture_gloss.h"
+#include "splat/picture_report.h"
 
 namespace {
 
 using namespace phos;
 
-void put_stats(Tool& tool, const Rendering& rendering) {
-  for (const auto& [part, seconds] : rendering.seconds.as_object()) tool.stat("seconds." + part, seconds);
-  tool.stat("renderer", rendering.renderer);
-  tool.stat("cache lookups", rendering.looked_up);
-  tool.stat("cache misses", rendering.missed);
-  if (rendering.edge_pixels > 0) tool.stat("edge pixels", rendering.edge_pixels);
-  tool.counters().merge(rendering.counters);
-}
-
-void warn_of_misses(const Tool& tool, const Rendering& rendering) {
-  if (rendering.missed == 0) return;
-  const double share = static_cast<double>(rendering.missed) / static_cast<double>(rendering.looked_up);
-  tool.warn(text(shortest(std::ceil(1e4 * share) / 100),
-                 " % of the visible points have no record near enough (farther ones light them); write them "
-                 "with --misses, fill them "
-                 "with phos-irradiance --at, or raise --accuracy"));
-}
-
-void tell_of_records(Tool& tool, const RenderOptions& render, const Rendering& rendering) {
-  if (render.overlay == Overlay::none) return;
-  const DrawnRecords& drawn = rendering.drawn;
-  tool.stat("overlay.records", drawn.count);
-  tool.stat("overlay.least", drawn.least);
-  tool.stat("overlay.most", drawn.most);
-  const bool radius = render.overlay_colour == OverlayColour::radius;
-  const auto value = [&](double v) {
-    return radius ? shortest(static_cast<float>(v)) + " m" : shortest(static_cast<float>(100 * v)) + " %";
-  };
-  tool.say(text(drawn.count, " records drawn; ", radius ? "radius" : "standard error", " from ",
-                value(drawn.least), " (blue) to ", value(drawn.most), " (red), logarithmic"));
+/// What was given for nothing, and what it lacks.
+void tell_of_files(const Tool& tool, const std::vector<Container>& files, const RenderOptions& render,
+                   bool glossy) {
+  const bool radiance = std::any_of(files.begin(), files.end(), is_radiance);
+  const bool brdf = std::any_of(files.begin(), files.end(),
+                                [](const Container& f) { return f.provenance().kind == "brdf"; });
+  if (render.gloss == GlossBy::cached && !radiance)
+    throw Error(ExitCode::usage, "--gloss cached",
+                "reads radiance records, and none are given; make them with phos-radiance");
+  if (radiance && !glossy) tool.say("nothing here is glossy: radiance records are not used");
+  if (brdf && !(radiance && glossy) && render.environment == EnvironmentBy::traced)
+    tool.say("the .brdf file is not used: it serves radiance records, and --environment-mode hsh");
 }
 
 void require_finite(const Image& image) {
@@ -59,7 +41,7 @@ void require_finite(const Image& image) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("phos-splat", "renders a scene from its irradiance cache",
+  Tool tool("phos-splat", "renders a scene from its caches",
             "Draws every record of the caches over the visible surface, adds direct light by shadow rays and "
             "what mirrors, "
             "glass and glossy surfaces reflect, and writes an OpenEXR image with the layers beauty (R G B), "
@@ -69,13 +51,14 @@ int main(int argc, char** argv) {
             "and Z. Another camera, size or --accuracy needs no new cache.",
             1);
   Options& options = tool.options();
-  std::string scene_path, misses_path;
+  std::string scene_path, misses_path, gloss_misses_path;
   std::vector<std::string> cache_paths;
   bool allow_mismatch = false;
   options.input("SCENE", scene_path, "glTF or OBJ scene");
   options.inputs(
       "CACHE", cache_paths,
-      "irradiance caches of that scene, several are joined; its .brdf file (for --environment-mode hsh)");
+      "irradiance and radiance caches of that scene, several are joined; its .brdf file (for radiance, else "
+      "lobes are projected here, and for --environment-mode hsh)");
   ExrCompression compression = ExrCompression::zip;
   RenderOptions render;
   SceneOptions scene_options;
@@ -88,7 +71,12 @@ int main(int argc, char** argv) {
       "of the EXR file, lossless: none is the fastest");
   options.file("misses", misses_path,
                "write the visible points without a record here (CSV), for phos-irradiance --at");
-  options.flag("allow-mismatch", allow_mismatch, "accept a cache of another version of the scene (recorded)");
+  options.file(
+      "gloss-misses", gloss_misses_path,
+      "write the visible glossy points without a radiance record here (CSV), for phos-radiance --at");
+  options.flag("allow-mismatch", allow_mismatch,
+               "accept a cache of another version of the scene, or radiance of fewer bands than its lobes "
+               "(recorded)");
   options.example("phos-splat room.glb room.irradiance -o room.exr", "the first camera, 1000 pixels wide");
   options.example(
       "phos-splat room.glb room.irradiance --pixel-samples 1 --edge-samples 8 --layers beauty -o room.exr",
@@ -103,8 +91,8 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
     render.seed = tool.seed();
     tool.set_provenance_reader(read_image_provenance);
-    if (options.given("reuse") && !misses_path.empty())
-      throw Error(ExitCode::usage, "--misses",
+    if (options.given("reuse") && !(misses_path.empty() && gloss_misses_path.empty()))
+      throw Error(ExitCode::usage, misses_path.empty() ? "--gloss-misses" : "--misses",
                   "a picture that is not made anew has no misses; leave out --reuse");
     if (tool.up_to_date()) return;
 
@@ -115,32 +103,32 @@ int main(int argc, char** argv) {
     }();
     if (!allow_mismatch)
       for (const Container& file : files) require_same_scene(file, scene_path, scene.hash, scene.parts);
-    const SplatCaches caches = read_caches(files);
-    const IrradianceCache& cache = caches.irradiance;
-    if (!caches.brdf.empty() && render.environment == EnvironmentBy::traced)
-      tool.say("the .brdf file is not used: it serves --environment-mode hsh");
-    if (cache.quantity == "all")
+    const bool glossy = !glossy_materials(scene).empty();
+    tell_of_files(tool, files, render, glossy);
+    SplatCaches caches = read_caches(files, glossy);
+    if (caches.irradiance.quantity == "all")
       tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
-    resolve(render, find_camera(scene, render.camera), cache);
+    resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
 
     const RayScene rays = [&] {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});
     }();
-    Rendering rendering = render_scene(rays, cache, render, caches.brdf);
-    put_stats(tool, rendering);
-    tell_of_records(tool, render, rendering);
+    const PictureGloss gloss = [&] {
+      const auto timer = tool.time("gloss tables");
+      return gloss_of_picture(rays, caches, render, allow_mismatch, tool.counters());
+    }();
+    if (gloss.projected) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+    Rendering rendering =
+        render_scene(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr);
     require_finite(rendering.image);
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");
     write_exr(tool.output(), rendering.image, compression);
-    if (misses_path.empty()) {
-      warn_of_misses(tool, rendering);
-    } else {
-      write_misses(misses_path, rendering.misses);
-      tool.say(text(misses_path, ": ", rendering.misses.size(), " points without a record"));
-    }
-    tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ", cache.records.size(),
-                  " records"));
+    if (!misses_path.empty()) write_misses(misses_path, rendering.misses);
+    if (!gloss_misses_path.empty()) write_misses(gloss_misses_path, rendering.gloss_misses);
+    report_picture(tool, render, rendering, gloss, misses_path, gloss_misses_path);
+    tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ",
+                  caches.irradiance.records.size(), " records"));
   });
 }

@@ -10,13 +10,51 @@ namespace {
 
 bool is_brdf(const Container& file) { return file.provenance().kind == "brdf"; }
 
+/// The records of several files as one cache.
+class Joined {
+ public:
+  explicit Joined(IrradianceCache& all) : all_(all) {}
+
+  void add(const Container& file, const IrradianceCache& more) {
+    if (first_ && more.quantity != all_.quantity)
+      throw Error(
+          ExitCode::mismatch, file.path(),
+          text("holds ", more.quantity, " light, ", first_->path(), " holds ", all_.quantity,
+               "; make both with the same --paths of phos-irradiance (radiance records are indirect)"));
+    all_.accuracy = first_ ? std::min(all_.accuracy, more.accuracy) : more.accuracy;
+    all_.quantity = more.quantity;
+    all_.records.insert(all_.records.end(), more.records.begin(), more.records.end());
+    first_ = &file;
+  }
+
+ private:
+  IrradianceCache& all_;
+  const Container* first_ = nullptr;
+};
+
+void add(RadianceCache& all, RadianceCache more) {
+  all.accuracy = all.records.empty() ? more.accuracy : std::min(all.accuracy, more.accuracy);
+  all.scene_hash = more.scene_hash;
+  for (RadianceRecord& r : more.records) all.records.push_back(std::move(r));
+}
+
+IrradianceCache irradiance_of(const RadianceCache& radiance) {
+  IrradianceCache cache;
+  cache.accuracy = radiance.accuracy;
+  for (const RadianceRecord& r : radiance.records) cache.records.push_back(irradiance_of(r));
+  return cache;
+}
+
 }  // namespace
+
+bool is_radiance(const Container& file) { return file.provenance().kind == "radiance"; }
 
 std::vector<Container> open_caches(const std::vector<std::string>& paths) {
   std::vector<Container> files;
   for (const std::string& path : paths) {
     files.push_back(Container::open(path));
-    if (!is_brdf(files.back())) files.back() = Container::open(path, "irradiance");
+    if (!is_brdf(files.back()) && !is_radiance(files.back()))
+      files.back() = Container::open(path, "irradiance");
   }
   if (std::all_of(files.begin(), files.end(), is_brdf))
     throw Error(ExitCode::bad_input, paths.empty() ? "CACHE" : paths.front(),
@@ -24,24 +62,18 @@ std::vector<Container> open_caches(const std::vector<std::string>& paths) {
   return files;
 }
 
-SplatCaches read_caches(const std::vector<Container>& files) {
+SplatCaches read_caches(const std::vector<Container>& files, bool glossy) {
   SplatCaches caches;
-  IrradianceCache& all = caches.irradiance;
-  const Container* first = nullptr;
+  Joined all(caches.irradiance);
   for (const Container& file : files) {
     if (is_brdf(file)) {
       for (BrdfTable& table : read_brdf(file)) caches.brdf.push_back(std::move(table));
-      continue;
+    } else if (!is_radiance(file)) {
+      all.add(file, read_irradiance(file));
+    } else if (RadianceCache more = read_radiance(file); glossy && !more.records.empty()) {
+      all.add(file, irradiance_of(more));
+      add(caches.radiance, std::move(more));
     }
-    const IrradianceCache more = read_irradiance(file);
-    if (first && more.quantity != all.quantity)
-      throw Error(ExitCode::mismatch, file.path(),
-                  text("holds ", more.quantity, " light, ", first->path(), " holds ", all.quantity,
-                       "; make both with the same --paths of phos-irradiance"));
-    all.accuracy = first ? std::min(all.accuracy, more.accuracy) : more.accuracy;
-    all.quantity = more.quantity;
-    all.records.insert(all.records.end(), more.records.begin(), more.records.end());
-    first = &file;
   }
   return caches;
 }

@@ -6,19 +6,26 @@
 
 #include "cache/brdf_table.h"
 #include "cache/irradiance_cache.h"
+#include "cache/radiance_cache.h"
 #include "file/container.h"
 
 namespace phos {
 
 struct SplatCaches {
-  IrradianceCache irradiance;   ///< of all files together, the strictest accuracy
+  /// Of all files together, the strictest accuracy; what radiance records say of irradiance among it.
+  IrradianceCache irradiance;
+  RadianceCache radiance;       ///< likewise; empty where there is no such file, or nothing glossy
   std::vector<BrdfTable> brdf;  ///< empty where there is no such file
 };
 
-/// Opens .irradiance and .brdf files, told from their content. Throws Error(bad_input) for any other, or
-/// where there is no irradiance among them.
+/// Does a file hold radiance records?
+bool is_radiance(const Container& file);
+
+/// Opens .irradiance, .radiance and .brdf files, told from their content. Throws Error(bad_input) for any
+/// other, or where there are no records among them.
 std::vector<Container> open_caches(const std::vector<std::string>& paths);
-/// Throws Error(mismatch) for irradiance of different paths of light.
-SplatCaches read_caches(const std::vector<Container>& files);
+/// `glossy`: does the scene have glossy materials? Throws Error(mismatch) for records of different paths of
+/// light.
+SplatCaches read_caches(const std::vector<Container>& files, bool glossy = true);
 
 }  // namespace phos

@@ -3,18 +3,20 @@
 namespace phos {
 
 void ShadingResult::join(const ShadingResult& other) {
-  looked_up += other.looked_up, missed += other.missed;
+  looked_up += other.looked_up, missed += other.missed, gloss_looked_up += other.gloss_looked_up;
+  gloss_misses.insert(gloss_misses.end(), other.gloss_misses.begin(), other.gloss_misses.end());
   log.counters.merge(other.log.counters);
   log.misses.insert(log.misses.end(), other.log.misses.begin(), other.log.misses.end());
 }
 
 PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
-                         bool cached_direct, const EnvironmentHarmonics* environment)
+                         bool cached_direct, const EnvironmentHarmonics* environment, const GlossCache* gloss)
     : rays_(rays),
       shading_(shading),
       options_(options),
       cached_direct_(cached_direct),
-      environment_(environment) {}
+      environment_(environment),
+      gloss_(gloss) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                                const Splat& splat, const SharedLight* shared, ShadingResult& result) const {
@@ -35,8 +37,9 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
     from_cache(point, bsdf, splat, light, result);
   }
   const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
-  from_lights(sample, point, bsdf, wo, shared, by_rays, sequence, light);
-  if (bsdf.has_gloss()) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
+  const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
+  from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
+  if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
   return light;
 }
@@ -61,8 +64,32 @@ void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const 
   const Rgb irradiance = Rgb(sum) / sum.w;
   const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
   light.indirect = irradiance * reflected;
-  light.indirect_error = Rgb(error) / sum.w * reflected;
+  light.indirect_error += Rgb(error) / sum.w * reflected;
   light.illuminance_lx += luminance(irradiance);
+}
+
+bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat,
+                                   PixelSample& light, ShadingResult& result) const {
+  if (!gloss_) return false;
+  Rgb radiance, error;
+  if (splat.gloss.w > 0) {
+    radiance = Rgb(splat.gloss) / splat.gloss.w, error = Rgb(splat.gloss_error) / splat.gloss.w;
+  } else {
+    // As of irradiance, the lookup has the last word.
+    static thread_local GlossCache::Worker worker;
+    const std::optional<GlossyLight> found = gloss_->outgoing(point, wo, worker);
+    if (!found) return false;
+    if (!(found->weight > 0)) {
+      ++result.gloss_looked_up;
+      result.gloss_misses.push_back({point.position, point.smooth_normal});
+      return false;
+    }
+    radiance = found->radiance, error = found->stderr_cd;
+  }
+  ++result.gloss_looked_up;
+  light.glossy += radiance;
+  light.indirect_error += error;  // the same records may hold the light of the Lambert part: no quadrature
+  return true;
 }
 
 /// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
@@ -97,11 +124,13 @@ bool PixelShader::from_environment(const SurfacePoint& point, const Bsdf& bsdf, 
 }
 
 void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
-                              const Vec3& wo, const SharedLight* shared, bool environment,
+                              const Vec3& wo, const SharedLight* shared, bool environment, bool gloss_by_rays,
                               RandomStream& sequence, PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
   if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
-  if (shared && !(options_.direct == DirectBy::interleaved && bsdf.has_gloss())) {
+  // What lamps show in gloss is not shared. Where rays look for gloss anyway, shadow maps leave it to them.
+  const bool own = bsdf.has_gloss() && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
+  if (shared && !own) {
     if (!diffuse) return;
     const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
     light.direct += shared->illuminance * reflected;
@@ -112,7 +141,7 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
   }
   const DirectLight direct =
       shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
-                      range(sample, options_.gloss_samples).count, sequence, environment);
+                      gloss_by_rays ? range(sample, options_.gloss_samples).count : 0, sequence, environment);
   light.direct += direct.radiance;
   light.noisy += direct.radiance;
   light.variance += direct.variance;

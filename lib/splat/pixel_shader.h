@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cache/gloss_cache.h"
 #include "cache/shading.h"
 #include "splat/environment_harmonics.h"
 #include "splat/interleaved.h"
@@ -23,19 +24,22 @@ struct SampleOfPixel {
 struct ShadingResult {
   ShadingLog log;
   std::uint64_t looked_up = 0, missed = 0;
+  std::uint64_t gloss_looked_up = 0;  ///< lobes that read radiance records
+  std::vector<Miss> gloss_misses;     ///< of which no record reached, so that they were traced
   void join(const ShadingResult& other);
 };
 
 /// Const, usable from any thread; holds references.
 class PixelShader {
  public:
-  /// `environment`: null where the environment is traced.
+  /// `environment`: null where the environment is traced. `gloss`: null where all gloss is.
   PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct,
-              const EnvironmentHarmonics* environment = nullptr);
+              const EnvironmentHarmonics* environment = nullptr, const GlossCache* gloss = nullptr);
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
   struct Splat {
-    Vec4 light{0}, error{0};  // as in SplatBuffer
+    Vec4 light{0}, error{0};        // as in SplatBuffer
+    Vec4 gloss{0}, gloss_error{0};  // as in GlossBuffer
   };
   /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a
   /// pixel's samples alone?
@@ -48,13 +52,16 @@ class PixelShader {
  private:
   void from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,
                   ShadingResult& result) const;
+  /// Is the gloss had from radiance records? Else it is to be traced.
+  bool gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat, PixelSample& light,
+                        ShadingResult& result) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   /// Is the environment's light had without rays?
   bool from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, PixelSample& light,
                         ShadingLog& log) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                   const SharedLight* shared, bool environment, RandomStream& sequence,
+                   const SharedLight* shared, bool environment, bool gloss_by_rays, RandomStream& sequence,
                    PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                   bool environment, RandomStream& sequence, RandomStream& random, PixelSample& light,
@@ -65,6 +72,7 @@ class PixelShader {
   const RenderOptions& options_;
   bool cached_direct_;
   const EnvironmentHarmonics* environment_;
+  const GlossCache* gloss_;
 };
 
 }  // namespace phos

@@ -12,6 +12,7 @@
 #include "scene/load.h"
 #include "scene/picture.h"
 #include "splat/edges.h"
+#include "splat/gloss_splatter.h"
 #include "splat/interleaved.h"
 #include "splat/pixel_shader.h"
 #include "splat/same_surface.h"
@@ -135,14 +136,18 @@ void declare_options(Options& options, RenderOptions& r) {
   options.integer("environment-order", r.environment_order, "N",
                   "bands of those harmonics: N x N coefficients", {1, 30});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
+  declare_options(options, r.gloss);
   options.integer("gloss-samples", r.gloss_samples, "N",
-                  "rays per pixel on a glossy surface, shared among its samples", {0, 65536});
+                  "rays per pixel on a glossy surface whose gloss is traced, shared among its samples",
+                  {0, 65536});
   options.integer("specular-depth", r.specular_depth, "N", "longest chain of mirrors and glass", {0, 1000});
   declare_isa(options, r.isa);
 }
 
-void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache) {
+void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache,
+             const RadianceCache& radiance) {
   resolve_size(camera, kPictureSide, r.width, r.height);
+  if (!r.gloss_accuracy) r.gloss_accuracy = r.accuracy.value_or(radiance.accuracy);
   if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
@@ -159,9 +164,10 @@ namespace {
 class Painter {
  public:
   Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-          std::span<const BrdfTable> brdfs, Rendering& result)
+          std::span<const BrdfTable> brdfs, const GlossCache* gloss, Rendering& result)
       : rays_(rays),
         cache_(cache),
+        gloss_(gloss),
         options_(options),
         result_(result),
         camera_(find_camera(rays.scene(), options.camera)),
@@ -173,7 +179,7 @@ class Painter {
         records_(tree()),
         shading_(rays, lights_, records_, shading_options()),
         environment_(harmonics(brdfs)),
-        shader_(rays, shading_, options, cached_direct(), environment_.get()),
+        shader_(rays, shading_, options, cached_direct(), environment_.get(), gloss),
         layers_(width_, height_, LayerSet(options.layers)),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),
@@ -188,7 +194,7 @@ class Painter {
       if (s == 0 && options_.edge_samples > 0) find_edges(pass_.gbuffer);
       pass_.splats = light_from_cache(pass_.gbuffer);
       pass_.shared = shared_light(s, pass_.gbuffer);
-      shade(s, pass_.gbuffer, pass_.splats, pass_.shared);
+      shade(s, pass_.gbuffer, pass_.splats, gloss_from_cache(s, pass_.gbuffer), pass_.shared);
     }
     if (!edges_.empty()) shade_edges();
     finish();
@@ -241,6 +247,19 @@ class Painter {
                    : splat_on_cpu(cache_.records, *options_.accuracy, gbuffer, camera_);
   }
 
+  /// Empty if all gloss is traced.
+  GlossBuffer gloss_from_cache(int s, const GBuffer& gbuffer) {
+    if (!gloss_ || gloss_->size() == 0) return {};
+    const Stopwatch watch(result_.seconds, "gloss splat");
+    const Vec2 where = subpixel_offset(s);
+    GlossBuffer drawn =
+        options_.leak_test == LeakTest::ray
+            ? look_up_gloss(*gloss_, rays_, gbuffer, camera_, where)
+            : splat_gloss_on_cpu(*gloss_, *options_.gloss_accuracy, rays_, gbuffer, camera_, where);
+    result_.gloss.pairs += drawn.pairs, result_.gloss.turned_pixels += drawn.turned;
+    return drawn;
+  }
+
   /// Empty if direct light is had another way.
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
     if (options_.direct == DirectBy::interleaved) {
@@ -271,7 +290,7 @@ class Painter {
     return pixel_rays_(static_cast<int>(pixel % width), static_cast<int>(pixel / width), where);
   }
 
-  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats,
+  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const GlossBuffer& gloss,
              const std::vector<SharedLight>& shared) {
     const Stopwatch watch(result_.seconds, "shading");
     const Vec2 where = subpixel_offset(s);
@@ -279,8 +298,9 @@ class Painter {
       const Ray ray = ray_of(i, where);
       if (!gbuffer.covered(i)) return layers_.add(i, background(ray));
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
-      layers_.add(i, shader_.shade({i, s}, ray, point, {splats.light[i], splats.error[i]},
-                                   shared.empty() ? nullptr : &shared[i], result));
+      PixelShader::Splat splat{splats.light[i], splats.error[i]};
+      if (!gloss.light.empty()) splat.gloss = gloss.light[i], splat.gloss_error = gloss.error[i];
+      layers_.add(i, shader_.shade({i, s}, ray, point, splat, shared.empty() ? nullptr : &shared[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
     });
   }
@@ -356,8 +376,10 @@ class Painter {
     result_.looked_up = total_.looked_up, result_.missed = total_.missed;
     result_.edge_pixels = edges_.size();
     result_.counters = total_.log.counters;
-    result_.misses = std::move(total_.log.misses);
-    spread(result_.misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
+    result_.misses = std::move(total_.log.misses), result_.gloss_misses = std::move(total_.gloss_misses);
+    result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = result_.gloss_misses.size();
+    for (std::vector<Miss>* misses : {&result_.misses, &result_.gloss_misses})
+      spread(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
     const int spread_from = shader_.single_rays(false)  ? 2
                             : shader_.single_rays(true) ? samples_ + 1
                                                         : std::numeric_limits<int>::max();
@@ -366,6 +388,7 @@ class Painter {
 
   const RayScene& rays_;
   const IrradianceCache& cache_;
+  const GlossCache* gloss_;
   const RenderOptions& options_;
   Rendering& result_;
   const Camera& camera_;
@@ -393,9 +416,9 @@ class Painter {
 }  // namespace
 
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-                       std::span<const BrdfTable> brdfs) {
+                       std::span<const BrdfTable> brdfs, const GlossCache* gloss) {
   Rendering result;
-  Painter(rays, cache, options, brdfs, result).make();
+  Painter(rays, cache, options, brdfs, gloss, result).make();
   if (options.overlay == Overlay::records)
     result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
                                 find_camera(rays.scene(), options.camera), options.overlay_colour);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/gloss_cache.h"
 #include "cache/irradiance_cache.h"
 #include "cache/record_options.h"
 #include "cache/shading.h"
@@ -37,12 +38,14 @@ struct RenderOptions {
   std::vector<std::string> layers{"all"};
   Overlay overlay = Overlay::none;
   OverlayColour overlay_colour = OverlayColour::radius;
-  std::optional<double> accuracy;  ///< a; empty = reading_accuracy() of the cache
+  std::optional<double> accuracy;        ///< a; empty = reading_accuracy() of the cache
+  std::optional<double> gloss_accuracy;  ///< of radiance records; empty = a, or what they were placed with
   SplatBy splat = SplatBy::gl;
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
   std::int64_t shadow_map_size = 1024;
+  GlossBy gloss = GlossBy::automatic;
   EnvironmentBy environment = EnvironmentBy::traced;
   std::int64_t environment_order = 10;
   std::int64_t max_misses = 100000;
@@ -50,26 +53,33 @@ struct RenderOptions {
   std::uint64_t seed = 0;
 };
 void declare_options(Options& options, RenderOptions& render);
-/// Fills width, height and accuracy in. Throws Error(usage) for a picture of more than 2^28 pixels, or for
-/// options that exclude each other.
-void resolve(RenderOptions& render, const Camera& camera, const IrradianceCache& cache);
+/// Fills width, height and both accuracies in. Throws Error(usage) for a picture of more than 2^28 pixels, or
+/// for options that exclude each other.
+void resolve(RenderOptions& render, const Camera& camera, const IrradianceCache& cache,
+             const RadianceCache& radiance = {});
 
 struct Rendering {
   Image image;               ///< layers of DESIGN "Files"
   std::vector<Miss> misses;  ///< visible points without a valid record, in an order that spreads them
   std::uint64_t missed = 0, looked_up = 0;  ///< of all points that read the cache
-  std::uint64_t edge_pixels = 0;            ///< that had edge_samples more
-  DrawnRecords drawn;                       ///< over the beauty
+  std::vector<Miss> gloss_misses;           ///< places of lobes that no radiance record reaches, likewise
+  /// Lobes that read radiance records, those that none reached, and what drawing added up.
+  struct {
+    std::uint64_t looked_up = 0, missed = 0, pairs = 0, turned_pixels = 0;
+  } gloss;
+  std::uint64_t edge_pixels = 0;  ///< that had edge_samples more
+  DrawnRecords drawn;             ///< over the beauty
   Counters counters;
   Json seconds = Json::Object{};  ///< per part
   std::string renderer;           ///< of the splatter
 };
 
 /// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu. `brdfs`: of this
-/// scene's glossy materials, for an environment by harmonics; those that it lacks are projected. Throws
-/// Error(usage) for harmonics of a scene without environment.
+/// scene's glossy materials, for an environment by harmonics; those that it lacks are projected. `gloss`,
+/// made for gloss_accuracy: what glossy surfaces read (null: all gloss is traced). Throws Error(usage) for
+/// harmonics of a scene without environment.
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render,
-                       std::span<const BrdfTable> brdfs = {});
+                       std::span<const BrdfTable> brdfs = {}, const GlossCache* gloss = nullptr);
 
 /// CSV: x,y,z (m), nx,ny,nz. What phos-irradiance --at reads. Atomic.
 void write_misses(const std::string& path, const std::vector<Miss>& misses);

@@ -1,0 +1,15 @@
+// What phos-splat tells of a picture that it made.
+#pragma once
+
+#include "file/tool.h"
+#include "splat/picture_gloss.h"
+#include "splat/render.h"
+
+namespace phos {
+
+/// Times, counts and events for --stats; on stderr what is missing, where `misses` and `gloss_misses` (paths
+/// of --misses and --gloss-misses, "" where not given) do not hold it; and what an overlay shows.
+void report_picture(Tool& tool, const RenderOptions& render, const Rendering& rendering,
+                    const PictureGloss& gloss, const std::string& misses, const std::string& gloss_misses);
+
+}  // namespace phos
