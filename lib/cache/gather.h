@@ -24,6 +24,9 @@ struct GatherSource {
       nullptr;  ///< estimates indirect light where neither has a record (counted); null: dark
   bool holds_direct =
       false;  ///< the cache holds light straight from the lamps too: none is sampled where rays land
+  /// Radiance records: what glossy lobes that they serve show but for the lamps; null: none. Where no record
+  /// is near enough (counted), gloss is followed as elsewhere.
+  const GlossCache* gloss = nullptr;
 };
 
 /// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.
@@ -31,9 +34,10 @@ struct GatherSource {
 /// RecordOptions::gather_bounces counts reflections between the lamp and the record, those by gloss, mirrors
 /// and glass too, as PathOptions::bounces of the reference does (which also counts the one at the record):
 /// with 1, a diffuse place shows what lamps send it, and a mirror shows the lamps. Without that limit a
-/// diffuse place ends a path by what the source knows, and gloss, mirrors and glass are followed, one ray at
-/// a time, until they lead to one: caustics seen in mirrors and all such light is there, without bias. Lamps
-/// without area are not seen in mirrors: their caustics are in the source alone.
+/// diffuse place ends a path by what the source knows, gloss too where radiance records tell of it, and
+/// mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place: caustics
+/// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
+/// their caustics are in the source alone.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -54,7 +58,8 @@ class HitLight {
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
-    std::uint64_t beyond_reach = 0, without_record = 0;  // since counted
+    GlossCache::Worker gloss;
+    std::uint64_t beyond_reach = 0, without_record = 0, without_radiance = 0;  // since counted
   };
   std::unique_ptr<Worker> make_worker() const;
 

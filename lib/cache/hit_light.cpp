@@ -13,6 +13,7 @@ namespace phos {
 namespace {
 
 constexpr const char* kWithoutRecord = "gathered places without a record";
+constexpr const char* kWithoutRadiance = "gathered glossy places without a radiance record";
 constexpr const char* kBeyondReach = "gathered places beyond the reach of records";
 // Walks over gloss and mirrors end by Russian roulette from this reflection on.
 constexpr std::uint32_t kRouletteFrom = 2;
@@ -100,7 +101,10 @@ struct HitLight::Impl {
   Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
 
   struct Step;
-  bool choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const;
+  std::optional<Rgb> recorded(const SurfacePoint& point, const Vec3& wo, std::int64_t bounces_left,
+                              Worker& worker) const;
+  bool choose_step(const Bsdf& bsdf, const Vec3& wo, bool follow_gloss, RandomStream& random,
+                   Step& step) const;
   Rgb beyond(const SurfacePoint& point, const Step& step) const;
   Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
                     RandomStream& random) const;
@@ -169,14 +173,27 @@ struct HitLight::Impl::Step {
   bool taken = false;
 };
 
-/// Chooses among the glossy lobes together and each mirror or refraction. False: there is none of them.
-bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, RandomStream& random, Step& step) const {
+/// Light through the glossy lobes but for the lamps', from radiance records; nothing: it is to be followed.
+std::optional<Rgb> HitLight::Impl::recorded(const SurfacePoint& point, const Vec3& wo,
+                                            std::int64_t bounces_left, Worker& worker) const {
+  if (!source.gloss || bounces_left == 1) return {};
+  const std::optional<GlossyLight> light = source.gloss->outgoing(point, wo, worker.gloss);
+  if (!light) return {};
+  if (light->weight > 0) return light->radiance;
+  ++worker.without_radiance;
+  return {};
+}
+
+/// Chooses among the glossy lobes together (with `follow_gloss`) and each mirror or refraction. False: there
+/// is none of them.
+bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, bool follow_gloss, RandomStream& random,
+                                 Step& step) const {
   BsdfSample branch[2];
   const int branches = bsdf.specular_branches(wo, branch);
   float share[2] = {0, 0}, sum = 0;
   for (int b = 0; b < branches; ++b) sum += share[b] = luminance(branch[b].weight);
   float gloss = 0;
-  if (bsdf.has_gloss()) gloss = std::max(kLeastGloss, 1 - sum - luminance(bsdf.diffuse_reflectance()));
+  if (follow_gloss) gloss = std::max(kLeastGloss, 1 - sum - luminance(bsdf.diffuse_reflectance()));
   sum += gloss;
   if (!(sum > 0)) return false;
   step.gloss_probability = gloss / sum;
@@ -237,7 +254,9 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
     random.start_bounce(reflection);
     const Bsdf bsdf(scene, point);
     Step step;
-    choose_step(bsdf, wo, random, step);
+    const std::optional<Rgb> gloss = bsdf.has_gloss() ? recorded(point, wo, left, worker) : std::nullopt;
+    if (gloss) sum += throughput * *gloss;
+    choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
     if (bsdf.has_diffuse()) {
       const Rgb f = throughput * bsdf.diffuse_reflectance() / kPi;
       const bool cached = reads_cache(left);
@@ -325,7 +344,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
   if (worker.beyond_reach > 0) worker.counters.count(kBeyondReach, worker.beyond_reach);
-  worker.without_record = worker.beyond_reach = 0;
+  if (worker.without_radiance > 0) worker.counters.count(kWithoutRadiance, worker.without_radiance);
+  worker.without_record = worker.beyond_reach = worker.without_radiance = 0;
   if (worker.fallback) {
     worker.counters.merge(worker.fallback->counters);
     worker.fallback->counters = Counters();

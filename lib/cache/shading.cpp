@@ -24,8 +24,8 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 }  // namespace
 
 Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
-                 const ShadingOptions& options)
-    : rays_(rays), lights_(lights), records_(records), far_(records), options_(options) {
+                 const ShadingOptions& options, const GlossCache* gloss)
+    : rays_(rays), lights_(lights), records_(records), far_(records), options_(options), gloss_(gloss) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const bool area = lights[i].kind == Light::Kind::area;
     extent_.push_back(area ? extent_of(rays.scene(), lights[i]) : LampExtent());
@@ -44,6 +44,15 @@ Interpolated Shading::cached(const SurfacePoint& point, ShadingLog& log) const {
   if (found.weight > 0) return found;
   log.misses.push_back({point.position, point.smooth_normal});
   return far_.interpolate(point.position, point.smooth_normal);
+}
+
+std::optional<GlossyLight> Shading::recorded(const SurfacePoint& point, const Vec3& wo,
+                                             ShadingLog& log) const {
+  if (!gloss_) return {};
+  std::optional<GlossyLight> light = gloss_->outgoing(point, wo, log.memory);
+  if (!light || light->weight > 0) return light;
+  log.gloss_misses.push_back({point.position, point.smooth_normal});
+  return {};
 }
 
 DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -167,14 +176,16 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
     if (found.weight > 0) light += found.irradiance * bsdf.diffuse_reflectance() / kPi;
   }
   const bool glossy = bsdf.has_gloss();
-  const bool send_on = glossy && depth < kGlossDepth;
+  const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
+  if (known) light += known->radiance;
+  const bool send_on = glossy && !known && depth < kGlossDepth;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += direct(point, bsdf, wo, 1, send_on ? 1 : 0, random).radiance;
   if (send_on) {
     const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);
     light += arriving.radiance;
     if (options_.reflect_direct) light += arriving.from_lamps;
-  } else if (glossy) {
+  } else if (glossy && !known) {
     log.counters.count("glossy paths cut");
   }
   return light + specular(point, bsdf, wo, depth, throughput, random, log);

@@ -1,10 +1,12 @@
-// Light leaving a visible point: direct by shadow rays, indirect from the cache, gloss and specular by traced
-// paths.
+// Light leaving a visible point: direct by shadow rays, indirect from the cache, gloss by radiance records or
+// traced paths, specular by traced paths.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cache/far_records.h"
+#include "cache/gloss_cache.h"
 #include "cache/irradiance_cache.h"
 #include "cache/lamp_extent.h"
 #include "core/counters.h"
@@ -53,17 +55,24 @@ struct Miss {
 /// What one thread's shading leaves besides light.
 struct ShadingLog {
   std::vector<Miss> misses;
+  std::vector<Miss> gloss_misses;  ///< without a radiance record, though one is to serve it: traced instead
   Counters counters;
+  GlossCache::Worker memory;
 };
 
 class Shading {
  public:
+  /// `gloss`: null where all gloss is traced.
   Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
-          const ShadingOptions& options);
+          const ShadingOptions& options, const GlossCache* gloss = nullptr);
 
   /// Irradiance from the cache at a point, lx. Where no record reaches, a miss is noted, and farther ones
   /// answer (FarRecords); weight 0: there are none.
   Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
+
+  /// Light through the glossy lobes from radiance records, all but what lamps send straight there. Nothing
+  /// where it is to be traced; that no record reaches the point is noted.
+  std::optional<GlossyLight> recorded(const SurfacePoint& point, const Vec3& wo, ShadingLog& log) const;
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (balance heuristic,
@@ -82,9 +91,9 @@ class Shading {
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
 
-  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the cache, one sample
-  /// of each lamp, one ray of its gloss, its mirrors. `depth` counts reflections since the eye (or the
-  /// record).
+  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches, one sample
+  /// of each lamp, one ray of gloss that no radiance record tells of, its mirrors. `depth` counts reflections
+  /// since the eye (or the record).
   Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
 
@@ -96,6 +105,7 @@ class Shading {
   const RecordTree& records_;
   FarRecords far_;
   ShadingOptions options_;
+  const GlossCache* gloss_;
   std::vector<LampExtent> extent_;  // per light
 };
 
