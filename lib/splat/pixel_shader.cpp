@@ -3,20 +3,21 @@
 namespace phos {
 
 void ShadingResult::join(const ShadingResult& other) {
-  looked_up += other.looked_up, missed += other.missed, gloss_looked_up += other.gloss_looked_up;
-  gloss_misses.insert(gloss_misses.end(), other.gloss_misses.begin(), other.gloss_misses.end());
+  looked_up += other.looked_up, missed += other.missed;
+  gloss_looked_up += other.gloss_looked_up, gloss_missed += other.gloss_missed;
   log.counters.merge(other.log.counters);
   log.misses.insert(log.misses.end(), other.log.misses.begin(), other.log.misses.end());
+  log.gloss_misses.insert(log.gloss_misses.end(), other.log.gloss_misses.begin(),
+                          other.log.gloss_misses.end());
 }
 
 PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
-                         bool cached_direct, const EnvironmentHarmonics* environment, const GlossCache* gloss)
+                         bool cached_direct, const EnvironmentHarmonics* environment)
     : rays_(rays),
       shading_(shading),
       options_(options),
       cached_direct_(cached_direct),
-      environment_(environment),
-      gloss_(gloss) {}
+      environment_(environment) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                                const Splat& splat, const SharedLight* shared, ShadingResult& result) const {
@@ -70,20 +71,15 @@ void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const 
 
 bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat,
                                    PixelSample& light, ShadingResult& result) const {
-  if (!gloss_) return false;
   Rgb radiance, error;
   if (splat.gloss.w > 0) {
     radiance = Rgb(splat.gloss) / splat.gloss.w, error = Rgb(splat.gloss_error) / splat.gloss.w;
   } else {
     // As of irradiance, the lookup has the last word.
-    static thread_local GlossCache::Worker worker;
-    const std::optional<GlossyLight> found = gloss_->outgoing(point, wo, worker);
+    const std::size_t misses = result.log.gloss_misses.size();
+    const std::optional<GlossyLight> found = shading_.recorded(point, wo, result.log);
+    if (result.log.gloss_misses.size() > misses) ++result.gloss_looked_up, ++result.gloss_missed;
     if (!found) return false;
-    if (!(found->weight > 0)) {
-      ++result.gloss_looked_up;
-      result.gloss_misses.push_back({point.position, point.smooth_normal});
-      return false;
-    }
     radiance = found->radiance, error = found->stderr_cd;
   }
   ++result.gloss_looked_up;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "cache/gloss_cache.h"
 #include "cache/shading.h"
 #include "splat/environment_harmonics.h"
 #include "splat/interleaved.h"
@@ -24,17 +23,16 @@ struct SampleOfPixel {
 struct ShadingResult {
   ShadingLog log;
   std::uint64_t looked_up = 0, missed = 0;
-  std::uint64_t gloss_looked_up = 0;  ///< lobes that read radiance records
-  std::vector<Miss> gloss_misses;     ///< of which no record reached, so that they were traced
+  std::uint64_t gloss_looked_up = 0, gloss_missed = 0;  ///< lobes that read radiance records
   void join(const ShadingResult& other);
 };
 
 /// Const, usable from any thread; holds references.
 class PixelShader {
  public:
-  /// `environment`: null where the environment is traced. `gloss`: null where all gloss is.
+  /// `environment`: null where the environment is traced.
   PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct,
-              const EnvironmentHarmonics* environment = nullptr, const GlossCache* gloss = nullptr);
+              const EnvironmentHarmonics* environment = nullptr);
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
   struct Splat {
@@ -72,7 +70,6 @@ class PixelShader {
   const RenderOptions& options_;
   bool cached_direct_;
   const EnvironmentHarmonics* environment_;
-  const GlossCache* gloss_;
 };
 
 }  // namespace phos

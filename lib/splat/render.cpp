@@ -177,9 +177,9 @@ class Painter {
         pixel_rays_(camera_, width_, height_),
         lights_(rays.scene()),
         records_(tree()),
-        shading_(rays, lights_, records_, shading_options()),
+        shading_(rays, lights_, records_, shading_options(), gloss),
         environment_(harmonics(brdfs)),
-        shader_(rays, shading_, options, cached_direct(), environment_.get(), gloss),
+        shader_(rays, shading_, options, cached_direct(), environment_.get()),
         layers_(width_, height_, LayerSet(options.layers)),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),
@@ -376,8 +376,8 @@ class Painter {
     result_.looked_up = total_.looked_up, result_.missed = total_.missed;
     result_.edge_pixels = edges_.size();
     result_.counters = total_.log.counters;
-    result_.misses = std::move(total_.log.misses), result_.gloss_misses = std::move(total_.gloss_misses);
-    result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = result_.gloss_misses.size();
+    result_.misses = std::move(total_.log.misses), result_.gloss_misses = std::move(total_.log.gloss_misses);
+    result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = total_.gloss_missed;
     for (std::vector<Miss>* misses : {&result_.misses, &result_.gloss_misses})
       spread(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
     const int spread_from = shader_.single_rays(false)  ? 2
