@@ -10,65 +10,15 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "scene/picture.h"
-#include "support/estimators.h"
-#include "support/one_material.h"
+#include "support/glossy_room.h"
 #include "support/radiance_records.h"
-#include "support/scenes.h"
 
 namespace phos {
 namespace {
 
-constexpr float kSide = 2;
-
-std::uint32_t add_phong(Scene& scene, const std::string& name, const Rgb& kd, float exponent) {
-  Material m = test::make_material(Model::phong, kd, Rgb(0.6f), 0, 0);
-  m.name = name, m.exponent = exponent;
-  scene.material.push_back(m);
-  return static_cast<std::uint32_t>(scene.material.size() - 1);
-}
-
-/// A white room with a glossy floor, and a plate over it whose gloss is sharper and all it has.
-struct Parlour {
-  std::uint32_t walls, floor, plate;
-  Scene scene;
-  Parlour() {
-    walls = test::add_lambert(scene, "walls", 0.7f);
-    floor = add_phong(scene, "floor", Rgb(0.2f), 5);
-    plate = add_phong(scene, "plate", Rgb(0), 22);
-    const Vec3 x(kSide, 0, 0), y(0, kSide, 0), z(0, 0, kSide);
-    test::begin_instance(scene, "walls", walls);
-    test::add_quad(scene, y, x, z);  // ceiling
-    test::add_quad(scene, {}, y, z), test::add_quad(scene, x, z, y);
-    test::add_quad(scene, {}, x, y), test::add_quad(scene, z, y, x);
-    test::begin_instance(scene, "floor", floor);
-    test::add_quad(scene, {}, z, x);
-    test::begin_instance(scene, "plate", plate);
-    test::add_quad(scene, {0.5f, 0.3f, 0.5f}, 0.5f * z, 0.5f * x);
-    test::add_point_light(scene, {1, 1.5f, 1}, 100);
-    scene.camera.push_back(test::look_at({1, 1.6f, 1.9f}, {1, 0, 0.8f}, {0, 1, 0}, 1.2f));
-    finalize(scene);
-  }
-};
-
-/// Records of a room's distances whose light is one number in each coefficient.
-class FlatRadiance : public test::DistanceEstimator {
- public:
-  FlatRadiance(const RayScene& rays, int order) : DistanceEstimator(rays), order_(order) {}
-  Made make(const RecordSite& site, Worker& worker) const override {
-    Made made = DistanceEstimator::make(site, worker);
-    RadianceRecord r;
-    r.position = site.position, r.frame = make_frame(site.normal);
-    r.distance_m = made.record.distance_m, r.radius_m = made.record.radius_m;
-    r.light.assign(3 * static_cast<std::size_t>(order_ * order_), 1.f);
-    r.gradient_x = r.gradient_y = r.light;
-    r.stderr_light.assign(3 * static_cast<std::size_t>(order_), 0.1f);
-    made.radiance = std::make_shared<RadianceRecord>(r);
-    return made;
-  }
-
- private:
-  int order_;
-};
+using test::FlatRadiance;
+using test::Parlour;
+constexpr float kSide = test::kParlourSide;
 
 struct Studio {
   Parlour parlour;
