@@ -8,28 +8,9 @@
 namespace phos {
 namespace {
 
-constexpr int kOrder = 6;
+using Spread = test::Spreads;
 
-/// Mean and variance of each of a set of numbers.
-struct Spread {
-  std::vector<double> sum, squares;
-  double n = 0;
-  void add(const std::vector<double>& v) {
-    sum.resize(v.size()), squares.resize(v.size());
-    for (std::size_t i = 0; i < v.size(); ++i) sum[i] += v[i], squares[i] += v[i] * v[i];
-    n += 1;
-  }
-  double mean(std::size_t i) const { return sum[i] / n; }
-  double variance(std::size_t i) const { return (squares[i] / n - mean(i) * mean(i)) * n / (n - 1); }
-  /// The largest |mean - truth| in standard errors of the mean; `bias` is granted.
-  double worst_z(const std::vector<double>& truth, double bias) const {
-    double worst = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      worst =
-          std::max(worst, std::max(0., std::fabs(mean(i) - truth[i]) - bias) / std::sqrt(variance(i) / n));
-    return worst;
-  }
-};
+constexpr int kOrder = 6;
 
 /// Walls at 0.8 m to 1.2 m, one five times as bright: 36 values and 72 slopes, none of which is off by more
 /// than chance (4 standard errors: once in 150 such tests), though the cosine of emitters is bounded.

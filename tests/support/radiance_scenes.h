@@ -86,8 +86,10 @@ inline std::vector<RadianceScene> radiance_scenes() {
 }
 
 /// Coefficients of a scene of rectangles seen from p, by quadrature over its surfaces: the light stays where
-/// it is. An occluder takes away what its projection from p covers of the first.
-inline std::vector<double> coefficients(const GradientScene& scene, const DVec3& p, int order) {
+/// it is. An occluder takes away what its projection from p covers of the first. Or moments, which the cosine
+/// at p weighs.
+inline std::vector<double> coefficients(const GradientScene& scene, const DVec3& p, int order,
+                                        bool moments = false) {
   constexpr int kNodes = 48;
   const HarmonicBasis<double> basis(order);
   std::vector<double> sum(static_cast<std::size_t>(basis.count())), value(sum), node, weight;
@@ -101,7 +103,8 @@ inline std::vector<double> coefficients(const GradientScene& scene, const DVec3&
         const DVec3 step = r.point(r.lo + DVec2(u, v) * (r.hi - r.lo)) - p;
         const double d2 = glm::dot(step, step), d = std::sqrt(d2);
         basis.evaluate(BasisKind::hsh, step.x / d, step.y / d, step.z / d, value.data());
-        const double light = luminance * area * std::fabs(step[r.axis]) / (d2 * d);
+        const double light =
+            luminance * area * std::fabs(step[r.axis]) / (d2 * d) * (moments ? step.z / d : 1);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += light * value[k];
       }
     }
@@ -167,5 +170,26 @@ inline double distance(const std::vector<double>& a, const std::vector<double>& 
   for (std::size_t i = 0; i < a.size(); ++i) d.push_back(a[i] - b[i]);
   return norm(d);
 }
+
+/// Mean and variance of each of a set of numbers.
+struct Spreads {
+  std::vector<double> sum, squares;
+  double n = 0;
+  void add(const std::vector<double>& v) {
+    sum.resize(v.size()), squares.resize(v.size());
+    for (std::size_t i = 0; i < v.size(); ++i) sum[i] += v[i], squares[i] += v[i] * v[i];
+    n += 1;
+  }
+  double mean(std::size_t i) const { return sum[i] / n; }
+  double variance(std::size_t i) const { return (squares[i] / n - mean(i) * mean(i)) * n / (n - 1); }
+  /// The largest |mean - truth| in standard errors of the mean; `bias` is granted.
+  double worst_z(const std::vector<double>& truth, double bias) const {
+    double worst = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      worst =
+          std::max(worst, std::max(0., std::fabs(mean(i) - truth[i]) - bias) / std::sqrt(variance(i) / n));
+    return worst;
+  }
+};
 
 }  // namespace phos::test
