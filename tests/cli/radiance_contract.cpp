@@ -1,9 +1,10 @@
 // phos-radiance at the command line: what it makes, says and refuses, and what it leaves behind.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "core/error.h"
 #include "core/json.h"
 #include "file/container.h"
 #include "file/json_parse.h"
@@ -108,6 +109,26 @@ TEST(Radiance, ReportsOrdersErrorsAndTime) {
   ASSERT_EQ(json.find("runs")->as_array().size(), 1u);
   EXPECT_EQ(json.find("runs")->as_array()[0].find("order")->as_integer(), 9);
   EXPECT_EQ(json.find("gloss")->as_array()[0].find("material")->as_string(), "back-glossy");
+}
+
+/// Materials of two orders: the file says which record has which.
+TEST(Radiance, RecordsHaveTheBandsThatTheirMaterialWants) {
+  const std::string out = folder() + "/lobes.radiance";
+  const test::Run run = quick({data("lobes.gltf"), "--gather-bounces", "1", "--place", "surface", "-o", out});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Container file = Container::open(out, "radiance");
+  const std::size_t n = records_in(out);
+  const auto order = file.values<std::uint8_t>("order", {n});
+  const auto position = file.vectors("position");
+  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(order[i], position[i].x < 1.25f ? 4 : 10);
+  EXPECT_GT(std::ranges::count(order, 4), 5);
+  EXPECT_GT(std::ranges::count(order, 10), 5);
+  EXPECT_NE(run.err.find(text(std::ranges::count(order, 4), " of order 4, ", std::ranges::count(order, 10),
+                              " of order 10")),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(run_tool({"info", out, "--verify"}).code, 0);
+  EXPECT_EQ(run_tool({"info", out, "--dump", "order"}).out.rfind("order\n", 0), 0u);
 }
 
 /// Lobes made on the fly are those of the file.
