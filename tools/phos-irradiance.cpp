@@ -54,8 +54,10 @@ int main(int argc, char** argv) {
       "and "
       "gradients. Inputs, in any order: a scene; photons of it, unless rays gather the first bounce only or "
       "read a "
-      "cache; and an irradiance cache for rays to read where they land, in place of the coarse one that "
-      "is otherwise made from the photons.",
+      "cache; an irradiance cache for rays to read where they land, in place of the coarse one that is "
+      "otherwise made from the photons; and a radiance cache, for rays that land on gloss, whose records "
+      "hold "
+      "irradiance too, so that the surfaces which they cover get none of their own.",
       2);
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -64,8 +66,10 @@ int main(int argc, char** argv) {
   std::string at, add_to, isa;
   bool allow_mismatch = false;
   Options& options = tool.options();
-  options.inputs("SCENE [PHOTONS] [CACHE]", paths,
-                 "scene (.glb, .gltf, .obj), photons of it, a cache of it to gather from");
+  options.inputs(
+      "SCENE [PHOTONS] [CACHE] [RADIANCE] [BRDF]", paths,
+      "scene (.glb, .gltf, .obj), photons of it, a cache of it to gather from, radiance records of "
+      "it and the .brdf file that they were made with");
   declare_options(options, scene_options);
   declare_options(options, records);
   declare_options(options, placement);
@@ -88,6 +92,8 @@ int main(int argc, char** argv) {
     tool.add_input("scene", scene_files(files.scene, scene_options));
     if (!files.photons.empty()) tool.add_input("photons", files.photons);
     if (!files.source.empty()) tool.add_input("source", files.source);
+    if (!files.radiance.empty()) tool.add_input("gloss", files.radiance);
+    if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
     if (!at.empty()) tool.add_input("points", at);
     if (!add_to.empty()) tool.add_input("irradiance", add_to);
     if (!placement.part.empty()) tool.set_variant("part " + placement.part);
@@ -119,7 +125,11 @@ int main(int argc, char** argv) {
         const IrradiancePart part = make_part(cache, *estimator, rays, records, placement.part, points);
         return write_part(tool.output(), part, tool.provenance("irradiance", scene.hash, scene.parts));
       }
-      summarise(tool, cache, place(cache, *estimator, rays, records, placement, source, tool.counters()));
+      const CoveredBy covered(cache, inputs.radiance);
+      const PlacementReport report =
+          place(cache, *estimator, rays, records, placement, source, tool.counters());
+      covered.take_out(cache);
+      summarise(tool, cache, report);
     }
     if (cache.records.empty()) {
       tool.warn(inputs.photons && inputs.photons->size() == 0

@@ -107,6 +107,7 @@ int main(int argc, char** argv) {
     if (!files.photons.empty()) tool.add_input("photons", files.photons);
     if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
     if (!files.source.empty()) tool.add_input("source", files.source);
+    if (!files.radiance.empty()) tool.add_input("gloss", files.radiance);
     if (!at.empty()) tool.add_input("points", at);
     if (!add_to.empty()) tool.add_input("radiance", add_to);
     if (tool.up_to_date()) return;

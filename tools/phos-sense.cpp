@@ -77,7 +77,8 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
 
 int main(int argc, char** argv) {
   Tool tool("phos-sense", "illuminance at sensor points, with its standard error",
-            "Direct light comes from shadow rays, indirect light from irradiance caches; where these have no "
+            "Direct light comes from shadow rays, indirect light from irradiance and radiance caches; where "
+            "these have no "
             "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "
             "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout.",
             1, Tool::Output::optional);
@@ -90,7 +91,8 @@ int main(int argc, char** argv) {
   bool exact = false, allow_mismatch = false;
   std::string isa;
   Options& options = tool.options();
-  options.inputs("SCENE [CACHE]", inputs.paths, "scene (.glb, .gltf, .obj) and irradiance caches of it");
+  options.inputs("SCENE [CACHE]", inputs.paths,
+                 "scene (.glb, .gltf, .obj), irradiance and radiance caches of it");
   declare_options(options, scene_options);
   options.section("Sensors");
   options.file(
@@ -118,7 +120,8 @@ int main(int argc, char** argv) {
     const Scene scene = load_scene(inputs.scene, scene_options);
     std::vector<Container> files;
     for (const std::string& path : inputs.caches) {
-      files.push_back(Container::open(path, "irradiance"));
+      files.push_back(Container::open(path));
+      if (files.back().provenance().kind != "radiance") files.back() = Container::open(path, "irradiance");
       if (!allow_mismatch) require_same_scene(files.back(), inputs.scene, scene.hash, scene.parts);
     }
     const RayScene rays(scene, {isa});

@@ -79,6 +79,15 @@ Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   return e;
 }
 
+void append(IrradianceCache& all, const IrradianceCache& more) {
+  PHOS_CHECK(all.quantity == more.quantity, all.quantity, " and ", more.quantity, " light");
+  const auto reach = static_cast<float>(more.accuracy / all.accuracy);
+  for (IrradianceRecord r : more.records) {
+    r.radius_m *= reach;
+    all.records.push_back(r);
+  }
+}
+
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
                       std::span<const float> least_radius_m) {
   const std::size_t n = cache.records.size();

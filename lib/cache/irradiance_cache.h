@@ -41,6 +41,9 @@ struct IrradianceCache {
 /// away, or `placed`.
 inline double reading_accuracy(double placed) { return std::min(2.5 * placed, std::max(placed, 0.5)); }
 
+/// Appends the records of another cache of the same light, each with the reach that it was placed with.
+void append(IrradianceCache& all, const IrradianceCache& more);
+
 /// The file also holds an index (record_index.h) where there are many records.
 /// Of a part of a run (irradiance_parts.h) it holds the least radii that neighbours leave instead.
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,

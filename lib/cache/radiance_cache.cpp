@@ -87,6 +87,14 @@ IrradianceRecord irradiance_of(const RadianceRecord& r) {
   return e;
 }
 
+IrradianceCache irradiance_of(const RadianceCache& radiance) {
+  IrradianceCache cache;
+  cache.accuracy = radiance.accuracy;
+  cache.scene_hash = radiance.scene_hash;
+  for (const RadianceRecord& r : radiance.records) cache.records.push_back(irradiance_of(r));
+  return cache;
+}
+
 int RadianceCache::order() const {
   int most = 0;
   for (const RadianceRecord& r : records) most = std::max(most, r.order());

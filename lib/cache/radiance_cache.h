@@ -51,6 +51,9 @@ struct RadianceCache {
   int order() const;  ///< the greatest; 0: there are no records
 };
 
+/// All of it, in order.
+IrradianceCache irradiance_of(const RadianceCache& cache);
+
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
 /// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds

@@ -5,6 +5,7 @@
 #include "cache/direct_light.h"
 #include "cache/gather.h"
 #include "cache/placement.h"
+#include "cache/radiance_cache.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
@@ -127,9 +128,20 @@ void declare_options(Options& options, SensorOptions& s) {
 SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test)
     : leak_test_(leak_test) {
   for (const Container& file : files) {
-    lookups_.emplace_back(file, leak_test);
-    const bool direct = lookups_.back().records().quantity() == "all";
-    if (lookups_.size() > 1 && direct != holds_direct_) {
+    const bool first = empty();
+    bool direct = false;
+    if (file.provenance().kind == "radiance") {
+      const IrradianceCache cache = irradiance_of(read_radiance(file));
+      Bounds bounds;
+      for (const IrradianceRecord& r : cache.records) bounds.include(r.position);
+      const double accuracy = reading_accuracy(cache.accuracy);
+      RadianceFile& made = trees_.emplace_back(RadianceFile{accuracy, {bounds, accuracy, leak_test}});
+      for (const IrradianceRecord& r : cache.records) made.tree.insert(r);
+    } else {
+      lookups_.emplace_back(file, leak_test);
+      direct = lookups_.back().records().quantity() == "all";
+    }
+    if (!first && direct != holds_direct_) {
       throw Error(ExitCode::mismatch, file.path(),
                   text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
                        direct ? "indirect" : "all", "; give caches made with the same --paths"));
@@ -139,30 +151,31 @@ SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* lea
 }
 
 Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
-  if (lookups_.size() == 1) return lookups_[0].interpolate(p, n);
+  if (lookups_.size() == 1 && trees_.empty()) return lookups_[0].interpolate(p, n);
   Interpolated sum;
-  for (const RecordLookup& lookup : lookups_) {
-    const Interpolated part = lookup.interpolate(p, n);
+  const auto add = [&](const Interpolated& part) {
     sum.irradiance += part.weight * part.irradiance;
     sum.stderr_lx += part.weight * part.stderr_lx;
     sum.weight += part.weight;
-  }
+  };
+  for (const RecordLookup& lookup : lookups_) add(lookup.interpolate(p, n));
+  for (const RadianceFile& file : trees_) add(file.tree.interpolate(p, n));
   sum.finish();
   return sum;
 }
 
 std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   if (empty()) return nullptr;
-  const double accuracy = lookups_[0].accuracy();
+  const double accuracy = lookups_.empty() ? trees_[0].accuracy : lookups_[0].accuracy();
   auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy, leak_test_);
-  for (const RecordLookup& lookup : lookups_) {
-    const auto reach = static_cast<float>(lookup.accuracy() / accuracy);
-    for (std::size_t i = 0; i < lookup.records().size(); ++i) {
-      IrradianceRecord r = lookup.records()[i];
-      r.radius_m *= reach;
-      tree->insert(r);
-    }
-  }
+  const auto add = [&](IrradianceRecord r, double own_accuracy) {
+    r.radius_m *= static_cast<float>(own_accuracy / accuracy);
+    tree->insert(r);
+  };
+  for (const RecordLookup& lookup : lookups_)
+    for (std::size_t i = 0; i < lookup.records().size(); ++i) add(lookup.records()[i], lookup.accuracy());
+  for (const RadianceFile& file : trees_)
+    for (const IrradianceRecord& r : file.tree.records()) add(r, file.accuracy);
   return tree;
 }
 

@@ -64,17 +64,22 @@ struct SensorReport {
 /// Caches of one scene that are looked up together.
 class SensorCaches {
  public:
-  /// Throws Error(bad_input) for a file of another kind, Error(mismatch) if one holds all light and another
-  /// indirect light.
+  /// Files of irradiance, or of radiance, whose records hold irradiance too. Throws Error(bad_input) for one
+  /// of another kind, Error(mismatch) if one holds all light and another indirect light.
   SensorCaches(std::span<const Container> files, const RayScene* leak_test);
-  bool empty() const { return lookups_.empty(); }
+  bool empty() const { return lookups_.empty() && trees_.empty(); }
   bool holds_direct() const { return holds_direct_; }
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// All records in memory, each with its reach: what gathered rays read.
   std::unique_ptr<RecordTree> tree(const Scene& scene) const;
 
  private:
+  struct RadianceFile {
+    double accuracy;  ///< at which it is read
+    RecordTree tree;
+  };
   std::vector<RecordLookup> lookups_;
+  std::vector<RadianceFile> trees_;
   const RayScene* leak_test_;
   bool holds_direct_ = false;
 };

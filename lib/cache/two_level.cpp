@@ -55,7 +55,9 @@ CoarseLevel::CoarseLevel() = default;
 CoarseLevel::~CoarseLevel() = default;
 CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
 
-GatherSource CoarseLevel::source() const { return {tree_.get(), far_.get(), photons_.get(), holds_direct_}; }
+GatherSource CoarseLevel::source() const {
+  return {tree_.get(), far_.get(), photons_.get(), holds_direct_, gloss_.get()};
+}
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 
 }  // namespace phos

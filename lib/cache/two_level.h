@@ -1,9 +1,11 @@
-// The coarse level of two-level caching: indirect light that gathered rays read where they land.
+// The coarse level of two-level caching: indirect light that gathered rays read where they land, and what
+// gloss shows there.
 #pragma once
 
 #include <memory>
 
 #include "cache/gather.h"
+#include "cache/gloss_cache.h"
 #include "cache/irradiance_cache.h"
 #include "cache/record_options.h"
 #include "photon/photon_map.h"
@@ -29,6 +31,8 @@ class CoarseLevel {
   ~CoarseLevel();
   CoarseLevel(CoarseLevel&&) noexcept;
 
+  /// Of this scene: read where rays land on gloss.
+  void add(GlossCache gloss) { gloss_ = std::make_unique<GlossCache>(std::move(gloss)); }
   GatherSource source() const;
   std::size_t records() const;
 
@@ -37,6 +41,7 @@ class CoarseLevel {
   std::unique_ptr<RecordTree> tree_;
   std::unique_ptr<FarRecords> far_;
   std::unique_ptr<Estimator> photons_;
+  std::unique_ptr<GlossCache> gloss_;
   bool holds_direct_ = false;
 };
 

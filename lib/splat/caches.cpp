@@ -38,13 +38,6 @@ void add(RadianceCache& all, RadianceCache more) {
   for (RadianceRecord& r : more.records) all.records.push_back(std::move(r));
 }
 
-IrradianceCache irradiance_of(const RadianceCache& radiance) {
-  IrradianceCache cache;
-  cache.accuracy = radiance.accuracy;
-  for (const RadianceRecord& r : radiance.records) cache.records.push_back(irradiance_of(r));
-  return cache;
-}
-
 }  // namespace
 
 bool is_radiance(const Container& file) { return file.provenance().kind == "radiance"; }

@@ -27,6 +27,8 @@ IrradianceFiles sort_inputs(const std::vector<std::string>& paths) {
       take(files.photons, path, "photon map");
     else if (kind == "irradiance")
       take(files.source, path, "irradiance cache");
+    else if (kind == "radiance")
+      take(files.radiance, path, "radiance cache");
     else if (kind == "brdf")
       take(files.brdf, path, "file of lobes");
     else
@@ -51,12 +53,31 @@ EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, boo
     if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
     inputs.source = read_irradiance(file);
   }
+  if (!files.radiance.empty()) {
+    const Container file = Container::open(files.radiance, "radiance");
+    if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
+    inputs.radiance = read_radiance(file);
+    if (inputs.source && inputs.source->quantity == "indirect")
+      append(*inputs.source, irradiance_of(*inputs.radiance));
+  }
   if (!files.brdf.empty()) {
     const Container file = Container::open(files.brdf, "brdf");
     if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
     inputs.brdf = read_brdf(file);
   }
   return inputs;
+}
+
+CoveredBy::CoveredBy(IrradianceCache& cache, const std::optional<RadianceCache>& radiance)
+    : first_(cache.records.size()) {
+  if (!radiance || cache.quantity != "indirect") return;
+  append(cache, irradiance_of(*radiance));
+  count_ = radiance->records.size();
+}
+
+void CoveredBy::take_out(IrradianceCache& cache) const {
+  const auto first = cache.records.begin() + static_cast<std::ptrdiff_t>(first_);
+  cache.records.erase(first, first + static_cast<std::ptrdiff_t>(count_));
 }
 
 Container open_to_add(const std::string& path, const std::string& kind, const IrradianceFiles& files,

@@ -7,15 +7,16 @@
 
 #include "cache/brdf_table.h"
 #include "cache/irradiance_cache.h"
+#include "cache/radiance_cache.h"
 #include "cache/record_options.h"
 #include "photon/photon_map.h"
 #include "scene/scene.h"
 
 namespace phos {
 
-/// Scene, photons, cache and lobes among inputs given in any order; all but the scene may be absent ("").
+/// Scene, photons, caches and lobes among inputs given in any order; all but the scene may be absent ("").
 struct IrradianceFiles {
-  std::string scene, photons, source, brdf;
+  std::string scene, photons, source, radiance, brdf;
 };
 /// Tells them apart by their contents. Throws Error(usage) for none or two of a kind, or another kind;
 /// Error(bad_input) for a file that cannot be read.
@@ -24,11 +25,25 @@ IrradianceFiles sort_inputs(const std::vector<std::string>& paths);
 /// What an estimate may read, besides the scene.
 struct EstimateInputs {
   std::optional<PhotonMap> photons;
-  std::optional<IrradianceCache> source;  ///< read by rays where they land, in place of a coarse cache
+  /// Read by rays where they land, in place of a coarse cache; what radiance records say among it.
+  std::optional<IrradianceCache> source;
+  std::optional<RadianceCache> radiance;  ///< read by rays where they land on gloss
   std::vector<BrdfTable> brdf;            ///< lobes of glossy materials
 };
 /// Throws Error(mismatch) for files of another scene, unless `allow_mismatch`.
 EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, bool allow_mismatch);
+
+/// Lets radiance records cover what an irradiance cache need not hold again.
+class CoveredBy {
+ public:
+  /// Appends what they say of irradiance to the cache, if that holds indirect light as they do.
+  CoveredBy(IrradianceCache& cache, const std::optional<RadianceCache>& radiance);
+  /// Once others have been appended: leaves those in alone.
+  void take_out(IrradianceCache& cache) const;
+
+ private:
+  std::size_t first_ = 0, count_ = 0;
+};
 
 /// A file to add to. Throws Error(mismatch) if it was made from another scene, or from other photons than
 /// those given, unless `allow_mismatch`.

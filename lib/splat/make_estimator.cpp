@@ -10,8 +10,24 @@
 namespace phos {
 namespace {
 
-CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options,
-                         std::uint64_t seed) {
+GlossCache gloss_cache(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options) {
+  const RadianceCache& radiance = *inputs.radiance;
+  Counters told_by_phos_brdf;
+  GlossTables tables(rays.scene(), inputs.brdf, GlossBy::automatic, {}, told_by_phos_brdf);
+  GlossCache gloss(rays.scene().bounds, reading_accuracy(radiance.accuracy), std::move(tables),
+                   options.leak_test == LeakTest::ray ? &rays : nullptr);
+  for (const RadianceRecord& r : radiance.records) gloss.insert(r);
+  if (gloss.size() == 0 && !radiance.records.empty() && !gloss.tables().orders().empty())
+    throw Error(
+        ExitCode::mismatch, "",
+        text("radiance records of order ", radiance.order(),
+             " serve no lobe: they were made with other lobes; give the .brdf file that phos-radiance "
+             "read, or rerun phos-radiance"));
+  return gloss;
+}
+
+CoarseLevel coarse_of_diffuse(const RayScene& rays, const EstimateInputs& inputs,
+                              const RecordOptions& options, std::uint64_t seed) {
   const bool photons_only = options.estimate == Estimate::hull || options.estimate == Estimate::kernel;
   if (photons_only && !inputs.photons) {
     throw Error(ExitCode::usage, "--estimate",
@@ -24,6 +40,13 @@ CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, con
   throw Error(
       ExitCode::usage, "--gather-bounces",
       "for more than the first bounce, give photons or an earlier cache too; --gather-bounces 1 needs none");
+}
+
+CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options,
+                         std::uint64_t seed) {
+  CoarseLevel level = coarse_of_diffuse(rays, inputs, options, seed);
+  if (inputs.radiance && options.gather_bounces != 1) level.add(gloss_cache(rays, inputs, options));
+  return level;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@
 
 namespace phos {
 
-/// Throws Error(usage) if the estimate needs photons that are not there. Holds references to rays and inputs.
+/// Throws Error(usage) if the estimate needs photons that are not there, Error(mismatch) for radiance records
+/// that no lobe can read. Holds references to rays and inputs.
 class ChosenEstimator {
  public:
   ChosenEstimator(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& resolved,

@@ -1,9 +1,11 @@
-// Radiance records: making one of 4,000 rays and what of that is projection, and lookups of light that
-// leaves by a lobe, on a flat surface and on a curved one.
+// Radiance records: making one of 4,000 rays and what of that is projection, lookups of light that leaves by
+// a lobe, on a flat surface and on a curved one, and ways of turning what records of a curved surface say.
 #include <benchmark/benchmark.h>
 
 #include "cache/radiance_gather.h"
 #include "core/parallel.h"
+#include "hsh/conversion.h"
+#include "hsh/rotation.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 #include "support/radiance_records.h"
@@ -113,6 +115,130 @@ BENCHMARK_CAPTURE(look_up, flat_phong_5, false, 5.f);
 BENCHMARK_CAPTURE(look_up, flat_phong_22, false, 22.f);
 BENCHMARK_CAPTURE(look_up, curved_phong_5, true, 5.f);
 BENCHMARK_CAPTURE(look_up, curved_phong_22, true, 22.f);
+
+BENCHMARK_CAPTURE(look_up, flat_phong_40, false, 40.f);
+BENCHMARK_CAPTURE(look_up, curved_phong_40, true, 40.f);
+
+/// What a lookup among kNear records, each tilted by 10 degrees another way, has to turn. Light continues
+/// below their horizons.
+struct Turning {
+  static constexpr int kNear = 5;
+  int order;
+  HarmonicConversion conversion{order, 2 * order};
+  HshRotator rotator{order};
+  std::vector<Frame> frame;
+  std::vector<std::vector<float>> light, global;  // of each record: HSH in its frame; SH in the world's
+  std::vector<float> lobe, truth;  // in the frame of the point: a lobe without colour, the light
+
+  explicit Turning(int n) : order(n) {
+    const auto sky = [](const Vec3& w) {
+      const float glow = std::max(glm::dot(w, glm::normalize(Vec3(0.5f, 0.3f, 0.4f))), 0.f);
+      return Rgb(1 + 4 * glow * glow * glow * glow, 1 - 0.5f * w.x, 1 + 0.5f * w.y * w.z);
+    };
+    truth = test::projected(sky, make_frame({0, 0, 1}), order);
+    for (int k = 0; k < kNear; ++k) {
+      const float azimuth = 2 * kPi * static_cast<float>(k) / kNear, tilt = kPi / 18;
+      frame.push_back(make_frame(
+          {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)}));
+      light.push_back(test::projected(sky, frame.back(), order));
+      std::vector<float> world(numbers(2 * order));
+      ShRotation(2 * order, rotation_angles(frame.back(), Frame())).rotate(filled(light.back()), world, 3);
+      global.push_back(world);
+    }
+    const std::vector<float> rgb = test::projected(
+        [](const Vec3& w) { return Rgb(std::pow(std::max(w.z, 0.f), 22.f)); }, make_frame({0, 0, 1}), order);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) lobe.push_back(rgb[i]);
+  }
+  static std::size_t numbers(int of_order) { return 3 * static_cast<std::size_t>(harmonic_count(of_order)); }
+
+  /// SH of light that goes on below the horizon as it is there, so that a constant stays one.
+  std::vector<float> filled(const std::vector<float>& hsh) const {
+    std::vector<float> sh(numbers(2 * order));
+    conversion.hsh_to_sh(hsh, sh, 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double horizon = 0;
+      for (int l = 0; l < order; ++l) {
+        const double value = std::sqrt((2 * l + 1) / (2 * std::numbers::pi)) *
+                             static_cast<double>(hsh[3 * static_cast<std::size_t>(l * l + l) + c]);
+        horizon += l % 2 == 0 ? value : -value;
+      }
+      for (int l = 0; l < 2 * order; ++l) {
+        const double upper = std::sqrt(2 * std::numbers::pi) * conversion.at(0, harmonic_index(l, 0));
+        const double lower = (l == 0 ? std::sqrt(4 * std::numbers::pi) : 0) - upper;
+        sh[3 * static_cast<std::size_t>(l * l + l) + c] += static_cast<float>(horizon * lower);
+      }
+    }
+    return sh;
+  }
+  double error(const std::vector<float>& found) const {
+    double off = 0, all = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      off += std::pow(double(found[i]) - double(truth[i]), 2), all += std::pow(double(truth[i]), 2);
+    return std::sqrt(off / all);
+  }
+};
+
+/// Each record's light turned, RGB.
+void turn_each_light(benchmark::State& state) {
+  const Turning t(static_cast<int>(state.range(0)));
+  std::vector<float> sum(t.truth.size()), turned(sum);
+  for (auto _ : state) {
+    std::fill(sum.begin(), sum.end(), 0.f);
+    for (std::size_t k = 0; k < t.frame.size(); ++k) {
+      t.rotator.rotate(rotation_angles(t.frame[k], make_frame({0, 0, 1})), t.light[k], turned, 3);
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += turned[i] / Turning::kNear;
+    }
+    benchmark::DoNotOptimize(sum.data());
+  }
+  state.counters["error"] = t.error(sum);
+}
+BENCHMARK(turn_each_light)->Arg(6)->Arg(10);
+
+/// A lobe without colour turned to each record instead (as it costs, if not what it gives: the transpose
+/// takes as long).
+void turn_lobe_to_each(benchmark::State& state) {
+  const Turning t(static_cast<int>(state.range(0)));
+  std::vector<float> turned(t.lobe.size());
+  for (auto _ : state) {
+    Rgb sum(0);
+    for (std::size_t k = 0; k < t.frame.size(); ++k) {
+      t.rotator.rotate(rotation_angles(make_frame({0, 0, 1}), t.frame[k]), t.lobe, turned, 1);
+      for (std::size_t i = 0; i < turned.size(); ++i)
+        sum += turned[i] * Rgb(t.light[k][3 * i], t.light[k][3 * i + 1], t.light[k][3 * i + 2]);
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+}
+BENCHMARK(turn_lobe_to_each)->Arg(6)->Arg(10);
+
+/// SH of twice the order, kept in one frame: summed, turned once, converted.
+void turn_global_sum(benchmark::State& state) {
+  const Turning t(static_cast<int>(state.range(0)));
+  std::vector<float> sum(Turning::numbers(2 * t.order)), turned(sum), out(t.truth.size());
+  for (auto _ : state) {
+    std::fill(sum.begin(), sum.end(), 0.f);
+    for (const std::vector<float>& sh : t.global)
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += sh[i] / Turning::kNear;
+    ShRotation(2 * t.order, rotation_angles(Frame(), make_frame({0, 0, 1}))).rotate(sum, turned, 3);
+    t.conversion.sh_to_hsh(turned, out, 3);
+    benchmark::DoNotOptimize(out.data());
+  }
+  state.counters["error"] = t.error(out);
+}
+BENCHMARK(turn_global_sum)->Arg(6)->Arg(10);
+
+/// The sum alone of it: what it costs if turning were free.
+void sum_global(benchmark::State& state) {
+  const Turning t(static_cast<int>(state.range(0)));
+  std::vector<float> sum(Turning::numbers(2 * t.order));
+  for (auto _ : state) {
+    std::fill(sum.begin(), sum.end(), 0.f);
+    for (const std::vector<float>& sh : t.global)
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += sh[i] / Turning::kNear;
+    benchmark::DoNotOptimize(sum.data());
+  }
+}
+BENCHMARK(sum_global)->Arg(6)->Arg(10);
 
 }  // namespace
 }  // namespace phos
