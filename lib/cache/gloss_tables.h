@@ -57,6 +57,10 @@ class GlossTables {
   /// Per glossy material.
   const std::vector<GlossChoice>& choices() const { return choices_; }
   const BrdfTable* table(std::uint32_t material) const;  ///< null: traced in every direction
+  /// GlossLobe::least of a material that has a table.
+  const Rgb& least(std::uint32_t material) const {
+    return least_[static_cast<std::size_t>(table_of_[material])];
+  }
   /// The lobe towards wo (unit, world). False: it is traced (the table says so, there is none, the viewer is
   /// below the shading normal's horizon, or that normal below the smooth one's). Where a normal map turns the
   /// shading normal away from the smooth one, the lobe is rotated.

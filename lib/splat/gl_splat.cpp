@@ -13,11 +13,10 @@
 namespace phos {
 namespace {
 
-constexpr int kSplatTile = 32;
 constexpr std::size_t kBatch = 1 << 15;  // instances per draw: bounds the memory
 
 struct SplatInstance {
-  float rect[4];
+  Vec4 rect;
   PackedRecord record;
 };
 
@@ -40,42 +39,6 @@ constexpr Attribute kAttributes[] = {
     {9, 3, kRecord + offsetof(PackedRecord, translation) + 12},
     {10, 3, kRecord + offsetof(PackedRecord, translation) + 24},
 };
-
-/// Cuts a record's rectangle down to the tiles that it touches: runs along each row of tiles, joined with the
-/// row above where they are alike. The rectangles, in pixels, do not overlap.
-void cut(const TileGrid& grid, const IrradianceRecord& record, float accuracy, const PixelRect& bounds,
-         std::vector<PixelRect>& rects) {
-  rects.clear();
-  const int size = grid.tile_size(), end_column = (bounds.x1 + size - 1) / size;
-  const auto add = [&](const PixelRect& rect) {
-    for (PixelRect& upper : rects) {
-      if (upper.y1 != rect.y0 || upper.x0 != rect.x0 || upper.x1 != rect.x1) continue;
-      upper.y1 = rect.y1;
-      return;
-    }
-    rects.push_back(rect);
-  };
-  for (int row = bounds.y0 / size; row * size < bounds.y1; ++row) {
-    int start = -1;
-    for (int column = bounds.x0 / size; column <= end_column; ++column) {
-      const bool in = column < end_column && grid.touches(record, accuracy, column, row);
-      if (in && start < 0) start = column;
-      if (in || start < 0) continue;
-      add({std::max(start * size, bounds.x0), std::max(row * size, bounds.y0),
-           std::min(column * size, bounds.x1), std::min((row + 1) * size, bounds.y1)});
-      start = -1;
-    }
-  }
-}
-
-/// Rectangle in the coordinates of OpenGL's viewport.
-void set_rect(SplatInstance& instance, const PixelRect& rect, int width, int height) {
-  const float x = 2.f / static_cast<float>(width), y = 2.f / static_cast<float>(height);
-  instance.rect[0] = static_cast<float>(rect.x0) * x - 1,
-  instance.rect[1] = static_cast<float>(rect.y0) * y - 1;
-  instance.rect[2] = static_cast<float>(rect.x1) * x - 1,
-  instance.rect[3] = static_cast<float>(rect.y1) * y - 1;
-}
 
 }  // namespace
 
@@ -127,12 +90,11 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   std::vector<PixelRect> rects;
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (bounds[i].empty()) continue;
-    cut(grid, records[i], a, bounds[i], rects);
+    grid.cut(records[i], a, bounds[i], rects);
     if (rects.empty()) continue;
     const PackedRecord packed = pack_record(records[i]);
     for (const PixelRect& rect : rects) {
-      set_rect(batch.emplace_back(), rect, gbuffer.width, gbuffer.height);
-      batch.back().record = packed;
+      batch.push_back({in_viewport(rect, gbuffer.width, gbuffer.height), packed});
     }
     if (batch.size() >= kBatch) draw(), throw_if_interrupted();
   }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "splat/gloss_kernel.h"
+#include "splat/gloss_rows.h"
 #include "splat/tiles.h"
 
 namespace phos {
@@ -35,10 +36,7 @@ GlossSplat pack(const RadianceRecord& r) {
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   s.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
   s.front_limit_m = -kFrontTolerance * r.radius_m;
-  const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
-  // Without light of its own, any step would change it by more than that.
-  if (light > 0) s.steepness_per_m = static_cast<float>(std::sqrt(slope / light));
-  if (!std::isfinite(s.steepness_per_m)) s.steepness_per_m = 0;
+  s.steepness_per_m = steepness_per_m(r);
   s.light = r.light.data(), s.stderr_light = r.stderr_light.data();
   s.gradient_x = r.gradient_x.data(), s.gradient_y = r.gradient_y.data();
   const auto set = [](float(&to)[3], const std::vector<float>& light) {
@@ -71,6 +69,12 @@ class GlossSplatter {
         pixel_rays_(camera, gbuffer.width, gbuffer.height),
         subpixel_(subpixel) {
     buffer_.light.assign(g_.position.size(), Vec4(0)), buffer_.error.assign(g_.position.size(), Vec4(0));
+  }
+
+  /// Leaves pixels whose lobe is in `rows` to others; `places` says which, and where it is.
+  void leave(const GlossRows& rows, std::vector<Vec4>& places) {
+    places.assign(g_.position.size(), Vec4(-1, 0, 0, 0));
+    rows_ = &rows, places_ = &places;
   }
 
   GlossBuffer draw() {
@@ -183,7 +187,7 @@ class GlossSplatter {
       w.group.nx.of[k] = n.x, w.group.ny.of[k] = n.y, w.group.nz.of[k] = n.z;
     }
     find_valid(pixels.size(), c, list, w);
-    make_lobes(pixels.size(), w);
+    make_lobes(pixels.size(), c, w);
     if (w.group.order > 0) {
       for (std::size_t j = 0; j < w.valid.size(); ++j) kernel_.add(w.group, c.splat[w.valid[j]], w.weight[j]);
       kernel_.finish(w.group);
@@ -222,12 +226,17 @@ class GlossSplatter {
   }
 
   /// Lobes of the pixels that need one; others are not lit any more.
-  void make_lobes(std::size_t pixels, Worker& w) const {
+  void make_lobes(std::size_t pixels, const Class& c, Worker& w) {
     std::array<std::vector<float>, kLanes> found;
     for (std::size_t k = 0; k < pixels; ++k) {
       if (!w.lit[k] || w.turned[k]) continue;
       const Ray ray = ray_of(w.pixel[k]);
       const SurfacePoint point = rays_.surface(ray, g_.hit[w.pixel[k]]);
+      if (Vec4 place; rows_ && rows_->find(point, -ray.direction, place)) {
+        w.lit[k] = false;
+        leave(place, k, c, w);
+        continue;
+      }
       w.lit[k] = cache_.tables().lobe(point, -ray.direction, w.lobe);
       if (!w.lit[k]) continue;
       w.group.order = std::max(w.group.order, w.lobe.order);
@@ -238,6 +247,27 @@ class GlossSplatter {
     for (std::size_t k = 0; k < kLanes; ++k)
       for (std::size_t i = 0; i < found[k].size(); ++i) w.lobes[i].of[k] = found[k][i];
     w.group.lobe = w.lobes.data(), w.group.band_error = w.band_error.data();
+  }
+
+  /// All of a pixel but its light.
+  void leave(const Vec4& place, std::size_t k, const Class& c, Worker& w) {
+    (*places_)[w.pixel[k]] = place;
+    Rgb variance(0);
+    float records = 0;
+    for (int l = 0; l < c.order; ++l) {
+      Rgb sum(0);
+      records = 0;
+      for (std::size_t j = 0; j < w.valid.size(); ++j) {
+        const float weight = w.weight[j].of[k];
+        if (!(weight > 0)) continue;
+        const float* error = c.splat[w.valid[j]].stderr_light + 3 * l;
+        sum += weight * Rgb(error[0], error[1], error[2]);
+        ++records;
+      }
+      variance += rows_->energy(place, l) * sum * sum;
+    }
+    buffer_.error[w.pixel[k]] = Vec4(glm::sqrt(variance), records);
+    w.pairs += static_cast<std::uint64_t>(records);
   }
 
   void look_up(std::size_t pixel, Worker& w) {
@@ -265,10 +295,19 @@ class GlossSplatter {
   Vec2 subpixel_;
   const GlossKernel& kernel_ = best_gloss_kernel();
   std::vector<Class> classes_;
+  const GlossRows* rows_ = nullptr;
+  std::vector<Vec4>* places_ = nullptr;
   GlossBuffer buffer_;
 };
 
 }  // namespace
+
+float steepness_per_m(const RadianceRecord& r) {
+  const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
+  // Without light of its own, any step would change it by more than that.
+  const auto steepness = static_cast<float>(light > 0 ? std::sqrt(slope / light) : 0.);
+  return std::isfinite(steepness) ? steepness : 0;
+}
 
 const GlossKernel& best_gloss_kernel() {
 #ifdef PHOS_SPLAT_AVX2
@@ -282,6 +321,15 @@ GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const R
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   return GlossSplatter(cache, accuracy, rays, gbuffer, camera, subpixel).draw();
+}
+
+GlossBuffer splat_gloss_beside(const GlossCache& cache, double accuracy, const RayScene& rays,
+                               const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel,
+                               const GlossRows& rows, std::vector<Vec4>& places) {
+  PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
+  GlossSplatter splatter(cache, accuracy, rays, gbuffer, camera, subpixel);
+  splatter.leave(rows, places);
+  return splatter.draw();
 }
 
 GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,

@@ -25,6 +25,9 @@ struct GlossBuffer {
 GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const RayScene& rays,
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
 
+/// Of a record: steps by more than 1/this are shortened to that; 0: it takes none.
+float steepness_per_m(const RadianceRecord& record);
+
 /// The same by lookups alone: what splatting gives; without leaks where the cache tests for them.
 GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,
                           const Camera& camera, const Vec2& subpixel);

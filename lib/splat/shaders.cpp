@@ -98,6 +98,68 @@ void main() {
 }
 )";
 
+const char* const gloss_vertex = R"(#version 450 core
+layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
+}
+)";
+
+const char* const gloss_fragment = R"(
+layout(std140, binding = 0) uniform Record {
+  vec4 position;                          // and 1 / radius
+  vec4 normal;                            // and the limit of the in-front test
+  vec4 axis_x;                            // and the steepness
+  vec4 axis_y;
+  vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y
+};
+uniform vec4 rule;                        // 1 / accuracy, least weight, first and end row of the class
+layout(binding = 0) uniform sampler2D position_map;
+layout(binding = 1) uniform sampler2D normal_map;
+layout(binding = 2) uniform sampler2D lobe_map;    // row, share of the next, cosine and sine of the azimuth
+layout(binding = 3) uniform sampler2D table;       // rows of lobes, l (l + 1) / 2 + m; first w: bands
+layout(location = 0) out vec4 light;
+layout(location = 1) out vec4 error;
+
+vec3 coefficient(int i, vec3 shares) {
+  return shares.x * numbers[3 * i].rgb + shares.y * numbers[3 * i + 1].rgb + shares.z * numbers[3 * i + 2].rgb;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  light = vec4(0.0), error = vec4(0.0);
+  vec4 lobe = texelFetch(lobe_map, pixel, 0);
+  if (lobe.x < rule.z || lobe.x >= rule.w) return;
+  vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz;
+  vec3 turned = n - normal.xyz;
+  float eps = sqrt(dot(d, d)) * position.w + sqrt(dot(turned, turned)) * 0.70710678;
+  float w = 1.0 - eps * rule.x;
+  if (!(w > rule.y && dot(n, normal.xyz) > 0.0 && !(dot(d, n + normal.xyz) * 0.5 < normal.w))) return;
+  float change = axis_x.w * sqrt(dot(d, d));
+  float share = w * (change > 1.0 ? 1.0 / change : 1.0);
+  if (axis_x.w == 0.0) share = 0.0;
+  vec3 shares = vec3(w, share * dot(d, axis_x.xyz), share * dot(d, axis_y.xyz));
+  int row = int(lobe.x);
+  int order = int(max(texelFetch(table, ivec2(0, row), 0).w, texelFetch(table, ivec2(0, row + 1), 0).w));
+  vec2 angle = vec2(1.0, 0.0);            // cosine and sine of m times the azimuth
+  vec3 sum = vec3(0.0);
+  for (int m = 0; m < order; ++m) {
+    for (int l = m; l < order; ++l) {
+      int column = l * (l + 1) / 2 + m;
+      vec3 t = mix(texelFetch(table, ivec2(column, row), 0).rgb, texelFetch(table, ivec2(column, row + 1), 0).rgb,
+                   lobe.y);
+      vec3 c = angle.x * coefficient(l * l + l + m, shares);
+      if (m > 0) c += angle.y * coefficient(l * l + l - m, shares);
+      sum += t * c;
+    }
+    angle = vec2(angle.x * lobe.z - angle.y * lobe.w, angle.x * lobe.w + angle.y * lobe.z);
+  }
+  light = vec4(sum, w);
+}
+)";
+
 const char* const picture_vertex = R"(#version 450 core
 void main() {
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);

@@ -13,6 +13,11 @@ extern const char* const masked_fragment;
 extern const char* const splat_vertex;
 /// Weight and extrapolated irradiance of a record at a pixel.
 extern const char* const splat_fragment;
+/// One rectangle per instance, all of one radiance record.
+extern const char* const gloss_vertex;
+/// Weight of a radiance record at a pixel, and what it sends through the pixel's lobe. To be put after
+/// #version, and a definition of COUNT, the number of coefficients.
+extern const char* const gloss_fragment;
 /// One triangle over the whole picture.
 extern const char* const picture_vertex;
 /// Illuminance of each pixel by one sample of a light, where its shadow map lets it through.

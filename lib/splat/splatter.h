@@ -7,6 +7,7 @@
 
 #include "cache/irradiance_cache.h"
 #include "splat/gbuffer.h"
+#include "splat/gloss_splatter.h"
 
 namespace phos {
 
@@ -36,6 +37,11 @@ class GlRenderer {
   /// Instanced quads bounding each record's sphere of influence, additive RGBA32F blending.
   SplatBuffer splat(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                     const Camera& camera);
+  /// As splat_gloss_on_cpu(). Lobes of isotropic tables are looked up and combined with records pixel by
+  /// pixel; the CPU draws what else there is (anisotropic and coated lobes, mapped normals, turned records),
+  /// and tells which records reach where.
+  GlossBuffer splat_gloss(const GlossCache& cache, double accuracy, const RayScene& rays,
+                          const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
   /// Direct illuminance by shadow maps (preview): per pixel, lx, visibility included. Area lights by
   /// `light_samples` points each, point lights by six faces.
   std::vector<Rgb> direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size);

@@ -45,6 +45,31 @@ bool TileGrid::touches(const IrradianceRecord& r, float accuracy, int column, in
   return apart + distance_to(tile.normal, r.normal) * 0.70710678f < accuracy * 1.0001f + 1e-6f;
 }
 
+void TileGrid::cut(const IrradianceRecord& record, float accuracy, const PixelRect& bounds,
+                   std::vector<PixelRect>& rects) const {
+  rects.clear();
+  const int end_column = (bounds.x1 + size_ - 1) / size_;
+  const auto add = [&](const PixelRect& rect) {
+    for (PixelRect& upper : rects) {
+      if (upper.y1 != rect.y0 || upper.x0 != rect.x0 || upper.x1 != rect.x1) continue;
+      upper.y1 = rect.y1;
+      return;
+    }
+    rects.push_back(rect);
+  };
+  for (int row = bounds.y0 / size_; row * size_ < bounds.y1; ++row) {
+    int start = -1;
+    for (int column = bounds.x0 / size_; column <= end_column; ++column) {
+      const bool in = column < end_column && touches(record, accuracy, column, row);
+      if (in && start < 0) start = column;
+      if (in || start < 0) continue;
+      add({std::max(start * size_, bounds.x0), std::max(row * size_, bounds.y0),
+           std::min(column * size_, bounds.x1), std::min((row + 1) * size_, bounds.y1)});
+      start = -1;
+    }
+  }
+}
+
 std::vector<PixelRect> record_bounds(std::span<const IrradianceRecord> records, double accuracy,
                                      const Camera& camera, int width, int height) {
   const Projection projection(camera, width, height);

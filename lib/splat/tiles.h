@@ -25,6 +25,11 @@ class TileGrid {
   /// normals is compared with the accuracy; never false for a record that is valid at one of its pixels.
   bool touches(const IrradianceRecord& record, float accuracy, int column, int row) const;
 
+  /// Cuts a record's rectangle down to the tiles that it touches: runs along each row of tiles, joined with
+  /// the row above where they are alike. `rects`, in pixels, do not overlap.
+  void cut(const IrradianceRecord& record, float accuracy, const PixelRect& bounds,
+           std::vector<PixelRect>& rects) const;
+
  private:
   struct Tile {
     Bounds position, normal;

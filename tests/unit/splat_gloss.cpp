@@ -1,11 +1,13 @@
 // Radiance records drawn on the CPU, against the lookup.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "core/parallel.h"
 #include "splat/gloss_kernel.h"
 #include "splat/gloss_splatter.h"
+#include "splat/splatter.h"
 #include "support/gloss_scenes.h"
 
 namespace phos {
@@ -99,16 +101,19 @@ TEST(GlossSplat, TurnsRecordsAboutTheNormal) {
 }
 
 /// The walls of the box made glossy: materials of different orders, anisotropic ones, a coat.
-TEST(GlossSplat, EveryMaterialReadsItsOwnBands) {
+Scene many_materials() {
   Scene scene = test::glossy_cornell();
-  ASSERT_GE(scene.material.size(), 4u);
   for (Material& m : scene.material)
     if (m.name == "white") m.model = Model::plastic, m.alpha_x = m.alpha_y = 0.5f;
   for (Material& m : scene.material)
     if (m.name == "red") m.model = Model::ward, m.ks = Rgb(0.4f), m.alpha_x = 0.6f, m.alpha_y = 0.4f;
   for (Material& m : scene.material)
     if (m.name == "green") m.model = Model::phong, m.ks = Rgb(0.2f, 0.3f, 0.5f), m.exponent = 3;
-  const Gloss box{scene};
+  return scene;
+}
+
+TEST(GlossSplat, EveryMaterialReadsItsOwnBands) {
+  const Gloss box{many_materials()};
   ASSERT_GE(box.tables.orders().size(), 2u);
   box.expect_as_looked_up(box.records(200, 0.1f, 0.8f), 3000);
 }
@@ -118,6 +123,40 @@ TEST(GlossSplat, NoGradientsNoSteps) {
   std::vector<RadianceRecord> records = box.records(30, 0.2f, 0.8f);
   for (RadianceRecord& r : records) r.gradient_x.clear(), r.gradient_y.clear();
   box.expect_as_looked_up(records, 500);
+}
+
+/// Twice: a renderer serves many pictures.
+void expect_gl_as_cpu(const Gloss& of, const std::vector<RadianceRecord>& records) {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  const GlossCache cache = test::gloss_cache(of.rays, of.tables, kAccuracy, records);
+  const GlossBuffer cpu = of.draw(cache);
+  GlRenderer gl(of.scene);
+  for (int i = 0; i < 2; ++i) {
+    const GlossBuffer drawn = gl.splat_gloss(cache, kAccuracy, of.rays, of.g, of.camera, kMiddle);
+    const Difference d = difference(cpu, drawn);
+    EXPECT_GT(d.drawn, 500u);
+    EXPECT_LE(d.other_records, 2u);
+    EXPECT_LT(d.light, 1e-4);
+    EXPECT_LT(d.error, 1e-4);
+    EXPECT_LT(d.weight, 1e-4);
+    EXPECT_EQ(drawn.pairs, cpu.pairs);
+    EXPECT_EQ(drawn.turned, cpu.turned);
+  }
+}
+
+TEST(GlGloss, FlatSurfaces) {
+  const Gloss box{test::glossy_cornell()};
+  expect_gl_as_cpu(box, box.records(60, 0.1f, 0.8f));
+}
+
+TEST(GlGloss, AllKindsOfLobes) {
+  const Gloss box{many_materials()};
+  expect_gl_as_cpu(box, box.records(200, 0.1f, 0.8f));
+}
+
+TEST(GlGloss, CurvedSurfaces) {
+  const Gloss sphere{test::glossy_sphere().scene};
+  expect_gl_as_cpu(sphere, sphere.records(40, 0.3f, 2));
 }
 
 TEST(GlossSplat, LeavesAllElseAlone) {
