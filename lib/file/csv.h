@@ -22,12 +22,47 @@ struct CsvTable {
   double number(std::size_t row, std::size_t column) const;
 };
 
+/// What stands between the cells of a row.
+enum class CsvGap {
+  comma,
+  blanks,   ///< any number of them; no quotes
+  by_line,  ///< commas if the first row has one, else blanks
+};
+
+/// Rows one by one. RFC 4180, as spreadsheets write it: quotes, CR LF, a byte order mark; empty lines and
+/// those that start with # are passed over.
+class CsvReader {
+ public:
+  /// Refers to the text.
+  CsvReader(std::string_view text, std::string where, CsvGap gap = CsvGap::comma);
+  /// The cells of the next row; false: there is none. Throws Error(bad_input) for an unclosed quote, or text
+  /// after a closing one.
+  bool next(std::vector<std::string>& cells);
+  /// Line of that row, from 1.
+  std::size_t line() const { return row_line_; }
+  /// "file:line", for messages.
+  std::string where() const;
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  bool take(char c);
+  void skip_line();
+  void skip_blanks();
+  std::string cell();
+  std::string quoted();
+
+  std::string_view rest_;
+  std::string where_;
+  CsvGap gap_;
+  std::size_t line_ = 1, row_line_ = 1;
+};
+
 /// May bytes be text (in ASCII, UTF-8 or Latin-1)? Not if they hold control characters.
 bool is_plain_text(std::string_view bytes);
 
-/// RFC 4180, as spreadsheets write it: quotes, CR LF, a byte order mark; empty lines and those that start
-/// with # are left out. Throws Error(bad_input) for text without a line of names, names that repeat, an
-/// unclosed quote, binary data, or a row that is longer or shorter than the line of names.
+/// A line of names and rows under it, as CsvReader reads them. Throws Error(bad_input) for text without a
+/// line of names, names that repeat, binary data, or a row that is longer or shorter than the line of names
+/// too.
 CsvTable parse_csv(std::string_view text, const std::string& where);
 
 }  // namespace phos

@@ -79,8 +79,8 @@ TEST(SenseTool, RefusesBadInput) {
   };
   points("", "p.csv: is empty");
   points("x,y,z,nx,ny\n", "no column nz");
-  points("x,y,z,nx,ny,nz\n1,2,3,0,1\n", "line 2");
-  points("x,y,z,nx,ny,nz\r\n1,2,3,0,1,0\r\n1,2,nan,0,1,0\r\n", "line 3: column z");
+  points("x,y,z,nx,ny,nz\n1,2,3,0,1\n", ":2");
+  points("x,y,z,nx,ny,nz\r\n1,2,3,0,1,0\r\n1,2,nan,0,1,0\r\n", ":3: column z");
   points("1 2 3 0 0 0\n", "normal is zero");
   expect_refused("sense", {kBox, "--direct-only", "--points", "-"}, 3, "stdin: is empty");
   expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "0.3", "-o", "/dev/full"}, 3,

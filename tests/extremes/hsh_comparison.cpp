@@ -7,18 +7,10 @@
 
 #include "core/error.h"
 #include "hsh/comparison_bases.h"
+#include "support/comparison_basis.h"
 
 using namespace phos;
-
-namespace {
-
-std::vector<double> values(ComparisonBasis basis, int order, double x, double y, double z) {
-  std::vector<double> out(static_cast<std::size_t>(comparison_count(basis, order)));
-  evaluate_comparison(basis, order, x, y, z, out.data());
-  return out;
-}
-
-}  // namespace
+using namespace phos::test;
 
 TEST(HshComparisonLimits, OrdersOutsideTheRangeAreRefused) {
   for (const ComparisonBasis basis : kComparisonBases) {

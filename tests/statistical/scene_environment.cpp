@@ -24,27 +24,27 @@ TEST(EnvironmentSamples, FollowTheirDensity) {
                                         : x % 5 == 0     ? Rgb(0)
                                                          : Rgb(1); }, -2)};
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const Chi2 result = chi2_directions(
-        kGrid, 7, kCount,
-        [&](RandomStream& random, Vec3& d) {
-          const Environment::Sample s = maps[i].sample(random.uniform2());
-          d = s.direction;
-          return s.density > 0;
-        },
-        [&](const Vec3& d) { return double(maps[i].density(d)); });
-    EXPECT_GT(result.p, kLeastP) << "map " << i << ": " << result.statistic << " for " << result.degrees
-                                 << " degrees of freedom";
-    const double total = 0.2126 * maps[i].integral_lx().x + 0.7152 * maps[i].integral_lx().y +
-                         0.0722 * maps[i].integral_lx().z;
-    const Chi2 flux = chi2_directions(
-        kGrid, 8, kCount,
-        [&](RandomStream& random, Vec3& d) {
-          const Environment::Sample s = maps[i].sample_flux(random.uniform2());
-          d = s.direction;
-          return s.density > 0;
-        },
-        [&](const Vec3& d) { return double(luminance(maps[i].luminance(d))) / total; });
-    EXPECT_GT(flux.p, kLeastP) << "flux of map " << i << ": " << flux.statistic << " for " << flux.degrees
-                               << " degrees of freedom";
+    const Environment& map = maps[i];
+    const auto expect_fits = [&](std::uint64_t seed, const char* what, const auto& draw,
+                                 const auto& density) {
+      const Chi2 result = chi2_directions(
+          kGrid, seed, kCount,
+          [&](RandomStream& random, Vec3& d) {
+            const Environment::Sample s = draw(random.uniform2());
+            d = s.direction;
+            return s.density > 0;
+          },
+          density);
+      EXPECT_GT(result.p, kLeastP) << what << " of map " << i << ": " << result.statistic << " for "
+                                   << result.degrees << " degrees of freedom";
+    };
+    expect_fits(
+        7, "samples", [&](const Vec2& u) { return map.sample(u); },
+        [&](const Vec3& d) { return double(map.density(d)); });
+    const double total =
+        0.2126 * map.integral_lx().x + 0.7152 * map.integral_lx().y + 0.0722 * map.integral_lx().z;
+    expect_fits(
+        8, "flux samples", [&](const Vec2& u) { return map.sample_flux(u); },
+        [&](const Vec3& d) { return double(luminance(map.luminance(d))) / total; });
   }
 }

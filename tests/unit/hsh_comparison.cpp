@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "support/comparison_basis.h"
 #include "support/lobes.h"
 
 using namespace phos;
@@ -15,12 +16,6 @@ using namespace phos::test;
 using enum ComparisonBasis;
 
 namespace {
-
-std::vector<double> values(ComparisonBasis basis, int order, double x, double y, double z) {
-  std::vector<double> out(static_cast<std::size_t>(comparison_count(basis, order)));
-  evaluate_comparison(basis, order, x, y, z, out.data());
-  return out;
-}
 
 /// Of a lobe, at the degrees that have 25 coefficients; Zernike has 28. Even SH count those that are 0.
 double accuracy(const DirectionalFunction& f, ComparisonBasis basis) {
