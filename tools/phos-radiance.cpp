@@ -60,18 +60,13 @@ void summarise(Tool& tool, const RadianceCache& cache, const std::vector<Radianc
 int main(int argc, char** argv) {
   Tool tool("phos-radiance", "places radiance records on glossy surfaces and estimates them",
             "A radiance record holds the light that arrives from every direction, as hemispherical "
-            "harmonics, with its "
-            "standard error and gradients. Records are placed on materials whose lobes phos-brdf finds broad "
-            "enough, each "
-            "with the bands that its material needs, until each wanted place is within reach of one; other "
-            "gloss is left "
-            "to rays, and a scene without gloss gives an empty file. Inputs, in any order: a scene; photons "
-            "of it, unless "
-            "rays gather the first bounce only or read a cache; its .brdf file (else lobes are projected "
-            "here); and an "
-            "irradiance cache for rays to read where they land, in place of the coarse one that is otherwise "
-            "made from "
-            "the photons.",
+            "harmonics, with its standard error and gradients. Records are placed on materials whose lobes "
+            "phos-brdf finds broad enough, each with the bands that its material needs, until each wanted "
+            "place is within reach of one; other gloss is left to rays, and a scene without gloss gives an "
+            "empty file. Inputs, in any order: a scene; photons of it, unless rays gather the first bounce "
+            "only or read a cache; its .brdf file (else lobes are projected here); and caches for rays to "
+            "read where they land: irradiance, in place of the coarse cache that is otherwise made from the "
+            "photons, and radiance, for gloss.",
             1);
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -83,7 +78,8 @@ int main(int argc, char** argv) {
   Options& options = tool.options();
   options.inputs(
       "SCENE [PHOTONS] [BRDF] [CACHE]", paths,
-      "scene (.glb, .gltf, .obj), photons of it, its .brdf file, an irradiance cache to gather from");
+      "scene (.glb, .gltf, .obj), photons of it, its .brdf file, irradiance and radiance caches to gather "
+      "from");
   declare_options(options, scene_options);
   declare_options(options, gloss);
   declare_options(options, radiance);
