@@ -24,9 +24,13 @@ class PhotonProjector {
   ///
   /// The photons are moments of the light, sum of flux / area H_i(w), and CosineFit makes coefficients of
   /// them: what leaves through a lobe f is then sum of flux / area f'(w), f' the fit of f by as many bands.
-  /// The irradiance is sum of flux / area. In the gradients each photon's source stays where it is and shines
-  /// on as it does (`hybrid` is as analytic: photons do not show what hides light); its cosine is kept above
-  /// 0.1.
+  /// The irradiance is sum of flux / area. More bands add no noise to what leaves through a lobe, which sees
+  /// as many photons as before; so bands are neither cut off nor damped where their energy is below their
+  /// noise. (Measured for 50 to 1,000 photons: that would take up to 40 % of the noise of even light, and
+  /// double or quadruple the error of light from one wall or a ceiling. tests/bench has what the fit does.)
+  ///
+  /// In the gradients each photon's source stays where it is and shines on as it does (`hybrid` is as
+  /// analytic: photons do not show what hides light); its cosine is kept above 0.1.
   ///
   /// Errors are those of Poisson photons and of the area. Errors of coefficients from photons are not
   /// independent of each other; stated is the one white noise, of variance 3 / (2 pi) sum of (flux / area)^2

@@ -94,41 +94,51 @@ class Absorption {
   bool glossy_ = false;
 };
 
-/// Flux that all surfaces of a closed room absorb as they are (`materials`), lm, by one record in each cell
-/// of a grid on each wall, anywhere in it: `radiance` makes those of glossy walls, `irradiance` the others,
-/// both of light that is not straight from the lamp; a point lamp's own is added.
-inline double absorbed_lm(const Scene& scene, const Estimator& irradiance, const Estimator& radiance,
-                          int cells, std::uint64_t seed) {
-  std::vector<Absorption> absorption;
-  for (std::uint32_t m = 0; m < scene.material.size(); ++m) absorption.emplace_back(scene, m);
-  const Light& lamp = scene.light.front();
+/// Sum over the walls of a room of its area times the mean of use(place, unit normal, material) over one
+/// place in each cell of a grid, anywhere in it.
+template <class Make>
+double over_walls(const Scene& scene, int cells, std::uint64_t seed, const Make& make_use) {
   const auto side = static_cast<std::size_t>(cells), each = side * side;
-  const auto of_chunk = [&](std::size_t begin, std::size_t end) {
-    const auto plain = irradiance.make_worker(), glossy = radiance.make_worker();
-    double flux_lm = 0;
+  const auto of_wall = [&](std::size_t begin, std::size_t end) {
+    const auto use = make_use();
+    double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Instance& wall = scene.instance[i / each];
       const Vec3* corner = &scene.position[scene.triangle[wall.first_triangle].v[0]];  // of add_quad
       const Vec3 u = corner[1] - corner[0], v = corner[3] - corner[0], across = glm::cross(u, v);
-      const Vec3 n = glm::normalize(across);
       RandomStream random(seed, Stage::test, i);
       const Vec2 at = (Vec2(i % side, i % each / side) + random.uniform2()) / static_cast<float>(side);
-      const RecordSite site{corner[0] + at.x * u + at.y * v, n, i};
-      const Absorption& share = absorption[wall.material];
-      const Vec3 to = lamp.position - site.position;
-      const float d2 = glm::dot(to, to), cosine = glm::dot(to, n) / std::sqrt(d2);
-      double here = static_cast<double>(lamp.intensity.y * cosine / d2 * share.of(cosine));
-      if (share.glossy()) {
-        here += share.of(*radiance.make(site, *glossy).radiance);
-      } else {
-        here += static_cast<double>(share.of(1.f) * irradiance.make(site, *plain).record.irradiance.y);
-      }
-      flux_lm += here * static_cast<double>(glm::length(across)) / static_cast<double>(each);
+      const RecordSite site{corner[0] + at.x * u + at.y * v, glm::normalize(across), i};
+      sum += use(site, wall.material) * static_cast<double>(glm::length(across)) / static_cast<double>(each);
     }
-    return flux_lm;
+    return sum;
   };
-  return parallel_reduce(scene.instance.size() * each, each, 0.0, of_chunk,
+  return parallel_reduce(scene.instance.size() * each, each, 0.0, of_wall,
                          [](double& sum, double part) { sum += part; });
+}
+
+/// Flux that the walls of glossy_room() absorb, lm: of light straight from the lamp, and of other light as
+/// records tell it, `radiance` on glossy walls and `irradiance` on the others.
+inline double absorbed_lm(const Scene& scene, const Estimator& irradiance, const Estimator& radiance,
+                          int cells, std::uint64_t seed) {
+  std::vector<Absorption> share;
+  for (std::uint32_t m = 0; m < scene.material.size(); ++m) share.emplace_back(scene, m);
+  const Light& lamp = scene.light.front();
+  const double direct = over_walls(scene, 100, seed, [&] {
+    return [&](const RecordSite& site, std::uint32_t material) {
+      const Vec3 to = lamp.position - site.position;
+      const float d2 = glm::dot(to, to), cosine = glm::dot(to, site.normal) / std::sqrt(d2);
+      return static_cast<double>(lamp.intensity.y * cosine / d2 * share[material].of(cosine));
+    };
+  });
+  return direct + over_walls(scene, cells, seed, [&] {
+           return [&, plain = irradiance.make_worker(), glossy = radiance.make_worker()](
+                      const RecordSite& site, std::uint32_t material) {
+             if (share[material].glossy()) return share[material].of(*radiance.make(site, *glossy).radiance);
+             const float e = irradiance.make(site, *plain).record.irradiance.y;
+             return static_cast<double>(share[material].of(1.f) * e);
+           };
+         });
 }
 
 }  // namespace phos::test
