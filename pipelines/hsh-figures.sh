@@ -10,7 +10,7 @@ set -euo pipefail
 
 usage() { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$PATH:$here/../build/release/bin
+source "$here/programs.sh"
 order=7 width=400 samples=4 photons=200000 exponent=20 rays=128
 inputs=()
 while (($# > 0)); do

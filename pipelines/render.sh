@@ -24,8 +24,7 @@ while (($# > 0)); do
 done
 [[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$PATH:$here/../build/release/bin
+source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
 name=$(basename "${scene%.*}")
 mkdir -p "$folder"
 file=$folder/$name

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Pictures of a glossy scene from several cameras, one after another, that share one growing cache:
+#   pipelines/glossy-views.sh SCENE FOLDER CAMERA... [--photons N] [--width W] [--accuracy A] [--rays N] [--samples N]
+# Each view adds only the records that the views before it did not leave there; FOLDER/records.csv counts them. FOLDER/CAMERA.exr and
+# .png are the pictures, FOLDER/scene.irradiance and .radiance the cache. Only broad gloss is cached (see phos-brdf); the rest is traced.
+set -euo pipefail
+
+usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+[[ $# -ge 3 ]] || usage
+scene=$1 folder=$2
+shift 2
+photons=400000 width=400 accuracy=0.3 rays=4096 samples=4
+cameras=()
+while (($# > 0)); do
+  case $1 in
+    --photons | --width | --accuracy | --rays | --samples)
+      [[ $# -ge 2 ]] || usage
+      declare "${1#--}=$2"
+      shift 2 ;;
+    -*) usage ;;
+    *) cameras+=("$1"); shift ;;
+  esac
+done
+((${#cameras[@]} > 0)) || usage
+[[ -f $scene ]] || { echo "glossy-views.sh: $scene: no such file" >&2; exit 3; }
+source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+mkdir -p "$folder"
+base=$folder/$(basename "${scene%.*}")
+
+# 1. Light, and what gloss does to it.
+phos-photons "$scene" --photons "$photons" --reuse -o "$base.photons"
+phos-brdf "$scene" --reuse -o "$base.brdf"
+# 2. View by view: what it lacks is added to the caches, and its picture drawn.
+rm -f "$base.irradiance" "$base.radiance"
+count() { sed -n "s/.*\"$1\": *\([0-9]*\),*$/\1/p" "$folder/stats.json" | head -1; }
+echo "camera,radiance_records,radiance_new,irradiance_records,irradiance_new" >"$folder/records.csv"
+for camera in "${cameras[@]}"; do
+  view=(--place view --camera "$camera" --width "$width" --stats "$folder/stats.json")
+  earlier=()
+  [[ ! -f $base.radiance ]] || earlier=(--add-to "$base.radiance")
+  phos-radiance "$scene" "$base.photons" "$base.brdf" "${view[@]}" --accuracy "$accuracy" --rays "$rays" "${earlier[@]}" \
+    -o "$base.radiance"
+  line=$camera,$(count records),$(count records_new)
+  earlier=()
+  [[ ! -f $base.irradiance ]] || earlier=(--add-to "$base.irradiance")
+  phos-irradiance "$scene" "$base.photons" "$base.radiance" "${view[@]}" "${earlier[@]}" -o "$base.irradiance"
+  echo "$line,$(count records),$(count records_new)" >>"$folder/records.csv"
+  phos-splat "$scene" "$base.irradiance" "$base.radiance" "$base.brdf" --camera "$camera" --width "$width" --pixel-samples "$samples" \
+    -o "$folder/$camera.exr"
+  phos-picture "$folder/$camera.exr" -o "$folder/$camera.png"
+done
+rm -f "$folder/stats.json"
+cat "$folder/records.csv"
