@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "cache/lobe_dot.h"
 #include "hsh/basis.h"
 
 namespace phos {
@@ -42,19 +43,6 @@ Interval interval(float x, int n) {
   const float clamped = x > 0 ? std::min(x, static_cast<float>(n - 1)) : 0.f;
   const int i = std::min(static_cast<int>(clamped), n - 2);
   return {static_cast<std::size_t>(i), clamped - static_cast<float>(i)};
-}
-
-/// Sum over i of c_i L_i by colour; both hold `n` numbers, RGB side by side.
-Rgb dot(const float* c, const float* light, std::size_t n) {
-  constexpr std::size_t kLanes = 12;
-  std::array<float, kLanes> sum{};
-  std::size_t i = 0;
-  for (; i + kLanes <= n; i += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) sum[lane] += c[i + lane] * light[i + lane];
-  for (std::size_t lane = 0; i < n; ++i, ++lane) sum[lane] += c[i] * light[i];
-  Rgb out(0);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) out[static_cast<int>(lane % 3)] += sum[lane];
-  return out;
 }
 
 int order_of(std::size_t numbers) {
@@ -170,7 +158,8 @@ Rgb BrdfLookup::outgoing(const Vec3& wo, std::span<const float> incident) const 
     for (std::size_t k = 0; k < a.count; ++k) {
       const int order = std::min<int>(table_.orders[a.entry[k]], light_order);
       const auto numbers = 3 * static_cast<std::size_t>(harmonic_count(order));
-      out += a.share[k] * dot(table_.coefficients.data() + a.entry[k] * stride, incident.data(), numbers);
+      out +=
+          a.share[k] * lobe_dot(table_.coefficients.data() + a.entry[k] * stride, incident.data(), numbers);
     }
     return out;
   }

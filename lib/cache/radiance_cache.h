@@ -91,7 +91,7 @@ class RadianceTree {
   struct Worker {
     std::vector<const IrradianceRecord*> found;
     std::vector<float> sum, turned;
-    std::vector<float> light;         ///< [order^2][3] of the order asked for, in the frame asked for
+    std::vector<float> light;         ///< interpolate(): [order^2][3] of the order and in the frame asked for
     std::vector<float> stderr_light;  ///< [order][3]
   };
   /// Sets worker.light to the light that arrives at p in `frame` (z its normal, unit), to `order` bands (at
@@ -100,13 +100,10 @@ class RadianceTree {
   /// R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would change a record by more than its
   /// own energy is shortened to that. Returns the sum of weights; 0: no record is valid, all is 0.
   float interpolate(const Vec3& p, const Frame& frame, int order, Worker& worker) const;
-  /// Light that leaves p through a lobe, [order^2][3] in `frame`. The least is `least` (1/sr, 0 or below)
-  /// times the irradiance.
+  /// Light that leaves p through a lobe, [order^2][3] in `frame`: the lobe times what interpolate() finds.
+  /// The least is `least` (1/sr, 0 or below) times the irradiance. Where records are turned it is the lobe
+  /// that is turned to each of them (transposed), at half the cost where it has no colour.
   GlossyLight outgoing(const Vec3& p, const Frame& frame, std::span<const float> lobe, const Rgb& least,
-                       Worker& worker) const;
-  /// Light that leaves p towards wo (unit, local in `frame`) through the lobe of `brdf`. Where
-  /// brdf.order(wo) is 0 the lobe is to be traced: that is not done here, and looks like a miss.
-  GlossyLight outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,
                        Worker& worker) const;
 
  private:

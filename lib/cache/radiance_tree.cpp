@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cache/lobe_dot.h"
 #include "cache/radiance_cache.h"
 #include "core/error.h"
 #include "hsh/rotation.h"
@@ -35,6 +36,16 @@ bool same(const Frame& a, const Frame& b) { return a.x == b.x && a.z == b.z; }
 }  // namespace
 
 struct RadianceTree::Impl {
+  struct Lobe {
+    explicit Lobe(std::span<const float> all)
+        : numbers(all), order(static_cast<int>(std::lround(std::sqrt(static_cast<double>(all.size() / 3))))) {
+      for (std::size_t i = 0; i < all.size(); i += 3)
+        grey = grey && all[i] == all[i + 1] && all[i] == all[i + 2];
+    }
+    std::span<const float> numbers;
+    int order;
+    bool grey = true;
+  };
   Impl(const Bounds& bounds, double a, int of_order, const RayScene* leak_test)
       : tree(bounds, a, leak_test), accuracy(static_cast<float>(a)), order(of_order) {
     for (int n = 1; n <= order; ++n) rotators.emplace_back(n, HshRotation::constant_fill, most_turned(a));
@@ -46,19 +57,55 @@ struct RadianceTree::Impl {
   std::vector<RadianceRecord> records;
   std::vector<float> steepness_per_m;
 
-  /// sum += w (c + dx g_x + dy g_y), as far as `sum` goes.
-  void add(std::size_t record, float w, const Vec3& p, std::vector<float>& sum) const {
+  /// How far along frame.x and frame.y a record is followed towards p, m.
+  Vec2 step_m(std::size_t record, const Vec3& p) const {
     const RadianceRecord& r = records[record];
     const Vec3 step = p - r.position;
     const float steep = steepness_per_m[record];
-    if (!(steep > 0) || std::isinf(steep)) {
-      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += w * r.light[i];
+    if (!(steep > 0) || std::isinf(steep)) return Vec2(0);
+    const float shorter = std::min(1.f, 1 / (steep * glm::length(step)));
+    return shorter * Vec2(glm::dot(step, r.frame.x), glm::dot(step, r.frame.y));
+  }
+  /// sum += w (c + dx g_x + dy g_y), as far as `sum` goes.
+  void add(std::size_t record, float w, const Vec3& p, std::vector<float>& sum) const {
+    const RadianceRecord& r = records[record];
+    const Vec2 step = w * step_m(record, p);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += w * r.light[i];
+    if (step == Vec2(0)) return;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += step.x * r.gradient_x[i] + step.y * r.gradient_y[i];
+  }
+  /// A lobe times (c + dx g_x + dy g_y).
+  Rgb through(const std::vector<float>& lobe, std::size_t record, const Vec2& step) const {
+    const RadianceRecord& r = records[record];
+    Rgb sum = lobe_dot(lobe.data(), r.light.data(), lobe.size());
+    if (step == Vec2(0)) return sum;
+    return sum + step.x * lobe_dot(lobe.data(), r.gradient_x.data(), lobe.size()) +
+           step.y * lobe_dot(lobe.data(), r.gradient_y.data(), lobe.size());
+  }
+  Rgb irradiance(std::size_t record, const Vec2& step) const {
+    const RadianceRecord& r = records[record];
+    Rgb e = irradiance_of(r.light);
+    if (step != Vec2(0)) e += step.x * irradiance_of(r.gradient_x) + step.y * irradiance_of(r.gradient_y);
+    return glm::max(e, Rgb(0));
+  }
+
+  /// A lobe in `frame` as records kept in `own` are to be multiplied by it.
+  void turn_lobe(const Lobe& lobe, const Frame& frame, const Frame& own, Worker& worker) const {
+    worker.turned.resize(lobe.numbers.size());
+    if (same(own, frame)) {
+      std::copy(lobe.numbers.begin(), lobe.numbers.end(), worker.turned.begin());
       return;
     }
-    const float shorter = w * std::min(1.f, 1 / (steep * glm::length(step)));
-    const float x = shorter * glm::dot(step, r.frame.x), y = shorter * glm::dot(step, r.frame.y);
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += w * r.light[i] + (x * r.gradient_x[i] + y * r.gradient_y[i]);
+    const HshRotator& rotator = rotators[static_cast<std::size_t>(lobe.order - 1)];
+    const ZyzAngles angles = rotation_angles(own, frame);
+    if (!lobe.grey) return rotator.rotate_transposed(angles, lobe.numbers, worker.turned, 3);
+    const std::size_t n = lobe.numbers.size() / 3;
+    worker.sum.resize(2 * n);
+    const std::span<float> one(worker.sum.data(), n), turned(worker.sum.data() + n, n);
+    for (std::size_t i = 0; i < n; ++i) one[i] = lobe.numbers[3 * i];
+    rotator.rotate_transposed(angles, one, turned);
+    for (std::size_t i = 0; i < lobe.numbers.size(); ++i) worker.turned[i] = turned[i / 3];
   }
 };
 
@@ -128,35 +175,45 @@ float RadianceTree::interpolate(const Vec3& p, const Frame& frame, int order, Wo
   return weight;
 }
 
-GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<const float> lobe,
+GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<const float> coefficients,
                                    const Rgb& least, Worker& worker) const {
-  const auto order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(lobe.size() / 3))));
-  PHOS_CHECK(order >= 1 && lobe.size() == numbers(order), lobe.size(), " numbers of a lobe");
+  const Impl::Lobe lobe(coefficients);
+  PHOS_CHECK(lobe.order >= 1 && lobe.order <= impl_->order && coefficients.size() == numbers(lobe.order),
+             coefficients.size(), " numbers of a lobe, records of order ", impl_->order);
   GlossyLight light;
-  light.weight = interpolate(p, frame, order, worker);
-  if (!(light.weight > 0)) return light;
-  Rgb sum(0), variance(0);
-  for (std::size_t l = 0, i = 0; 3 * l < worker.stderr_light.size(); ++l) {
+  Rgb irradiance(0);
+  worker.stderr_light.assign(3 * static_cast<std::size_t>(lobe.order), 0);
+  impl_->tree.valid(p, frame.z, worker.found);
+  const IrradianceRecord* first = impl_->tree.records().data();
+  const Frame* own = nullptr;  // that the lobe has been turned to
+  for (const IrradianceRecord* found : worker.found) {
+    const auto record = static_cast<std::size_t>(found - first);
+    const RadianceRecord& r = impl_->records[record];
+    if (!own || !same(*own, r.frame)) impl_->turn_lobe(lobe, frame, r.frame, worker);
+    own = &r.frame;
+    const float w = weight_at(found->position, found->normal, found->radius_m, impl_->accuracy, p, frame.z);
+    const Vec2 step = impl_->step_m(record, p);
+    light.radiance += w * impl_->through(worker.turned, record, step);
+    if (least != Rgb(0)) irradiance += w * impl_->irradiance(record, step);
+    for (std::size_t i = 0; i < worker.stderr_light.size(); ++i)
+      worker.stderr_light[i] += w * r.stderr_light[i];
+    light.weight += w;
+  }
+  if (!(light.weight > 0)) return {};
+  Rgb variance(0);
+  for (std::size_t l = 0, i = 0; l < static_cast<std::size_t>(lobe.order); ++l) {
     Rgb energy(0);  // of the lobe in this band
     for (; i < 3 * (l + 1) * (l + 1); i += 3) {
-      const Rgb c(lobe[i], lobe[i + 1], lobe[i + 2]);
-      sum += c * Rgb(worker.light[i], worker.light[i + 1], worker.light[i + 2]);
+      const Rgb c(coefficients[i], coefficients[i + 1], coefficients[i + 2]);
       energy += c * c;
     }
     const Rgb error(worker.stderr_light[3 * l], worker.stderr_light[3 * l + 1],
                     worker.stderr_light[3 * l + 2]);
     variance += energy * error * error;
   }
-  light.radiance = glm::max(sum, least * glm::max(irradiance_of(worker.light), Rgb(0)));
-  light.stderr_cd = glm::sqrt(variance);
+  light.radiance = glm::max(light.radiance, least * irradiance) / light.weight;
+  light.stderr_cd = glm::sqrt(variance) / light.weight;
   return light;
-}
-
-GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, const Vec3& wo, const BrdfLookup& brdf,
-                                   Worker& worker) const {
-  std::vector<float> lobe;
-  if (brdf.coefficients(wo, lobe) == 0) return {};
-  return outgoing(p, frame, lobe, Rgb(0), worker);
 }
 
 }  // namespace phos

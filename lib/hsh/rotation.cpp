@@ -116,9 +116,15 @@ struct HshRotator::Tables {
   int order;
   HshRotation method;
 
-  const PackedTurn& at_degree(int degree) const {
-    Entry& e = entries[degree];
-    std::call_once(e.made, [&] { e.turn = pack(hsh_turn(order, method, degree * std::numbers::pi / 180)); });
+  PackedTurn make(double beta, bool transposed) const {
+    Turn turn = hsh_turn(order, method, beta);
+    if (transposed) turn.transpose();
+    return pack(turn);
+  }
+
+  const PackedTurn& at_degree(int degree, bool transposed) const {
+    Entry& e = entries[transposed][degree];
+    std::call_once(e.made, [&] { e.turn = make(degree * std::numbers::pi / 180, transposed); });
     return e.turn;
   }
 
@@ -136,7 +142,7 @@ struct HshRotator::Tables {
     std::once_flag made;
     PackedTurn turn;
   };
-  mutable Entry entries[kDegrees + 1];
+  mutable Entry entries[2][kDegrees + 1];
 };
 
 HshRotator::HshRotator(int order, HshRotation method, float max_beta) : max_beta_(max_beta) {
@@ -152,6 +158,16 @@ int HshRotator::order() const { return tables_->order; }
 
 void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
                         int channels) const {
+  apply(angles, false, in, out, channels);
+}
+
+void HshRotator::rotate_transposed(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
+                                   int channels) const {
+  apply({-angles.gamma, angles.beta, -angles.alpha}, true, in, out, channels);
+}
+
+void HshRotator::apply(const ZyzAngles& angles, bool transposed, std::span<const float> in,
+                       std::span<float> out, int channels) const {
   const int order = tables_->order;
   check_sizes(order, in, out, channels);
   check(angles);
@@ -163,10 +179,9 @@ void HshRotator::rotate(const ZyzAngles& angles, std::span<const float> in, std:
   const int below = std::min(static_cast<int>(degrees), kDegrees - 1);
   PackedTurn exact;
   const bool tabled = angles.beta <= max_beta_;
-  if (!tabled)
-    exact = pack(hsh_turn(order, tables_->method, std::min<double>(angles.beta, std::numbers::pi)));
-  const PackedTurn& a = tabled ? tables_->at_degree(below) : exact;
-  const PackedTurn& b = tabled ? tables_->at_degree(below + 1) : exact;
+  if (!tabled) exact = tables_->make(std::min<double>(angles.beta, std::numbers::pi), transposed);
+  const PackedTurn& a = tabled ? tables_->at_degree(below, transposed) : exact;
+  const PackedTurn& b = tabled ? tables_->at_degree(below + 1, transposed) : exact;
   const float of_b = tabled ? degrees - static_cast<float>(below) : 0, of_a = 1 - of_b;
 
   const ZTurn first(angles.alpha, order), last(angles.gamma, order);

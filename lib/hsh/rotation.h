@@ -44,9 +44,15 @@ class HshRotator {
   /// in and out [channels * order^2], not the same memory. A beta below 0.1 degrees only turns about z.
   void rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
               int channels = 1) const;
+  /// The transpose: the sum of out_i f_i is that of in_i (rotated f)_i for every f. Turns what rotated
+  /// functions are to be multiplied by instead of turning them.
+  void rotate_transposed(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
+                         int channels = 1) const;
 
  private:
   struct Tables;
+  void apply(const ZyzAngles& angles, bool transposed, std::span<const float> in, std::span<float> out,
+             int channels) const;
   std::shared_ptr<const Tables> tables_;
   float max_beta_;
 };

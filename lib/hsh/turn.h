@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "hsh/rotation.h"
@@ -17,6 +18,11 @@ struct Turn {
   int order;
   std::vector<double> cosine, sine;
 
+  void transpose() {
+    for (const auto& [block, n] : {std::pair(&cosine, cosines()), std::pair(&sine, sines())})
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < i; ++j) std::swap((*block)[i * n + j], (*block)[j * n + i]);
+  }
   std::size_t cosines() const { return cosine_index(order, 0); }
   std::size_t sines() const { return sine_index(order, 1); }
   /// Place among the cosines, m >= 0, and among the sines sin(m phi), m > 0.

@@ -100,11 +100,13 @@ void look_up(benchmark::State& state, bool curved, float exponent) {
     queries.push_back({p, frame_at(p), sample_uniform_cone(random.uniform2(), 0.6f)});
   }
   RadianceTree::Worker worker;
+  std::vector<float> lobe;
   double records = 0;
   std::size_t i = 0;
   for (auto _ : state) {
     const Query& q = queries[i++ % queries.size()];
-    benchmark::DoNotOptimize(tree.outgoing(q.p, q.frame, q.wo, brdf, worker));
+    brdf.coefficients(q.wo, lobe);
+    benchmark::DoNotOptimize(tree.outgoing(q.p, q.frame, lobe, Rgb(0), worker));
     records += static_cast<double>(worker.found.size());
   }
   state.SetItemsProcessed(state.iterations());
@@ -194,15 +196,14 @@ void turn_each_light(benchmark::State& state) {
 }
 BENCHMARK(turn_each_light)->Arg(6)->Arg(10);
 
-/// A lobe without colour turned to each record instead (as it costs, if not what it gives: the transpose
-/// takes as long).
+/// A lobe without colour turned to each record instead, and multiplied by its light.
 void turn_lobe_to_each(benchmark::State& state) {
   const Turning t(static_cast<int>(state.range(0)));
   std::vector<float> turned(t.lobe.size());
   for (auto _ : state) {
     Rgb sum(0);
     for (std::size_t k = 0; k < t.frame.size(); ++k) {
-      t.rotator.rotate(rotation_angles(make_frame({0, 0, 1}), t.frame[k]), t.lobe, turned, 1);
+      t.rotator.rotate_transposed(rotation_angles(t.frame[k], make_frame({0, 0, 1})), t.lobe, turned, 1);
       for (std::size_t i = 0; i < turned.size(); ++i)
         sum += turned[i] * Rgb(t.light[k][3 * i], t.light[k][3 * i + 1], t.light[k][3 * i + 2]);
     }

@@ -209,21 +209,60 @@ TEST(RadianceTree, LightThatLeaves) {
   for (const Vec3& towards : {Vec3(0, 0, 1), Vec3(0.5f, 0.2f, 0.8f), Vec3(-0.9f, 0.1f, 0.4f)}) {
     const Vec3 wo = glm::normalize(towards);
     if (brdf.order(wo) == 0) continue;
-    const GlossyLight out = tree.outgoing(Vec3(0), kFlat, wo, brdf, worker);
-    EXPECT_EQ(worker.light.size(), 3 * static_cast<std::size_t>(harmonic_count(brdf.order(wo))));
+    std::vector<float> lobe;
+    const int order = brdf.coefficients(wo, lobe);
+    const GlossyLight out = tree.outgoing(Vec3(0), kFlat, lobe, Rgb(0), worker);
+    EXPECT_EQ(out.weight, tree.interpolate(Vec3(0), kFlat, order, worker));
     const Rgb expected = brdf.outgoing(wo, light);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(out.radiance[c], expected[c], 1e-5f);
       EXPECT_GT(out.radiance[c], 0);
       // All bands err by 0.01: as much as the lobe is large.
       float energy = 0;
-      const std::vector<float> lobe = brdf.coefficients(wo);
       for (std::size_t i = static_cast<std::size_t>(c); i < worker.light.size(); i += 3)
         energy += lobe[i] * lobe[i];
       EXPECT_NEAR(out.stderr_cd[c], 0.01f * std::sqrt(energy), 1e-6f);
     }
   }
-  EXPECT_EQ(tree.outgoing({0.5f, 0, 0}, kFlat, {0, 0, 1}, brdf, worker).weight, 0);
+  const float lobe[] = {1, 1, 1};
+  EXPECT_EQ(tree.outgoing({0.5f, 0, 0}, kFlat, lobe, Rgb(0), worker).weight, 0);
+}
+
+/// Whether light is turned to the point or the lobe to each record, in frames of all kinds, grey or coloured.
+TEST(RadianceTree, TurnsLobesAsItTurnsLight) {
+  RadianceTree tree(unit_box(), 0.6, 7);
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    RandomStream random(3, Stage::test, i);
+    const Vec3 tilt = 0.25f * sample_uniform_sphere(random.uniform2());
+    RadianceRecord r = test::random_radiance({7}).records[0];
+    r.position = {0.1f * random.uniform(), 0.1f * random.uniform(), 0};
+    r.frame = test::turned_about_z(make_frame(glm::normalize(Vec3(0, 0, 1) + tilt)), 6 * random.uniform());
+    r.radius_m = 1;
+    for (std::size_t k = 0; k < r.light.size(); ++k) r.light[k] += 0.1f * random.uniform();
+    tree.insert(r);
+  }
+  RadianceTree::Worker worker;
+  const Frame frame = test::turned_about_z(make_frame(glm::normalize(Vec3(0.1f, -0.05f, 1))), 2);
+  const Vec3 p(0.05f, 0.04f, 0);
+  for (const int order : {1, 4, 7}) {
+    for (const bool grey : {true, false}) {
+      std::vector<float> lobe(3 * static_cast<std::size_t>(harmonic_count(order)));
+      for (std::size_t i = 0; i < lobe.size(); ++i)
+        lobe[i] = std::sin(static_cast<float>(grey ? i / 3 : i) + 1);
+      const GlossyLight out = tree.outgoing(p, frame, lobe, Rgb(-1e6f), worker);
+      EXPECT_EQ(out.weight, tree.interpolate(p, frame, order, worker));
+      ASSERT_GT(worker.found.size(), 5u);
+      DVec3 sum(0), size(0);
+      for (std::size_t i = 0; i < lobe.size(); i += 3)
+        for (int c = 0; c < 3; ++c) {
+          const auto at = i + static_cast<std::size_t>(c);
+          const double term = static_cast<double>(lobe[at]) * static_cast<double>(worker.light[at]);
+          sum[c] += term, size[c] += std::fabs(term);
+        }
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(out.radiance[c], sum[c], 1e-5 * size[c]) << order << ' ' << grey;
+    }
+  }
 }
 
 /// Light from one narrow direction rings in the harmonics: what would be negative is black.
@@ -241,7 +280,10 @@ TEST(RadianceTree, NeverLessThanBlack) {
     const float a = 0.1f * static_cast<float>(i);
     const Vec3 wo(0.5f * std::cos(a), 0.5f * std::sin(a), 0.8660254f);
     if (brdf.order(wo) == 0) continue;
-    const Rgb out = tree.outgoing(Vec3(0), kFlat, wo, brdf, worker).radiance;
+    std::vector<float> lobe;
+    const int order = brdf.coefficients(wo, lobe);
+    const Rgb out = tree.outgoing(Vec3(0), kFlat, lobe, Rgb(0), worker).radiance;
+    tree.interpolate(Vec3(0), kFlat, order, worker);
     least_before = std::min(least_before, brdf.outgoing(wo, worker.light).x);
     EXPECT_GE(std::min({out.x, out.y, out.z}), 0);
   }

@@ -345,5 +345,28 @@ TEST(HshRotator, GivesEachChannelTheSameBits) {
   }
 }
 
+/// Turning what a function is multiplied by is the same as turning the function, by tables or without.
+TEST(HshRotator, Transposed) {
+  constexpr int kOrder = 6;
+  std::vector<float> f, g;
+  for (int i = 0; i < kOrder * kOrder; ++i)
+    f.push_back(std::sin(static_cast<float>(i))), g.push_back(std::cos(3 * static_cast<float>(i)));
+  for (const auto method : {HshRotation::constant_fill, HshRotation::zero_fill}) {
+    const HshRotator rotator(kOrder, method);
+    for (const float beta : {0.f, 0.001f, 0.013f, 0.3f, 0.7f, 1.7f}) {
+      const ZyzAngles angles{0.4f, beta, -1.1f};
+      std::vector<float> turned(f.size()), back(f.size());
+      rotator.rotate(angles, f, turned);
+      rotator.rotate_transposed(angles, g, back);
+      double a = 0, b = 0;
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        a += static_cast<double>(g[i]) * static_cast<double>(turned[i]);
+        b += static_cast<double>(back[i]) * static_cast<double>(f[i]);
+      }
+      EXPECT_NEAR(a, b, 2e-5) << beta;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace phos
