@@ -137,6 +137,10 @@ void declare_options(Options& options, RenderOptions& r) {
                   "bands of those harmonics: N x N coefficients", {1, 30});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
   declare_options(options, r.gloss);
+  options.choice<SplatBy>(
+      "gloss-splat", r.gloss_splat, {{"cpu", SplatBy::cpu}, {"gl", SplatBy::gl}},
+      "draw radiance records on the CPU or with OpenGL (same picture to 1e-4; OSMesa takes "
+      "many times as long)");
   options.integer("gloss-samples", r.gloss_samples, "N",
                   "rays per pixel on a glossy surface whose gloss is traced, shared among its samples",
                   {0, 65536});
@@ -184,7 +188,8 @@ class Painter {
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),
         progress_("rendering", count_.size() * static_cast<std::uint64_t>(samples_), "pixel samples") {
-    if (by_gl() || options.direct == DirectBy::shadow_map) gl_ = std::make_unique<GlRenderer>(rays.scene());
+    if (by_gl() || gloss_by_gl() || options.direct == DirectBy::shadow_map)
+      gl_ = std::make_unique<GlRenderer>(rays.scene());
     result.renderer = gl_ ? gl_->description() : "cpu";
   }
 
@@ -202,6 +207,7 @@ class Painter {
 
  private:
   bool by_gl() const { return options_.splat == SplatBy::gl; }
+  bool gloss_by_gl() const { return gloss_ && options_.gloss_splat == SplatBy::gl; }
   bool cached_direct() const { return cache_.quantity == "all"; }
 
   RecordTree tree() const {
@@ -252,10 +258,11 @@ class Painter {
     if (!gloss_ || gloss_->size() == 0) return {};
     const Stopwatch watch(result_.seconds, "gloss splat");
     const Vec2 where = subpixel_offset(s);
+    const double accuracy = *options_.gloss_accuracy;
     GlossBuffer drawn =
-        options_.leak_test == LeakTest::ray
-            ? look_up_gloss(*gloss_, rays_, gbuffer, camera_, where)
-            : splat_gloss_on_cpu(*gloss_, *options_.gloss_accuracy, rays_, gbuffer, camera_, where);
+        options_.leak_test == LeakTest::ray ? look_up_gloss(*gloss_, rays_, gbuffer, camera_, where)
+        : gloss_by_gl() ? gl_->splat_gloss(*gloss_, accuracy, rays_, gbuffer, camera_, where)
+                        : splat_gloss_on_cpu(*gloss_, accuracy, rays_, gbuffer, camera_, where);
     result_.gloss.pairs += drawn.pairs, result_.gloss.turned_pixels += drawn.turned;
     return drawn;
   }

@@ -46,6 +46,7 @@ struct RenderOptions {
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
   std::int64_t shadow_map_size = 1024;
   GlossBy gloss = GlossBy::automatic;
+  SplatBy gloss_splat = SplatBy::cpu;
   EnvironmentBy environment = EnvironmentBy::traced;
   std::int64_t environment_order = 10;
   std::int64_t max_misses = 100000;
