@@ -64,16 +64,18 @@ double by_reading(const Scene& room, std::uint64_t seed) {
   const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
   Counters counters;
   static const GlossTables tables(room, {}, GlossBy::cached, {}, counters);
+  RecordOptions wide = options;
+  wide.accuracy = 0.4;
   RadianceCache cache;
-  cache.accuracy = options.accuracy;
+  cache.accuracy = wide.accuracy;
   const auto estimator_of = [&](int order) {
-    return std::make_unique<RadianceDensityEstimator>(lit.photons, *lit.rays, options, order,
+    return std::make_unique<RadianceDensityEstimator>(lit.photons, *lit.rays, wide, order,
                                                       RadianceGradient::analytic, seed);
   };
   PlacementSource where{.photons = &lit.photons, .seed = seed};
   PlacementOptions placement;
   resolve(placement, room, where);
-  place_radiance(cache, tables, estimator_of, *lit.rays, options, placement, where, counters);
+  place_radiance(cache, tables, estimator_of, *lit.rays, wide, placement, where, counters);
   GlossCache gloss(room.bounds, cache.accuracy, tables);
   for (const RadianceRecord& r : cache.records) gloss.insert(r);
   GatherSource source = coarse.source();
