@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   declare_place_options(options, placement);
   declare_isa(options, isa);
   options.file("at", at,
-               "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
+               "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --gloss-misses writes");
   options.file("add-to", add_to, "radiance file whose records are kept; options left out are taken from it");
   options.flag("allow-mismatch", allow_mismatch, "use files of another scene or another version of it");
   options.example("phos-radiance room.glb room.photons room.brdf -o room.radiance",
