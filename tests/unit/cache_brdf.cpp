@@ -156,6 +156,23 @@ TEST(BrdfTable, TighterErrorsTakeHigherOrders) {
   for (const float error : table.error) EXPECT_GT(error, 0.001f);
 }
 
+/// Cut off at the highest order instead: what there is of a lobe is what a higher order would begin with.
+TEST(BrdfTable, TooSharpLobesCanBeCut) {
+  BrdfTableOptions options = coarse(5);
+  options.max_order = 6, options.too_sharp = TooSharp::cut;
+  const BrdfTable cut = table_of(phong(200), options);
+  EXPECT_EQ(summarize(cut).traced_share, 0);
+  EXPECT_EQ(cut.order, 6);
+  EXPECT_GT(summarize(cut).worst_error, options.error);
+  options.max_order = 12;
+  const BrdfTable more = table_of(phong(200), options);
+  for (std::size_t e = 0; e < cut.entries(); ++e)
+    for (std::size_t i = 0; i < 3 * 36; ++i)
+      EXPECT_NEAR(cut.coefficients[e * 3 * 36 + i], more.coefficients[e * 3 * 144 + i], 1e-4);
+  options.too_sharp = TooSharp::trace;
+  EXPECT_EQ(table_of(phong(200), options).order, 0);
+}
+
 TEST(BrdfTable, Summary) {
   BrdfTable table;
   table.resolution = 4, table.order = 6;
