@@ -39,7 +39,7 @@ TEST(Resolve, FillsTheSizeInFromTheCamera) {
     resolve(options, camera, cache);
     EXPECT_EQ(options.width, c.wide);
     EXPECT_EQ(options.height, c.high);
-    EXPECT_EQ(options.accuracy, 0.3);
+    EXPECT_EQ(options.accuracy, reading_accuracy(0.3));
   }
   RenderOptions options;
   options.width = options.height = 65536;
