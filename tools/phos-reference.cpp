@@ -74,11 +74,12 @@ int main(int argc, char** argv) {
             "roulette; it "
             "shares no estimator with the caches. Writes an OpenEXR image with the layers beauty (R G B), "
             "emission, "
-            "direct, indirect and, where there is any, specular in cd/m2, their standard errors stderr and "
+            "direct, indirect and, where there is any, glossy and specular in cd/m2, their standard errors "
+            "stderr and "
             "indirect_stderr, albedo, normal, position and Z; or, with --points, a CSV of illuminance (lx) "
             "with its "
             "standard error.",
-            1, Tool::Output::optional);
+            2, Tool::Output::optional);
   Options& options = tool.options();
   std::string scene_path, points_path;
   ReferenceOptions reference;

@@ -38,6 +38,7 @@ struct PathTracer::Walk {
                              // estimation cannot make
   bool every_light = false;  // how next-event estimation chose where the ray started
   bool mirrored = false;     // the visible surface is a mirror or glass
+  Rgb glossy{0};             // share of what comes along the path that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
 };
 
@@ -109,10 +110,14 @@ Rgb PathTracer::emission_beyond(const Walk& walk) const {
 }
 
 void PathTracer::add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum) {
-  (walk.mirrored           ? sum.specular
-   : walk.scatterings == 0 ? sum.emission
-   : walk.scatterings == 1 ? sum.direct
-                           : sum.indirect) += walk.throughput * luminance;
+  const Rgb light = walk.throughput * luminance;
+  if (!walk.mirrored && walk.scatterings > 1) return add_indirect(light, walk, sum);
+  (walk.mirrored ? sum.specular : walk.scatterings == 0 ? sum.emission : sum.direct) += light;
+}
+
+void PathTracer::add_indirect(const Rgb& light, const Walk& walk, PathSample& sum) {
+  sum.glossy += walk.glossy * light;
+  sum.indirect += (Rgb(1) - walk.glossy) * light;
 }
 
 /// Adds the light scattered at `point` once, and turns the walk into its next ray. False: the path ends.
@@ -128,12 +133,21 @@ bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum,
       return f * std::fabs(glm::dot(point.normal, wi));
     };
     const Rgb light = walk.throughput * light_at(point, walk.every_light, scatter, random);
-    (walk.mirrored ? sum.specular : walk.scatterings == 0 ? sum.direct : sum.indirect) += light;
+    if (!walk.mirrored && walk.scatterings > 0)
+      add_indirect(light, walk, sum);
+    else
+      (walk.mirrored ? sum.specular : sum.direct) += light;
   }
   BsdfSample next;
   const float u_lobe = random.uniform();
   if (!bsdf.sample(wo, u_lobe, random.uniform2(), next)) return false;
-  if (next.specular && walk.scatterings == 0) walk.mirrored = true;
+  if (walk.scatterings == 0) {
+    walk.mirrored = next.specular;
+    if (!next.specular && bsdf.has_gloss()) {
+      const Rgb all = bsdf.evaluate(wo, next.direction), gloss = bsdf.evaluate_gloss(wo, next.direction);
+      for (int c = 0; c < 3; ++c) walk.glossy[c] = all[c] > 0 ? gloss[c] / all[c] : 0;
+    }
+  }
   walk.throughput *= next.weight;
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};

@@ -24,9 +24,10 @@ struct PathOptions {
 struct PathSample {
   Rgb emission{0};  ///< of the visible surface itself, or of the environment where there is none
   Rgb direct{0};    ///< from a light, scattered once, at the visible surface
-  Rgb indirect{0};  ///< scattered twice or more, first at a visible surface that is no mirror and no glass
+  /// Scattered twice or more, last by the Lambert part of a visible surface, or by its glossy part.
+  Rgb indirect{0}, glossy{0};
   Rgb specular{0};  ///< all light seen in a mirror or through glass
-  Rgb total() const { return emission + direct + indirect + specular; }
+  Rgb total() const { return emission + direct + indirect + glossy + specular; }
 };
 
 /// Path tracing with next-event estimation and multiple importance sampling (power heuristic) after Veach
@@ -51,6 +52,7 @@ class PathTracer {
   Rgb emission_at(const SurfacePoint& point, const Walk& walk) const;
   Rgb emission_beyond(const Walk& walk) const;
   static void add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum);
+  static void add_indirect(const Rgb& light, const Walk& walk, PathSample& sum);
   bool scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const;
   void follow(Walk walk, PathSample& sum, RandomStream& random) const;
   bool sample_every_light(std::int64_t scatterings) const;

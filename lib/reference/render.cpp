@@ -31,7 +31,7 @@ struct Channels {
 struct Pixel {
   std::uint32_t count = 0;
   Channels total, indirect;
-  DVec3 emission{0}, direct{0}, specular{0};
+  DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
   Moments scattered, illuminance;
 };
 
@@ -98,7 +98,7 @@ std::uint64_t Renderer::sample(std::size_t pixel, std::int64_t s) {
   ++sum.count;
   sum.total.add(total);
   sum.indirect.add(light.indirect);
-  sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct),
+  sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct), sum.glossy += DVec3(light.glossy),
       sum.specular += DVec3(light.specular);
   sum.scattered.add(luminance(total - light.emission));
   if (options_.illuminance) sum.illuminance.add(lux);
@@ -157,8 +157,12 @@ void Renderer::add_light(Image& image) const {
   set("indirect", [](const Pixel& p, double n) { return mean(p.indirect.sum, n); });
   set("stderr", [](const Pixel& p, double n) { return standard_error(p.total, n); });
   set("indirect_stderr", [](const Pixel& p, double n) { return standard_error(p.indirect, n); });
-  if (std::any_of(pixels_.begin(), pixels_.end(), [](const Pixel& p) { return p.specular != DVec3(0); }))
-    set("specular", [](const Pixel& p, double n) { return Rgb(p.specular / n); });
+  for (const auto& [layer, part] :
+       {std::pair{"glossy", &Pixel::glossy}, std::pair{"specular", &Pixel::specular}}) {
+    const auto of = [part = part](const Pixel& p) { return p.*part; };
+    if (std::any_of(pixels_.begin(), pixels_.end(), [&](const Pixel& p) { return of(p) != DVec3(0); }))
+      set(layer, [&](const Pixel& p, double n) { return Rgb(of(p) / n); });
+  }
   if (!options_.illuminance) return;
   const std::span<float> lux = image.channel("illuminance.Y");
   const std::span<float> error = image.channel("illuminance_stderr.Y");

@@ -31,7 +31,7 @@ void declare_options(Options& options, ReferenceOptions& reference);
 void resolve_size(ReferenceOptions& reference, const Camera& camera);
 
 struct ReferencePicture {
-  /// R G B; emission, direct, indirect (as in PathSample; specular where there is any); stderr and
+  /// R G B; emission, direct, indirect (as in PathSample; glossy and specular where there is any); stderr and
   /// indirect_stderr: standard error per channel; illuminance.Y and illuminance_stderr.Y, lx, of the visible
   /// surface, where asked for; and through the centre of each pixel albedo (diffuse reflectance), normal,
   /// position (m) and Z (distance to the eye, m; 0 where nothing is seen).

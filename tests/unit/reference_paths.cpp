@@ -1,6 +1,8 @@
 // The path tracer's bookkeeping: layers, bounces, determinism, files of points.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "reference/point_irradiance.h"
@@ -89,6 +91,37 @@ TEST(ReferencePaths, BouncesSelectLayers) {
   const Image first = render(scene, options);
   EXPECT_GT(mean(first.rgb("indirect")), 0);
   EXPECT_LT(mean(first.rgb("indirect")), mean(all.rgb("indirect")));
+}
+
+/// What the Lambert part of a surface makes of indirect light is kd / pi times its illuminance, whatever the
+/// gloss above it does; the rest is the layer of gloss.
+TEST(ReferencePaths, GlossIsALayerOfItsOwn) {
+  Scene scene = test::cornell();
+  for (Material& m : scene.material) {
+    if (m.emits()) continue;
+    m.model = Model::phong;
+    m.kd = Rgb(0.5f), m.ks = Rgb(0.3f), m.exponent = 10;
+  }
+  finalize(scene);
+  ReferenceOptions options = small(256);
+  options.illuminance = true;
+  const Image all = render(scene, options);
+  options.path.bounces = 1;
+  const Image direct = render(scene, options);
+  ASSERT_TRUE(all.has_layer("glossy"));
+  EXPECT_FALSE(direct.has_layer("glossy"));
+  const auto beauty = all.rgb(""), emission = all.rgb("emission"), straight = all.rgb("direct"),
+             indirect = all.rgb("indirect"), glossy = all.rgb("glossy");
+  double lambert = 0, around_lx = 0;
+  for (std::size_t i = 0; i < beauty.size(); ++i) {
+    const Rgb sum = emission[i] + straight[i] + indirect[i] + glossy[i];
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(beauty[i][k], sum[k], 1e-5f * sum[k]);
+    if (max_component(emission[i]) > 0) continue;
+    lambert += luminance(indirect[i]);
+    around_lx += all.channel("illuminance.Y")[i] - direct.channel("illuminance.Y")[i];
+  }
+  EXPECT_NEAR(lambert / (0.5 / std::numbers::pi * around_lx), 1, 0.03);
+  EXPECT_GT(mean(glossy), 0.1 * mean(indirect));
 }
 
 /// A perfect mirror shows the lit floor: all in the specular layer, reflectance times what is seen there.
