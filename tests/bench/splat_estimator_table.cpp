@@ -160,7 +160,8 @@ void measure(const test::AnalyticScene& s) {
                                    static_cast<std::uint64_t>(seed));
     std::vector<double> flux_lm;
     for (const test::Check& check : s.checks) flux_lm.push_back(photon_flux_lm(lit.photons, check));
-    const EstimateInputs inputs{.photons = std::move(lit.photons), .source = {}};
+    EstimateInputs inputs;
+    inputs.photons = std::move(lit.photons);
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
       if (seed > kMethods[m].seeds) continue;
       const RecordOptions options = options_of(kMethods[m], s);
