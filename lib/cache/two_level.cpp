@@ -10,6 +10,9 @@ namespace {
 
 /// Photons tried as places: a coarse cache needs far fewer records than that.
 constexpr std::int64_t kCandidates = 400000;
+/// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
+/// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
+constexpr double kReadBeyond = 1.5;
 RecordOptions coarse_options(const RecordOptions& fine) {
   RecordOptions coarse = fine;
   coarse.estimate = Estimate::hull;
@@ -46,7 +49,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
 }
 
 void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
-  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, reading_accuracy(cache.accuracy));
+  tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
   for (const IrradianceRecord& r : cache.records) tree_->insert(r);
   far_ = std::make_unique<FarRecords>(*tree_);
 }
