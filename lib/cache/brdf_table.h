@@ -22,7 +22,7 @@ enum class TooSharp : unsigned char {
 };
 
 struct BrdfTableOptions {
-  double error = 0.05;           ///< energy of the lobe that a direction's order may leave out, relative
+  double error = 0.01;           ///< energy of the lobe that a direction's order may leave out, relative
   std::int64_t max_order = 10;   ///< highest order of a direction
   std::int64_t resolution = 32;  ///< of the parabolic grid, and rows of an isotropic table
   TooSharp too_sharp = TooSharp::trace;

@@ -37,9 +37,11 @@ struct IrradianceCache {
 
 /// a at which records are read that were placed with accuracy `placed`. Placement leaves few of them about a
 /// point, which show their noise; where more are blended it averages out (as Tabellion and Lamorlette 2004
-/// do). Up to 2.5 times `placed`, but no farther than 0.5, where blur begins to outweigh what noise it takes
-/// away, or `placed`.
-inline double reading_accuracy(double placed) { return std::min(2.5 * placed, std::max(placed, 0.5)); }
+/// do). Up to 2.5 times `placed`, but no farther than `most`, where blur begins to outweigh what noise it
+/// takes away (measured), or `placed`.
+inline double reading_accuracy(double placed, double most = 0.5) {
+  return std::min(2.5 * placed, std::max(placed, most));
+}
 
 /// Appends the records of another cache of the same light, each with the reach that it was placed with.
 void append(IrradianceCache& all, const IrradianceCache& more);

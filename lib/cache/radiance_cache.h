@@ -54,6 +54,9 @@ struct RadianceCache {
 /// All of it, in order.
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
+/// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
+inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.75); }
+
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
 /// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds

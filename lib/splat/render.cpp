@@ -100,7 +100,7 @@ void declare_options(Options& options, RenderOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "how far a record reaches: error allowed between records (smaller: fewer, closer records "
                  "are blended; more noise, more misses); if not given, 2.5 times what the cache was placed "
-                 "with, but no more than 0.5",
+                 "with, but no more than 0.5 (radiance records: 0.75)",
                  kPositive);
   options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
                           "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
@@ -151,7 +151,7 @@ void declare_options(Options& options, RenderOptions& r) {
 void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache,
              const RadianceCache& radiance) {
   resolve_size(camera, kPictureSide, r.width, r.height);
-  if (!r.gloss_accuracy) r.gloss_accuracy = r.accuracy.value_or(radiance.accuracy);
+  if (!r.gloss_accuracy) r.gloss_accuracy = r.accuracy.value_or(reading_accuracy(radiance));
   if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))

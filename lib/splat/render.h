@@ -39,7 +39,7 @@ struct RenderOptions {
   Overlay overlay = Overlay::none;
   OverlayColour overlay_colour = OverlayColour::radius;
   std::optional<double> accuracy;        ///< a; empty = reading_accuracy() of the cache
-  std::optional<double> gloss_accuracy;  ///< of radiance records; empty = a, or what they were placed with
+  std::optional<double> gloss_accuracy;  ///< of radiance records; empty = a, or their reading_accuracy()
   SplatBy splat = SplatBy::gl;
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;

@@ -81,7 +81,7 @@ TEST(Radiance, OnTheGlossyWallAloneSameBytesForAnyThreads) {
   for (const Vec3& p : file.vectors("position")) EXPECT_NEAR(p.z, 0.5592f, 1e-3f);
   const Provenance& p = file.provenance();
   const std::int64_t order = p.extra.find("order")->as_integer();
-  EXPECT_EQ(order, 9) << "Phong 22 at 5 % of the energy";
+  EXPECT_EQ(order, 10) << "Phong 22 at 1 % of the energy";
   EXPECT_FALSE(file.has("order")) << "all are equal";
   const auto numbers = static_cast<std::uint64_t>(order * order);
   EXPECT_NO_THROW(file.values<float>("gradient_x", {n, 3, numbers}));
@@ -96,8 +96,8 @@ TEST(Radiance, ReportsOrdersErrorsAndTime) {
   const test::Run run = quick(
       {scene(), photons(), brdf(), "-o", folder() + "/stats.radiance", "--stats", folder() + "/stats.json"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.err.find("back-glossy: records of order 9"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find(" of order 9;"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("back-glossy: records of order 10"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" of order 10;"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("mean standard error"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("projected here"), std::string::npos) << run.err;
   const Json json = stats();
@@ -107,7 +107,7 @@ TEST(Radiance, ReportsOrdersErrorsAndTime) {
   EXPECT_GT(json.find("ms_per_record")->as_number(), 0);
   EXPECT_GT(json.find("relative_error")->as_number(), 0.01);
   ASSERT_EQ(json.find("runs")->as_array().size(), 1u);
-  EXPECT_EQ(json.find("runs")->as_array()[0].find("order")->as_integer(), 9);
+  EXPECT_EQ(json.find("runs")->as_array()[0].find("order")->as_integer(), 10);
   EXPECT_EQ(json.find("gloss")->as_array()[0].find("material")->as_string(), "back-glossy");
 }
 
@@ -120,10 +120,10 @@ TEST(Radiance, RecordsHaveTheBandsThatTheirMaterialWants) {
   const std::size_t n = records_in(out);
   const auto order = file.values<std::uint8_t>("order", {n});
   const auto position = file.vectors("position");
-  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(order[i], position[i].x < 1.25f ? 4 : 10);
-  EXPECT_GT(std::ranges::count(order, 4), 5);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(order[i], position[i].x < 1.25f ? 5 : 10);
+  EXPECT_GT(std::ranges::count(order, 5), 5);
   EXPECT_GT(std::ranges::count(order, 10), 5);
-  EXPECT_NE(run.err.find(text(std::ranges::count(order, 4), " of order 4, ", std::ranges::count(order, 10),
+  EXPECT_NE(run.err.find(text(std::ranges::count(order, 5), " of order 5, ", std::ranges::count(order, 10),
                               " of order 10")),
             std::string::npos)
       << run.err;
@@ -219,7 +219,7 @@ TEST(Radiance, AddingWithOtherOptionsIsRefused) {
           .code,
       0);
   const test::Run orders = add({sharper, "--quiet"});
-  expect_failure(orders, 4, "order 9");
+  expect_failure(orders, 4, "order 10");
   const std::string others = folder() + "/others.photons";
   ASSERT_EQ(run_tool({"photons", scene(), "--photons", "1000", "--seed", "5", "-o", others}).code, 0);
   expect_failure(radiance({scene(), others, brdf(), "--quiet", "--add-to", first, "-o", first}), 4,

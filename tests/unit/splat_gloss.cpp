@@ -115,7 +115,7 @@ Scene many_materials() {
 TEST(GlossSplat, EveryMaterialReadsItsOwnBands) {
   const Gloss box{many_materials()};
   ASSERT_GE(box.tables.orders().size(), 2u);
-  box.expect_as_looked_up(box.records(200, 0.1f, 0.8f), 3000);
+  box.expect_as_looked_up(box.records(200, 0.1f, 0.8f), 2000);
 }
 
 TEST(GlossSplat, NoGradientsNoSteps) {
