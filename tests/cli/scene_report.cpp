@@ -32,7 +32,8 @@ TEST(PhosScene, JsonIsOneObject) {
 TEST(PhosScene, TellsWhatComputesGloss) {
   const std::string room = data("cornell-glossy22.glb");
   const test::Run run = run_tool({"scene", room});
-  for (const char* word : {"Gloss (1)", "records of order ", "radiance records", "% of the other lobes' energy"})
+  for (const char* word :
+       {"Gloss (1)", "records of order ", "radiance records", "% of the other lobes' energy"})
     EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
   const Json d = parse_json(run_tool({"scene", room, "--json"}).out, "output");
   const Json::Array gloss = d.find("gloss")->as_array();
