@@ -10,7 +10,6 @@ set -euo pipefail
 
 usage() { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/programs.sh"
 order=7 width=400 samples=4 photons=200000 exponent=20 rays=128
 inputs=()
 while (($# > 0)); do
@@ -32,6 +31,7 @@ environment=${environment:-$here/../data/sky.hdr}
 for file in $model $environment; do
   [[ -f $file ]] || { echo "hsh-figures.sh: $file: no such file" >&2; exit 3; }
 done
+source "$here/programs.sh"
 mkdir -p "$folder"
 
 # 1. Bases: what share of a lobe's energy so many functions hold.

@@ -89,11 +89,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     const IrradianceFiles files = sort_inputs(paths);
-    tool.add_input("scene", scene_files(files.scene, scene_options));
-    if (!files.photons.empty()) tool.add_input("photons", files.photons);
-    if (!files.source.empty()) tool.add_input("source", files.source);
-    if (!files.radiance.empty()) tool.add_input("gloss", files.radiance);
-    if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
+    add_inputs(tool, files, scene_options);
     if (!at.empty()) tool.add_input("points", at);
     if (!add_to.empty()) tool.add_input("irradiance", add_to);
     if (!placement.part.empty()) tool.set_variant("part " + placement.part);

@@ -1,9 +1,9 @@
 // Places radiance records on glossy surfaces and estimates them.
-#include <cmath>
 #include <sstream>
 
 #include "cache/gloss_report.h"
 #include "cache/radiance_placement.h"
+#include "cache/radiance_report.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
@@ -20,39 +20,9 @@ void tell_of_gloss(Tool& tool, const Json& report, bool projected_here) {
 }
 
 void summarise(Tool& tool, const RadianceCache& cache, const std::vector<RadianceRun>& runs) {
-  PlacementReport all;
-  double open_share = 0;
-  Json by_order = Json::Array{};
-  for (const RadianceRun& run : runs) {
-    const PlacementReport& r = run.report;
-    all.made += r.made, all.kept += r.kept, all.making_s += r.making_s;
-    all.candidates += r.candidates, all.uncovered += r.uncovered;
-    Json j;
-    j["order"] = run.order, j["records_new"] = r.kept, j["records_made"] = r.made;
-    j["candidates"] = r.candidates, j["candidates_uncovered"] = r.uncovered, j["passes"] = r.passes;
-    if (r.uncovered_share) j["uncovered_share"] = *r.uncovered_share;
-    open_share = std::max(open_share, r.uncovered_share.value_or(0));
-    by_order.push_back(j);
-  }
-  const RadianceSummary summary = summarize(cache);
-  const double ms = all.made > 0 ? 1e3 * all.making_s / static_cast<double>(all.made) : 0;
-  tool.stat("records", cache.records.size());
-  tool.stat("records_new", all.kept);
-  tool.stat("records_made", all.made);
-  tool.stat("runs", by_order);
-  tool.stat("relative_error", summary.error);
-  if (all.made > 0) tool.stat("ms_per_record", ms);
-  std::string orders;
-  for (const auto& [order, count] : summary.records)
-    orders += text(orders.empty() ? "" : ", ", count, " of order ", order);
-  const auto rounded = [](double v) { return std::round(100 * v) / 100; };
-  tool.say(text("records: ", orders.empty() ? "none" : orders, "; ", all.kept, " new, for ", all.candidates,
-                " candidates", all.made > 0 ? text(", ", rounded(ms), " ms each") : "",
-                "; mean standard error ", rounded(100 * summary.error), " % of the light"));
-  if (open_share > 0)
-    tool.say(text(rounded(100 * open_share), " % of the glossy surface is out of every record's reach"));
-  else if (all.uncovered > 0)
-    tool.say(text(all.uncovered, " candidates are left uncovered by neighbour clamping; raise --passes"));
+  const RadianceReport report = report_of(cache, runs);
+  for (const auto& [name, figure] : report.figures.as_object()) tool.stat(name, figure);
+  for (const std::string& line : report.lines) tool.say(line);
 }
 
 }  // namespace
@@ -99,11 +69,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     const IrradianceFiles files = sort_inputs(paths);
-    tool.add_input("scene", scene_files(files.scene, scene_options));
-    if (!files.photons.empty()) tool.add_input("photons", files.photons);
-    if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
-    if (!files.source.empty()) tool.add_input("source", files.source);
-    if (!files.radiance.empty()) tool.add_input("gloss", files.radiance);
+    add_inputs(tool, files, scene_options);
     if (!at.empty()) tool.add_input("points", at);
     if (!add_to.empty()) tool.add_input("radiance", add_to);
     if (tool.up_to_date()) return;

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
             "indirect, glossy, specular, emission, stderr, albedo in cd/m2, illuminance.Y in lx, weight, "
             "normal, position "
             "and Z. Another camera, size or --accuracy needs no new cache.",
-            1);
+            2);
   Options& options = tool.options();
   std::string scene_path, misses_path, gloss_misses_path;
   std::vector<std::string> cache_paths;

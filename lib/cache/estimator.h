@@ -23,6 +23,13 @@ struct RecordSite {
         most_radius_m = kInfinity;  ///< this place's own bounds of the radius (pixel size)
 };
 
+/// A record one frame on, as an estimator that looks ahead expects it.
+struct Ahead {
+  IrradianceRecord record;                           ///< place, normal and gradients are those of that time
+  std::shared_ptr<const RadianceRecord> radiance{};  ///< where radiance records are made
+  float holes = 0;  ///< share of its hemisphere that nothing seen now leads to
+};
+
 /// A record before its neighbours and the bounds of the radius had their say.
 struct Made {
   IrradianceRecord record;  ///< radius_m after gradient and edge limits: finite, positive, not clamped
@@ -32,6 +39,8 @@ struct Made {
   float site_least_m = 0, site_most_m = kInfinity;  ///< of its RecordSite
   /// What it stands for, where radiance records are placed: `record` is then irradiance_of() that.
   std::shared_ptr<const RadianceRecord> radiance{};
+  std::shared_ptr<const Ahead> ahead{};
+  std::uint64_t item = 0;  ///< of its RecordSite (set by ParallelMaker)
 };
 
 /// One way of estimating irradiance. Const and usable from any thread, each with a worker of its own.

@@ -49,9 +49,11 @@ struct GatherEstimator::Impl : HemisphereRecords {
 };
 
 struct GatherEstimator::Impl::Worker : HemisphereWorker {
-  std::vector<Ray> rays;         // tile by tile
-  std::vector<Hit> found, hits;  // tile by tile; in order
+  std::vector<Ray> rays;  // tile by tile
+  std::vector<Hit> found;
+  std::vector<std::vector<Hit>> hits;  // of each pass, in order
   std::vector<Hemisphere> passes;
+  std::size_t pass_count = 0;  // of the last record
 };
 
 /// Directions through the cells of equal measure, jittered within each.
@@ -100,10 +102,12 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   each_in_tiles(h, [&](std::size_t i) { w.rays.push_back({origin, h.direction[i]}); });
   w.found.assign(h.size(), Hit());
   impl_->rays.intersect(w.rays, w.found);
-  w.hits.resize(h.size());
+  if (w.hits.size() <= pass) w.hits.resize(pass + 1);
+  std::vector<Hit>& hits = w.hits[pass];
+  hits.resize(h.size());
   const Hit* next = w.found.data();
-  each_in_tiles(h, [&](std::size_t i) { w.hits[i] = *next++; });
-  impl_->light.shade(origin, w.hits, site.item, pass, h, *w.light);
+  each_in_tiles(h, [&](std::size_t i) { hits[i] = *next++; });
+  impl_->light.shade(origin, hits, site.item, pass, h, *w.light);
   w.counters.merge(w.light->counters);
   w.light->counters = Counters();
   clear_own_surface(from.error_m, h);
@@ -152,8 +156,8 @@ std::unique_ptr<Estimator::Worker> GatherEstimator::make_worker() const {
 Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
   auto& w = static_cast<Impl::Worker&>(worker);
   w.light->hidden_radiance = Rgb(0), w.light->hidden = 0;
-  const std::size_t count = impl_->sample_all(*this, site, w);
-  const std::span<const Hemisphere> passes(w.passes.data(), count);
+  w.pass_count = impl_->sample_all(*this, site, w);
+  const std::span<const Hemisphere> passes(w.passes.data(), w.pass_count);
   PlaceLight light = light_of(passes, impl_->options);
   if (light.irradiance == Rgb(0) && w.light->hidden > 0) {
     float rays = 0;
@@ -161,6 +165,22 @@ Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) co
     light.stderr_lx = w.light->hidden_radiance / static_cast<float>(w.light->hidden) * (kPi / rays);
   }
   return impl_->record(site, light, w);
+}
+
+std::span<const Hit> GatherEstimator::hits(const Estimator::Worker& worker, std::uint32_t pass) {
+  return static_cast<const Impl::Worker&>(worker).hits[pass];
+}
+
+std::vector<SeenPass> GatherEstimator::last_seen(const Estimator::Worker& worker) const {
+  const auto& w = static_cast<const Impl::Worker&>(worker);
+  std::vector<SeenPass> seen;
+  for (std::size_t pass = 0; pass < w.pass_count; ++pass) seen.push_back({&w.passes[pass], w.hits[pass]});
+  return seen;
+}
+
+Made GatherEstimator::record_from(const RecordSite& site, std::span<const Hemisphere> passes,
+                                  Estimator::Worker& worker) const {
+  return impl_->record(site, light_of(passes, impl_->options), static_cast<Impl::Worker&>(worker));
 }
 
 }  // namespace phos

@@ -8,6 +8,7 @@
 
 #include "cache/estimator.h"
 #include "cache/hemisphere.h"
+#include "cache/hemisphere_estimator.h"
 #include "cache/lamp_sampler.h"
 #include "cache/record_options.h"
 #include "cache/shading.h"
@@ -85,17 +86,21 @@ Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const
 /// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
 /// what the rays hit tell; 0 where none was.
 /// The error stated is that of the rays: the noise of the photons behind the source is not in it.
-class GatherEstimator : public Estimator {
+class GatherEstimator : public HemisphereEstimator {
  public:
   GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
                   const RecordOptions& resolved, std::uint64_t seed);
   ~GatherEstimator() override;
   std::unique_ptr<Worker> make_worker() const override;
   Made make(const RecordSite& site, Worker& worker) const override;
+  std::vector<SeenPass> last_seen(const Worker& worker) const override;
+  Made record_from(const RecordSite& site, std::span<const Hemisphere> passes, Worker& worker) const override;
 
   /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
   void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
               Measure measure = Measure::projected) const;
+  /// What the rays of the worker's last sample() of a pass hit.
+  static std::span<const Hit> hits(const Worker& worker, std::uint32_t pass);
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "cache/estimator.h"
@@ -33,6 +34,8 @@ class RadiusRules {
   void finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance = nullptr);
 
   std::size_t size() const { return made_.size(); }
+  /// The new records as they were made, in their order.
+  std::span<const Made> made() const { return std::span(made_).subspan(kept_); }
   std::uint64_t clamped_to_neighbour() const { return clamped_to_neighbour_; }
   std::uint64_t raised_to_least() const { return raised_to_least_; }  ///< known after finish()
   void count_into(Counters& counters) const;                          ///< the same, as events

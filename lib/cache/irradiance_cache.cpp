@@ -88,8 +88,31 @@ void append(IrradianceCache& all, const IrradianceCache& more) {
   }
 }
 
+RecordsOf records_of(const Container& file) {
+  const Json& header = file.provenance().extra;
+  return header.find("part") ? RecordsOf::part : header.find("film") ? RecordsOf::film : RecordsOf::cache;
+}
+
+void require_records_of(RecordsOf of, const Container& file) {
+  const RecordsOf found = records_of(file);
+  if (found == of) return;
+  if (found == RecordsOf::part) {
+    const Json* name = file.provenance().extra.find("part");
+    throw Error(ExitCode::bad_input, file.path(),
+                text("is part ", name->is_string() ? name->as_string() : "?",
+                     " of a run; join all its parts first: phos-merge PART... -o ALL.irradiance"));
+  }
+  if (found == RecordsOf::film)
+    throw Error(ExitCode::bad_input, file.path(),
+                "is of a film, with records for different frames; give a cache of one scene "
+                "(phos-irradiance, phos-radiance), or use the film where it is read, as by phos-splat");
+  throw Error(ExitCode::bad_input, file.path(),
+              of == RecordsOf::part ? "is no part of a run; give files made with --part k/n"
+                                    : "is of no film; give the output of phos-temporal");
+}
+
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
-                      std::span<const float> least_radius_m) {
+                      std::span<const float> least_radius_m, ContainerWriter file) {
   const std::size_t n = cache.records.size();
   std::vector<Vec3> position(n), normal(n), irradiance(n), error(n), rotation(3 * n), translation(3 * n);
   std::vector<float> distance(n), radius(n);
@@ -102,7 +125,6 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
       rotation[3 * i + c] = r.rotation_gradient[c], translation[3 * i + c] = r.translation_gradient[c];
     }
   }
-  ContainerWriter file;
   file.add_vectors("position", position, "m");
   file.add_vectors("normal", normal, "1");
   file.add_vectors("irradiance", irradiance, "lx");
@@ -114,7 +136,7 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   RecordIndex index;
   if (provenance.extra.find("part")) {
     file.add<float>("least_radius", least_radius_m, {n}, "m");
-  } else if (n >= kIndexedRecords) {
+  } else if (n >= kIndexedRecords && !provenance.extra.find("film")) {
     index = index_records(cache.records, reading_accuracy(cache.accuracy));
     add_index(file, index);
     provenance.extra[kIndexAccuracy] = reading_accuracy(cache.accuracy);
@@ -127,17 +149,13 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   file.write(path, provenance);
 }
 
-RecordColumns::RecordColumns(const Container& file, bool part) : file_(file) {
+RecordColumns::RecordColumns(const Container& file, RecordsOf of) : file_(file) {
   if (file.provenance().kind != "irradiance") {
     throw Error(
         ExitCode::bad_input, file.path(),
         text("holds ", file.provenance().kind, ", not irradiance; give the output of phos-irradiance"));
   }
-  if (const Json* name = file.provenance().extra.find("part"); name && !part) {
-    throw Error(ExitCode::bad_input, file.path(),
-                text("is part ", name->is_string() ? name->as_string() : "?",
-                     " of a run; join all its parts first: phos-merge PART... -o ALL.irradiance"));
-  }
+  require_records_of(of, file);
   file.verify();
   const std::uint64_t n = file.vectors("position").size();
   const auto column = [&](const char* name, const Shape& shape) {
@@ -188,15 +206,16 @@ IrradianceRecord RecordColumns::operator[](std::size_t i) const {
   return r;
 }
 
-IrradianceCache read_irradiance(const Container& file) {
-  const RecordColumns columns(file);
+IrradianceCache RecordColumns::cache() const {
   IrradianceCache cache;
-  cache.scene_hash = file.provenance().scene_hash;
-  cache.accuracy = columns.accuracy();
-  cache.quantity = columns.quantity();
-  cache.records.reserve(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) cache.records.push_back(columns[i]);
+  cache.scene_hash = file_.provenance().scene_hash;
+  cache.accuracy = accuracy_;
+  cache.quantity = quantity_;
+  cache.records.reserve(size_);
+  for (std::size_t i = 0; i < size_; ++i) cache.records.push_back((*this)[i]);
   return cache;
 }
+
+IrradianceCache read_irradiance(const Container& file) { return RecordColumns(file).cache(); }
 
 }  // namespace phos

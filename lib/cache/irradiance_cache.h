@@ -25,6 +25,9 @@ struct IrradianceRecord {
   Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
   Vec3 translation_gradient[3]{Vec3(0), Vec3(0),
                                Vec3(0)};  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
+  /// Its share among others, in (0, 1]: less for a record of a film that fades in or out. Of no influence
+  /// where it is alone. Not in files.
+  float weight = 1;
 };
 
 struct IrradianceCache {
@@ -46,19 +49,26 @@ inline double reading_accuracy(double placed, double most = 0.5) {
 /// Appends the records of another cache of the same light, each with the reach that it was placed with.
 void append(IrradianceCache& all, const IrradianceCache& more);
 
-/// The file also holds an index (record_index.h) where there are many records.
-/// Of a part of a run (irradiance_parts.h) it holds the least radii that neighbours leave instead.
+/// What the records of a file are, as its header says: the light of one scene; a part of a run
+/// (irradiance_parts.h); of a film, each for some of its frames (temporal/film_cache.h).
+enum class RecordsOf { cache, part, film };
+RecordsOf records_of(const Container& file);
+/// Throws Error(bad_input), saying what to do, unless the file holds records of that.
+void require_records_of(RecordsOf of, const Container& file);
+
+/// The file also holds an index (record_index.h) where there are many records of a cache.
+/// Of a part of a run it holds the least radii that neighbours leave instead; of a film, `more` columns.
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
-                      std::span<const float> least_radius_m = {});
-/// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named).
+                      std::span<const float> least_radius_m = {}, ContainerWriter more = {});
+/// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named), a
+/// part or a film.
 IrradianceCache read_irradiance(const Container& file);
 
 /// The records of a file, read where they lie. Copies share the mapping.
 class RecordColumns {
  public:
-  /// Throws Error(bad_input) like read_irradiance, for a part of a run (irradiance_parts.h) too unless it is
-  /// `part` that is wanted.
-  explicit RecordColumns(const Container& file, bool part = false);
+  /// Throws Error(bad_input) like read_irradiance, or unless it is this that the file holds.
+  explicit RecordColumns(const Container& file, RecordsOf of = RecordsOf::cache);
   std::size_t size() const { return size_; }
   double accuracy() const { return accuracy_; }
   const std::string& quantity() const { return quantity_; }
@@ -67,6 +77,8 @@ class RecordColumns {
   Vec3 normal(std::size_t i) const { return vector(normal_, i); }
   float radius_m(std::size_t i) const { return radius_[i]; }
   IrradianceRecord operator[](std::size_t i) const;
+  /// All of them, in memory.
+  IrradianceCache cache() const;
 
  private:
   static Vec3 vector(const float* v, std::size_t i) { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }

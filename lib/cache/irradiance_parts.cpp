@@ -168,7 +168,7 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
   RadiusRules rules(parts.front().scene, parts.front().bounds);
   for (const PartFile& part : parts) {
     const Container& file = part.shard.file;
-    const RecordColumns columns(file, true);
+    const RecordColumns columns(file, RecordsOf::part);
     const std::span<const float> least_m = file.values<float>("least_radius", {columns.size()});
     merged.cache.accuracy = columns.accuracy(), merged.cache.quantity = columns.quantity();
     for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -67,6 +67,7 @@ void finish_placement(Growth& growth, const ParallelMaker& maker, IrradianceCach
                       PlacementReport& report, Counters& counters) {
   const std::size_t before = cache.records.size();
   growth.rules().finish(cache.records, &report.radiance);
+  report.made_records.assign(growth.rules().made().begin(), growth.rules().made().end());
   report.kept = cache.records.size() - before;
   report.made = maker.made(), report.making_s = maker.seconds();
   report.clamped_to_neighbour = growth.rules().clamped_to_neighbour();

@@ -64,6 +64,7 @@ struct PlacementReport {
   std::optional<double> uncovered_share, uncovered_share_of_triangles;
   /// What the new records stand for, in their order, where the estimator makes radiance records.
   std::vector<RadianceRecord> radiance;
+  std::vector<Made> made_records;  ///< the new records as they were made, in their order
 };
 
 /// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all

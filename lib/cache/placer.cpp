@@ -21,7 +21,10 @@ std::vector<Made> ParallelMaker::make(std::span<const RecordSite> sites) {
   std::vector<Made> made(sites.size());
   const auto run = [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<Estimator::Worker> worker = take_worker();
-    for (std::size_t i = begin; i < end; ++i) made[i] = estimator_.make(sites[i], *worker);
+    for (std::size_t i = begin; i < end; ++i) {
+      made[i] = estimator_.make(sites[i], *worker);
+      made[i].item = sites[i].item;
+    }
     give_back(std::move(worker));
   };
   if (estimator_.one_thread())

@@ -53,6 +53,12 @@ const char* what_is_wrong(const RadianceRecord& r) {
 
 }  // namespace
 
+int require_radiance_order(int order) {
+  if (order >= 1 && order <= HshRotator::kMaxOrder) return order;
+  throw Error(ExitCode::usage, "",
+              text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
+}
+
 bool is_finite(const RadianceRecord& r) {
   return is_finite(r.position) && is_finite(r.frame.x) && is_finite(r.frame.z) && all_finite(r.light) &&
          all_finite(r.gradient_x) && all_finite(r.gradient_y) && all_finite(r.stderr_light) &&
@@ -101,7 +107,8 @@ int RadianceCache::order() const {
   return most;
 }
 
-void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance) {
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
+                    ContainerWriter file) {
   const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
                     count = count_of(cache.order());
   const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
@@ -126,7 +133,6 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
     to_column(r.gradient_x, &along[0][3 * i * count], count);
     to_column(r.gradient_y, &along[1][3 * i * count], count);
   }
-  ContainerWriter file;
   file.add_vectors("position", position, "m");
   file.add<float>("frame", {reinterpret_cast<const float*>(frame.data()), 6 * n}, {n, 2, 3}, "1");
   file.add<float>("coefficients", light, {n, 3, count}, "cd/m2 sqrt(sr)");
@@ -150,11 +156,12 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   file.write(path, provenance);
 }
 
-RadianceCache read_radiance(const Container& file) {
+RadianceCache read_radiance(const Container& file, RecordsOf of) {
   if (file.provenance().kind != "radiance") {
     throw Error(ExitCode::bad_input, file.path(),
                 text("holds ", file.provenance().kind, ", not radiance; give the output of phos-radiance"));
   }
+  require_records_of(of, file);
   file.verify();
   const Json *accuracy = file.provenance().extra.find("accuracy"),
              *order = file.provenance().extra.find("order");

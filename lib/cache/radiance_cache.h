@@ -22,6 +22,7 @@ struct RadianceRecord {
   Frame frame;               ///< z: unit normal on the side it lights; y = z x x
   float distance_m = 0;      ///< mean distance to the surrounding surfaces, unclamped
   float radius_m = 0;        ///< R of the weight; the zone of influence is accuracy * radius
+  float weight = 1;          ///< as IrradianceRecord::weight
   std::vector<float> light;  ///< [order^2][3] c_i = integral of L H_i dw, cd/m2 sqrt(sr)
   /// [order^2][3] their change per metre along frame.x and frame.y; empty: not known, taken as 0.
   std::vector<float> gradient_x, gradient_y;
@@ -31,6 +32,9 @@ struct RadianceRecord {
 
   int order() const { return static_cast<int>(stderr_light.size() / 3); }
 };
+
+/// The order itself; throws Error(usage) unless 1 <= order <= HshRotator::kMaxOrder.
+int require_radiance_order(int order);
 
 /// Are all its numbers finite? The distance may be infinite.
 bool is_finite(const RadianceRecord& record);
@@ -60,11 +64,12 @@ inline double reading_accuracy(const RadianceCache& cache) { return reading_accu
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
 /// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds
-/// them, and numbers beyond a record's own are 0. Its header names the basis.
-void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance);
-/// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named) or one of
-/// another kind.
-RadianceCache read_radiance(const Container& file);
+/// them, and numbers beyond a record's own are 0. Its header names the basis. Of a film there are `more` columns.
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
+                    ContainerWriter more = {});
+/// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named), one of
+/// another kind, or unless its records are of what is wanted.
+RadianceCache read_radiance(const Container& file, RecordsOf of = RecordsOf::cache);
 
 /// Light that leaves a point by its glossy lobe.
 struct GlossyLight {

@@ -17,12 +17,6 @@ constexpr float kLeastCosine = 0.1f;
 /// its own; alone, c_00 is all of it.
 double white(int order) { return (order > 1 ? 1.5 : 2) / std::numbers::pi; }
 
-int checked(int order) {
-  if (order >= 1 && order <= HshRotator::kMaxOrder) return order;
-  throw Error(ExitCode::usage, "",
-              text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
-}
-
 std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
 
 double squares(const std::vector<double>& v) {
@@ -67,7 +61,7 @@ struct PhotonProjector::Impl {
   }
 };
 
-PhotonProjector::PhotonProjector(int order) : impl_(std::make_unique<Impl>(checked(order))) {}
+PhotonProjector::PhotonProjector(int order) : impl_(std::make_unique<Impl>(require_radiance_order(order))) {}
 PhotonProjector::~PhotonProjector() = default;
 
 RadianceRecord PhotonProjector::project(const ZonePhotons& photons, std::span<const std::uint8_t> used,
@@ -140,7 +134,8 @@ struct RadianceDensityEstimator::Impl {
 RadianceDensityEstimator::RadianceDensityEstimator(const PhotonMap& photons, const RayScene& rays,
                                                    const RecordOptions& resolved, int order,
                                                    RadianceGradient gradient, std::uint64_t seed)
-    : impl_(new Impl{{photons, rays, indirect_by_hull(resolved), seed}, checked(order), gradient}) {}
+    : impl_(new Impl{
+          {photons, rays, indirect_by_hull(resolved), seed}, require_radiance_order(order), gradient}) {}
 RadianceDensityEstimator::~RadianceDensityEstimator() = default;
 
 std::unique_ptr<Estimator::Worker> RadianceDensityEstimator::make_worker() const {

@@ -4,6 +4,7 @@
 
 #include "cache/direct_light.h"
 #include "cache/next_surface.h"
+#include "core/error.h"
 
 namespace phos {
 namespace {
@@ -32,7 +33,7 @@ RadianceEstimator::RadianceEstimator(const RayScene& rays, const Luminaires& lig
                                      const GatherSource& source, const RecordOptions& resolved, int order,
                                      RadianceGradient gradient, std::uint64_t seed)
     : impl_(new Impl{rays, {rays, lights, source, resolved, seed ^ kOwnStreams}, resolved, order, gradient}) {
-  const RadianceProjector refuses_a_bad_order(order);
+  require_radiance_order(order);
 }
 RadianceEstimator::~RadianceEstimator() = default;
 
@@ -44,18 +45,31 @@ std::unique_ptr<Estimator::Worker> RadianceEstimator::make_worker() const {
 
 Made RadianceEstimator::make(const RecordSite& site, Estimator::Worker& worker) const {
   auto& w = static_cast<RadianceWorker&>(worker);
-  const RecordOptions& options = impl_->options;
-  impl_->gather.sample(site, options.rays, 0, w.hemisphere, *w.gather, Measure::solid);
+  impl_->gather.sample(site, impl_->options.rays, 0, w.hemisphere, *w.gather, Measure::solid);
   w.counters.merge(w.gather->counters);
   w.gather->counters = Counters();
+  return record_from(site, {&w.hemisphere, 1}, worker);
+}
+
+std::vector<SeenPass> RadianceEstimator::last_seen(const Estimator::Worker& worker) const {
+  const auto& w = static_cast<const RadianceWorker&>(worker);
+  return {{&w.hemisphere, GatherEstimator::hits(*w.gather, 0)}};
+}
+
+Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemisphere> passes,
+                                    Estimator::Worker& worker) const {
+  auto& w = static_cast<RadianceWorker&>(worker);
+  const RecordOptions& options = impl_->options;
+  PHOS_CHECK(passes.size() == 1, passes.size(), " passes");
+  const Hemisphere& h = passes.front();
   // The radius asks for gradients even where the record is to have none.
   const bool without = impl_->gradient == RadianceGradient::none;
   const RadianceGradient gradient = without ? RadianceGradient::hybrid : impl_->gradient;
   RadianceRecord record =
-      w.projector.project(w.hemisphere, gradient, static_cast<float>(*options.min_radius_m));
+      w.projector.project(h, gradient, static_cast<float>(*options.min_radius_m));
   record.position = site.position;
   require_finite(record);
-  const float reach = reach_m(record, w.hemisphere, options);
+  const float reach = reach_m(record, h, options);
   if (without) record.gradient_x.clear(), record.gradient_y.clear();
   const float rounding_m = receiver(impl_->rays.scene(), site.position, site.normal).error_m;
   const float next_m = height_over_next_m(impl_->rays, site.position, site.normal, 2 * rounding_m, reach);

@@ -63,23 +63,6 @@ std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables&
   return runs;
 }
 
-RadianceSummary summarize(const RadianceCache& cache) {
-  RadianceSummary summary;
-  double light = 0, error = 0;  // of luminance, squared
-  const auto square = [](const float* rgb) {
-    const auto y = static_cast<double>(luminance({rgb[0], rgb[1], rgb[2]}));
-    return y * y;
-  };
-  for (const RadianceRecord& r : cache.records) {
-    ++summary.records[r.order()];
-    for (std::size_t i = 0; i < r.light.size(); i += 3) light += square(&r.light[i]);
-    for (std::size_t l = 0; 3 * l < r.stderr_light.size(); ++l)
-      error += static_cast<double>(2 * l + 1) * square(&r.stderr_light[3 * l]);
-  }
-  if (light > 0) summary.error = std::sqrt(error / light);
-  return summary;
-}
-
 void require_same_orders(const RadianceCache& earlier, const GlossTables& tables, const std::string& path) {
   const std::vector<int> wanted = tables.orders();
   for (const RadianceRecord& r : earlier.records) {

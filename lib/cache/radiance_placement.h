@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,13 +44,6 @@ std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables&
                                         const RadianceEstimatorOf& estimator_of, const RayScene& rays,
                                         const RecordOptions& resolved, const PlacementOptions& placement,
                                         PlacementSource source, Counters& counters);
-
-/// Records that are there, in figures.
-struct RadianceSummary {
-  std::map<int, std::size_t> records;  ///< by order
-  double error = 0;  ///< of the light, relative: norm of the coefficients' standard errors over that of them
-};
-RadianceSummary summarize(const RadianceCache& cache);
 
 /// May records of these orders be added to what a file holds? Throws Error(mismatch), naming the file, where
 /// it holds one of an order that no material wants: nothing would read it.

@@ -92,11 +92,7 @@ struct RadianceProjector::Impl {
 };
 
 RadianceProjector::RadianceProjector(int order) {
-  if (order < 1 || order > HshRotator::kMaxOrder) {
-    throw Error(ExitCode::usage, "",
-                text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
-  }
-  impl_ = std::make_unique<Impl>(order);
+  impl_ = std::make_unique<Impl>(require_radiance_order(order));
 }
 RadianceProjector::~RadianceProjector() = default;
 

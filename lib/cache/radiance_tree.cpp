@@ -110,11 +110,7 @@ struct RadianceTree::Impl {
 };
 
 RadianceTree::RadianceTree(const Bounds& bounds, double accuracy, int order, const RayScene* leak_test) {
-  if (order < 1 || order > HshRotator::kMaxOrder) {
-    throw Error(ExitCode::usage, "",
-                text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
-  }
-  impl_ = std::make_unique<Impl>(bounds, accuracy, order, leak_test);
+  impl_ = std::make_unique<Impl>(bounds, accuracy, require_radiance_order(order), leak_test);
 }
 RadianceTree::~RadianceTree() = default;
 RadianceTree::RadianceTree(RadianceTree&&) noexcept = default;

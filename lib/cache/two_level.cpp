@@ -8,11 +8,12 @@
 namespace phos {
 namespace {
 
-/// Photons tried as places: a coarse cache needs far fewer records than that.
-constexpr std::int64_t kCandidates = 400000;
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
 /// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
 constexpr double kReadBeyond = 1.5;
+
+}  // namespace
+
 RecordOptions coarse_options(const RecordOptions& fine) {
   RecordOptions coarse = fine;
   coarse.estimate = Estimate::hull;
@@ -25,8 +26,6 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   return coarse;
 }
 
-}  // namespace
-
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
                          std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
@@ -37,7 +36,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
   Counters own;
   // One pass: what neighbours uncover is within reach of records that are read beyond theirs.
   place_records(cache, *photons_, rays, coarse, {.passes = 1},
-                photon_candidates(photons, coarse.paths, seed, kCandidates), own);
+                photon_candidates(photons, coarse.paths, seed, kCoarseCandidates), own);
   read(rays, cache);
 }
 

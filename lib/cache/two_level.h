@@ -13,6 +13,11 @@
 
 namespace phos {
 
+/// How coarse records are made from photons, where finer ones are made as `fine` says.
+RecordOptions coarse_options(const RecordOptions& fine);
+/// Photons tried as places for them: a coarse cache needs far fewer records than that.
+inline constexpr std::int64_t kCoarseCandidates = 400'000;
+
 /// Holds what a GatherSource refers to. Rays average over many places, so that few, far-reaching records of
 /// many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same end); where
 /// there is none, the photons there are asked. Holds references to `rays` and `photons`.

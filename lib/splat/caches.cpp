@@ -21,10 +21,9 @@ class Joined {
           ExitCode::mismatch, file.path(),
           text("holds ", more.quantity, " light, ", first_->path(), " holds ", all_.quantity,
                "; make both with the same --paths of phos-irradiance (radiance records are indirect)"));
-    all_.accuracy = first_ ? std::min(all_.accuracy, more.accuracy) : more.accuracy;
-    all_.quantity = more.quantity;
-    all_.records.insert(all_.records.end(), more.records.begin(), more.records.end());
-    first_ = &file;
+    if (!first_) all_.accuracy = more.accuracy, all_.quantity = more.quantity;
+    append(all_, more);
+    if (!first_) first_ = &file;
   }
 
  private:
@@ -33,9 +32,12 @@ class Joined {
 };
 
 void add(RadianceCache& all, RadianceCache more) {
-  all.accuracy = all.records.empty() ? more.accuracy : std::min(all.accuracy, more.accuracy);
-  all.scene_hash = more.scene_hash;
-  for (RadianceRecord& r : more.records) all.records.push_back(std::move(r));
+  if (all.records.empty()) all.accuracy = more.accuracy, all.scene_hash = more.scene_hash;
+  const auto reach = static_cast<float>(more.accuracy / all.accuracy);
+  for (RadianceRecord& r : more.records) {
+    r.radius_m *= reach;
+    all.records.push_back(std::move(r));
+  }
 }
 
 }  // namespace

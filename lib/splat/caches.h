@@ -12,7 +12,8 @@
 namespace phos {
 
 struct SplatCaches {
-  /// Of all files together, the strictest accuracy; what radiance records say of irradiance among it.
+  /// Of all files together, the accuracy of the first (the others' radii are fitted to it); what radiance
+  /// records say of irradiance among it.
   IrradianceCache irradiance;
   RadianceCache radiance;       ///< likewise; empty where there is no such file, or nothing glossy
   std::vector<BrdfTable> brdf;  ///< empty where there is no such file

@@ -41,6 +41,14 @@ IrradianceFiles sort_inputs(const std::vector<std::string>& paths) {
   return files;
 }
 
+void add_inputs(Tool& tool, const IrradianceFiles& files, const SceneOptions& scene_options) {
+  tool.add_input("scene", scene_files(files.scene, scene_options));
+  if (!files.photons.empty()) tool.add_input("photons", files.photons);
+  if (!files.source.empty()) tool.add_input("source", files.source);
+  if (!files.radiance.empty()) tool.add_input("gloss", files.radiance);
+  if (!files.brdf.empty()) tool.add_input("brdf", files.brdf);
+}
+
 EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, bool allow_mismatch) {
   EstimateInputs inputs;
   if (!files.photons.empty()) {

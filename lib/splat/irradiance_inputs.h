@@ -9,7 +9,9 @@
 #include "cache/irradiance_cache.h"
 #include "cache/radiance_cache.h"
 #include "cache/record_options.h"
+#include "file/tool.h"
 #include "photon/photon_map.h"
+#include "scene/load.h"
 #include "scene/scene.h"
 
 namespace phos {
@@ -21,6 +23,9 @@ struct IrradianceFiles {
 /// Tells them apart by their contents. Throws Error(usage) for none or two of a kind, or another kind;
 /// Error(bad_input) for a file that cannot be read.
 IrradianceFiles sort_inputs(const std::vector<std::string>& paths);
+
+/// Enters them in the tool's provenance, each under its role.
+void add_inputs(Tool& tool, const IrradianceFiles& files, const SceneOptions& scene_options);
 
 /// What an estimate may read, besides the scene.
 struct EstimateInputs {

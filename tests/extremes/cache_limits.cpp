@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "support/hand_photons.h"
 #include "support/records.h"
 
 namespace phos {
@@ -66,21 +67,6 @@ class ByHand : public ::testing::Test {
  protected:
   ByHand() : scene_(test::point_light_over_plane()), rays_(scene_.scene) {}
 
-  PhotonMap map_of(const std::vector<Vec3>& places) {
-    Photons photons;
-    for (const Vec3& p : places) {
-      photons.position.push_back(p), photons.flux.push_back(Rgb(1));
-      photons.direction.push_back(encode_octahedral({0, 1, 0})),
-          photons.normal.push_back(encode_octahedral({0, 1, 0}));
-      photons.distance.push_back(2), photons.source_normal.push_back(encode_octahedral({0, -1, 0}));
-      photons.path.push_back(static_cast<std::uint8_t>(PhotonPath::indirect)), photons.bounce.push_back(1);
-    }
-    PhotonTotals totals;
-    totals.emitted = totals.stored = places.size();
-    totals.emitted_flux_lm = totals.stored_flux_lm = Rgb(static_cast<float>(places.size()));
-    return PhotonMap::build(std::move(photons), totals);
-  }
-
   IrradianceCache place(const PhotonMap& map, std::span<const SurfaceSample> points = {}) {
     RecordOptions options;
     options.resolve(scene_.scene.bounds.diagonal_m());
@@ -97,12 +83,12 @@ class ByHand : public ::testing::Test {
   Counters counters_;
 };
 
-TEST_F(ByHand, NoPhotonIsAnEmptyCache) { EXPECT_TRUE(place(map_of({})).records.empty()); }
+TEST_F(ByHand, NoPhotonIsAnEmptyCache) { EXPECT_TRUE(place(test::photons_on_floor({})).records.empty()); }
 
 TEST_F(ByHand, NoPhotonAtGivenPointsIsZeroWithAnErrorAndARadius) {
   const SurfaceSample points[] = {{{0, 0, 0}, {0, 1, 0}}, {{3, 0, 1}, {0, 1, 0}}, {{3, 0, 1}, {0, 1, 0}}};
   for (const std::vector<Vec3>& places : {std::vector<Vec3>{}, {{-7, 0, -7}}}) {
-    const IrradianceCache cache = place(map_of(places), points);
+    const IrradianceCache cache = place(test::photons_on_floor(places), points);
     ASSERT_GE(cache.records.size(), 1u);
     for (const IrradianceRecord& r : cache.records) {
       EXPECT_EQ(r.irradiance, Rgb(0));
@@ -118,18 +104,18 @@ TEST_F(ByHand, NoPhotonAtGivenPointsIsZeroWithAnErrorAndARadius) {
 TEST_F(ByHand, OneTwoThreePhotons) {
   for (const std::vector<Vec3>& places :
        {std::vector<Vec3>{{0, 0, 0}}, {{0, 0, 0}, {0.1f, 0, 0}}, {{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}}}) {
-    EXPECT_GE(place(map_of(places)).records.size(), 1u);
+    EXPECT_GE(place(test::photons_on_floor(places)).records.size(), 1u);
   }
 }
 
 TEST_F(ByHand, CoincidentAndCollinearPhotonsAreCounted) {
-  const IrradianceCache same = place(map_of(std::vector<Vec3>(500, Vec3(0.5f, 0, 0.5f))));
+  const IrradianceCache same = place(test::photons_on_floor(std::vector<Vec3>(500, Vec3(0.5f, 0, 0.5f))));
   EXPECT_GE(same.records.size(), 1u);
   EXPECT_GE(counters_["records with degenerate hull"], 1u);
   std::vector<Vec3> line;
   for (int i = 0; i < 500; ++i) line.push_back({0.002f * static_cast<float>(i), 0, 0});
   const std::uint64_t before = counters_["records with degenerate hull"];
-  EXPECT_GE(place(map_of(line)).records.size(), 1u);
+  EXPECT_GE(place(test::photons_on_floor(line)).records.size(), 1u);
   EXPECT_GT(counters_["records with degenerate hull"], before);
 }
 

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "support/hand_photons.h"
 #include "support/radiance_scenes.h"
 #include "support/records.h"
 
@@ -20,21 +21,6 @@ constexpr int kOrder = 10;
 class DensityZones : public ::testing::Test {
  protected:
   DensityZones() : scene_(test::point_light_over_plane()), rays_(scene_.scene) {}
-
-  PhotonMap map_at(const std::vector<Vec3>& places, const Vec3& direction = {0, 1, 0}) {
-    Photons photons;
-    for (const Vec3& p : places) {
-      photons.position.push_back(p), photons.flux.push_back(Rgb(1));
-      photons.direction.push_back(encode_octahedral(glm::normalize(direction)));
-      photons.normal.push_back(encode_octahedral({0, 1, 0}));
-      photons.distance.push_back(2), photons.source_normal.push_back(encode_octahedral({0, -1, 0}));
-      photons.path.push_back(static_cast<std::uint8_t>(PhotonPath::indirect)), photons.bounce.push_back(1);
-    }
-    PhotonTotals totals;
-    totals.emitted = totals.stored = places.size();
-    totals.emitted_flux_lm = totals.stored_flux_lm = Rgb(static_cast<float>(places.size()));
-    return PhotonMap::build(std::move(photons), totals);
-  }
 
   RadianceRecord record(const PhotonMap& map, const RecordSite& site = {Vec3(0), {0, 1, 0}, 0}) {
     RecordOptions options;
@@ -63,17 +49,17 @@ class DensityZones : public ::testing::Test {
 };
 
 TEST_F(DensityZones, WithoutPhotonsThereIsDarkThatIsCounted) {
-  const RadianceRecord none = record(map_at({}));
+  const RadianceRecord none = record(test::photons_on_floor({}));
   EXPECT_EQ(test::norm(test::channel(none.light)), 0);
   EXPECT_EQ(test::norm(test::channel(none.stderr_light)), 0) << "nothing is known of what a photon carries";
-  const RadianceRecord far = record(map_at({{-7, 0, -7}}));
+  const RadianceRecord far = record(test::photons_on_floor({{-7, 0, -7}}));
   EXPECT_EQ(test::norm(test::channel(far.light)), 0);
   EXPECT_GT(far.stderr_light[1], 0) << "one photon could have come";
   EXPECT_EQ(counters_["records without photons"], 2u);
 }
 
 TEST_F(DensityZones, OnePhotonIsALobeTowardsIt) {
-  const RadianceRecord r = record(map_at({{0.1f, 0, 0}}, {1, 2, 0}));
+  const RadianceRecord r = record(test::photons_on_floor({{0.1f, 0, 0}}, {1, 2, 0}));
   EXPECT_EQ(counters_["records with too few photons"], 1u);
   const std::vector<double> light = test::channel(r.light);
   const Vec3 w = r.frame.to_local(glm::normalize(Vec3(1, 2, 0)));
@@ -87,17 +73,19 @@ TEST_F(DensityZones, OnePhotonIsALobeTowardsIt) {
 TEST_F(DensityZones, CollinearAndCoincident) {
   std::vector<Vec3> line;
   for (int i = -200; i < 200; ++i) line.push_back({0.002f * static_cast<float>(i), 0, 0.1f});
-  EXPECT_GT(irradiance_of(record(map_at(line))).irradiance.y, 0);
+  EXPECT_GT(irradiance_of(record(test::photons_on_floor(line))).irradiance.y, 0);
   EXPECT_GT(counters_["records with degenerate hull"], 0u);
   for (const Vec3& place : {Vec3(0.05f, 0, 0.02f), Vec3(0)})
-    EXPECT_GT(irradiance_of(record(map_at(std::vector<Vec3>(500, place)))).irradiance.y, 0);
+    EXPECT_GT(irradiance_of(record(test::photons_on_floor(std::vector<Vec3>(500, place)))).irradiance.y, 0);
 }
 
 TEST_F(DensityZones, ItsOwnPhotonIsLeftOut) {
-  const PhotonMap two = map_at({Vec3(0), Vec3(0)});
+  const PhotonMap two = test::photons_on_floor({Vec3(0), Vec3(0)});
   const RadianceRecord both = record(two), other = record(two, {Vec3(0), {0, 1, 0}, 0, 1});
   EXPECT_NEAR(other.light[1] / both.light[1], 0.5f, 1e-5f);
-  EXPECT_EQ(test::norm(test::channel(record(map_at({Vec3(0)}), {Vec3(0), {0, 1, 0}, 0, 0}).light)), 0);
+  EXPECT_EQ(
+      test::norm(test::channel(record(test::photons_on_floor({Vec3(0)}), {Vec3(0), {0, 1, 0}, 0, 0}).light)),
+      0);
 }
 
 /// Photons along the horizon, whose inverse cosines are beyond bounds.
@@ -109,7 +97,8 @@ TEST_F(DensityZones, GrazingPhotonsWeighNoMoreThanOthers) {
     const Vec2 p = 2.f * sample_disc(random.uniform2());
     places.push_back({p.x, 0, p.y});
   }
-  const RadianceRecord up = record(map_at(places)), along = record(map_at(places, {1, 2e-4f, 0}));
+  const RadianceRecord up = record(test::photons_on_floor(places)),
+                       along = record(test::photons_on_floor(places, {1, 2e-4f, 0}));
   EXPECT_NEAR(irradiance_of(along).irradiance.y, irradiance_of(up).irradiance.y,
               0.02f * irradiance_of(up).irradiance.y);
   // 1 / least eigenvalue of the fit, against that of light from above.

@@ -1,28 +1,18 @@
 // Radiance records drawn where numbers are at their ends.
 #include <gtest/gtest.h>
 
-#include "splat/gloss_splatter.h"
-#include "support/gloss_scenes.h"
+#include "support/gloss_view.h"
 
 namespace phos {
 namespace {
 
-constexpr double kAccuracy = 0.25;
-constexpr Vec2 kMiddle(0.5f, 0.5f);
-
 /// The box at any size; what is drawn, against the lookup.
-struct Box {
-  Scene scene;
-  RayScene rays{scene};
-  GlossTables tables = test::gloss_tables(scene);
-  Camera camera = scene.camera.at(0);
-  GBuffer g = trace_gbuffer(rays, camera, 48, 48, kMiddle);
-
+struct Box : test::GlossView {
+  explicit Box(Scene of) : GlossView(std::move(of), 48, 48) {}
   /// Pixels drawn.
   std::size_t expect_as_looked_up(const std::vector<RadianceRecord>& records) const {
-    const GlossCache cache = test::gloss_cache(rays, tables, kAccuracy, records);
-    const GlossBuffer drawn = splat_gloss_on_cpu(cache, kAccuracy, rays, g, camera, kMiddle),
-                      looked_up = look_up_gloss(cache, rays, g, camera, kMiddle);
+    const GlossCache filled = cache(records);
+    const GlossBuffer drawn = draw(filled), looked_up = look_up(filled);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < drawn.light.size(); ++i) {
       for (const Vec4& v : {drawn.light[i], drawn.error[i]})
@@ -39,9 +29,6 @@ struct Box {
     }
     EXPECT_LE(other, 2u);
     return pixels;
-  }
-  std::vector<RadianceRecord> records(std::size_t count, float lo_m, float hi_m) const {
-    return test::radiance_in_view(rays, tables, camera, count, lo_m, hi_m);
   }
 };
 

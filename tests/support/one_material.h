@@ -53,6 +53,12 @@ inline Material make_material(Model model, const Rgb& kd, const Rgb& ks, float a
   return m;
 }
 
+inline Material phong(float exponent, const std::string& name) {
+  Material m = make_material(Model::phong, Rgb(0.1f), Rgb(0.8f, 0.5f, 0.2f));
+  m.name = name, m.exponent = exponent;
+  return m;
+}
+
 /// Every model that has a density, with lobes broad enough for a quadrature on a grid; as bright as can be.
 inline std::vector<Named> models() {
   std::vector<Named> all;

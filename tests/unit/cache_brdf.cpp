@@ -18,11 +18,7 @@ namespace {
 using test::make_material;
 using test::view;
 
-Material phong(float exponent) {
-  Material m = make_material(Model::phong, Rgb(0.1f), Rgb(0.8f, 0.5f, 0.2f));
-  m.name = "floor", m.exponent = exponent;
-  return m;
-}
+Material phong(float exponent) { return test::phong(exponent, "floor"); }
 
 BrdfTable table_of(const Material& material, const BrdfTableOptions& options = {}) {
   Counters counters;

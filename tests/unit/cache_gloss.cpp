@@ -15,11 +15,7 @@ namespace {
 using test::make_material;
 using test::view;
 
-Material phong(float exponent) {
-  Material m = make_material(Model::phong, Rgb(0.1f), Rgb(0.8f, 0.5f, 0.2f));
-  m.name = "phong", m.exponent = exponent;
-  return m;
-}
+Material phong(float exponent) { return test::phong(exponent, "phong"); }
 Material ggx(float alpha_x, float alpha_y) {
   return make_material(Model::conductor, Rgb(0), Rgb(0.9f, 0.6f, 0.3f), alpha_x, alpha_y);
 }

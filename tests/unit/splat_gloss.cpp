@@ -6,15 +6,14 @@
 
 #include "core/parallel.h"
 #include "splat/gloss_kernel.h"
-#include "splat/gloss_splatter.h"
 #include "splat/splatter.h"
-#include "support/gloss_scenes.h"
+#include "support/gloss_view.h"
 
 namespace phos {
 namespace {
 
-constexpr double kAccuracy = 0.25;
-constexpr Vec2 kMiddle(0.5f, 0.5f);
+constexpr double kAccuracy = test::GlossView::kAccuracy;
+constexpr Vec2 kMiddle = test::GlossView::kMiddle;
 
 /// How two pictures differ.
 struct Difference {
@@ -46,22 +45,11 @@ Difference difference(const GlossBuffer& a, const GlossBuffer& b) {
   return d;
 }
 
-struct Gloss {
-  Scene scene;
-  RayScene rays{scene};
-  GlossTables tables = test::gloss_tables(scene);
-  Camera camera = scene.camera.at(0);
-  GBuffer g = trace_gbuffer(rays, camera, 90, 70, kMiddle);
-
-  GlossBuffer draw(const GlossCache& cache) const {
-    return splat_gloss_on_cpu(cache, kAccuracy, rays, g, camera, kMiddle);
-  }
-  GlossBuffer look_up(const GlossCache& cache) const {
-    return look_up_gloss(cache, rays, g, camera, kMiddle);
-  }
+struct Gloss : test::GlossView {
+  explicit Gloss(Scene of) : GlossView(std::move(of), 90, 70) {}
   void expect_as_looked_up(const std::vector<RadianceRecord>& records, std::size_t drawn_at_least) const {
-    const GlossCache cache = test::gloss_cache(rays, tables, kAccuracy, records);
-    const GlossBuffer drawn = draw(cache), looked_up = look_up(cache);
+    const GlossCache filled = cache(records);
+    const GlossBuffer drawn = draw(filled), looked_up = look_up(filled);
     const Difference d = difference(looked_up, drawn);
     EXPECT_GE(d.drawn, drawn_at_least);
     EXPECT_LE(d.other_records, 2u) << "only rounding at the border of validity";
@@ -70,23 +58,19 @@ struct Gloss {
     EXPECT_LT(d.weight, 1e-4);
     EXPECT_NEAR(double(drawn.pairs), double(looked_up.pairs), 4);
   }
-  std::vector<RadianceRecord> records(std::size_t count, float lo_m, float hi_m) const {
-    return test::radiance_in_view(rays, tables, camera, count, lo_m, hi_m);
-  }
 };
 
 TEST(GlossSplat, IsTheLookupOnFlatSurfaces) {
   const Gloss box{test::glossy_cornell()};
   box.expect_as_looked_up(box.records(60, 0.1f, 0.8f), 500);
-  EXPECT_EQ(box.draw(test::gloss_cache(box.rays, box.tables, kAccuracy, box.records(20, 0.2f, 0.5f))).turned,
-            0u);
+  EXPECT_EQ(box.draw(box.cache(box.records(20, 0.2f, 0.5f))).turned, 0u);
 }
 
 TEST(GlossSplat, TurnsRecordsOnCurvedOnes) {
   const Gloss sphere{test::glossy_sphere().scene};
   const std::vector<RadianceRecord> records = sphere.records(40, 0.3f, 2);
   sphere.expect_as_looked_up(records, 2500);
-  EXPECT_GT(sphere.draw(test::gloss_cache(sphere.rays, sphere.tables, kAccuracy, records)).turned, 2500u);
+  EXPECT_GT(sphere.draw(sphere.cache(records)).turned, 2500u);
 }
 
 /// A record in another frame of the same normal.
@@ -128,7 +112,7 @@ TEST(GlossSplat, NoGradientsNoSteps) {
 /// Twice: a renderer serves many pictures.
 void expect_gl_as_cpu(const Gloss& of, const std::vector<RadianceRecord>& records) {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-  const GlossCache cache = test::gloss_cache(of.rays, of.tables, kAccuracy, records);
+  const GlossCache cache = of.cache(records);
   const GlossBuffer cpu = of.draw(cache);
   GlRenderer gl(of.scene);
   for (int i = 0; i < 2; ++i) {
@@ -161,7 +145,7 @@ TEST(GlGloss, CurvedSurfaces) {
 
 TEST(GlossSplat, LeavesAllElseAlone) {
   const Gloss box{test::glossy_cornell()};
-  const GlossCache cache = test::gloss_cache(box.rays, box.tables, kAccuracy, box.records(30, 0.2f, 3));
+  const GlossCache cache = box.cache(box.records(30, 0.2f, 3));
   const GlossBuffer drawn = box.draw(cache);
   std::size_t matt = 0;
   for (std::size_t i = 0; i < drawn.light.size(); ++i) {
@@ -171,14 +155,14 @@ TEST(GlossSplat, LeavesAllElseAlone) {
     EXPECT_EQ(drawn.error[i], Vec4(0));
   }
   EXPECT_GT(matt, 1000u);
-  const GlossBuffer none = box.draw(test::gloss_cache(box.rays, box.tables, kAccuracy, {}));
+  const GlossBuffer none = box.draw(box.cache({}));
   ASSERT_EQ(none.light.size(), box.g.position.size());
   for (const Vec4& v : none.light) EXPECT_EQ(v, Vec4(0));
 }
 
 TEST(GlossSplat, IsTheSameForAnyNumberOfThreads) {
   const Gloss box{test::glossy_cornell()};
-  const GlossCache cache = test::gloss_cache(box.rays, box.tables, kAccuracy, box.records(60, 0.1f, 0.8f));
+  const GlossCache cache = box.cache(box.records(60, 0.1f, 0.8f));
   set_threads(1);
   const GlossBuffer one = box.draw(cache);
   set_threads(5);

@@ -1,0 +1,94 @@
+#include "file/frames.h"
+
+#include <charconv>
+#include <cstddef>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+[[noreturn]] void refuse(const std::string& frames) {
+  throw Error(ExitCode::usage, "--frames",
+              text("\"", frames, "\" is no range of frames; give first and last as 0:47, or one as 12"));
+}
+
+std::int64_t whole(std::string_view digits, const std::string& frames) {
+  std::int64_t n = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+  if (error != std::errc() || end != digits.data() + digits.size()) refuse(frames);
+  return n;
+}
+
+}  // namespace
+
+void declare_frames(Options& options, std::string& frames, Recorded recorded) {
+  options.text("frames", frames, "A:B", "frames of the animation, first and last included, or one", recorded);
+}
+
+FrameRange parse_frames(const std::string& frames) {
+  const std::size_t colon = frames.find(':');
+  const std::string_view all = frames;
+  FrameRange range;
+  range.first = whole(all.substr(0, colon), frames);
+  range.last = colon == std::string::npos ? range.first : whole(all.substr(colon + 1), frames);
+  if (range.first < 0) throw Error(ExitCode::usage, "--frames", text(frames, ": the first frame is 0"));
+  if (range.last < range.first)
+    throw Error(ExitCode::usage, "--frames",
+                text(frames, " ends before it begins; give ", range.last, ":", range.first));
+  if (range.last > std::int64_t{1} << 30)
+    throw Error(ExitCode::usage, "--frames", text(frames, " is out of range; frames go up to 2^30"));
+  return range;
+}
+
+FramePattern::FramePattern(const std::string& pattern, const std::string& where) {
+  const auto fail = [&](const std::string& why) {
+    throw Error(ExitCode::usage, where,
+                text("\"", pattern, "\" ", why, "; the frame's number is one %d or %04d, a percent sign %%"));
+  };
+  std::string* out = &before_;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '%') {
+      *out += pattern[i];
+      continue;
+    }
+    if (pattern.substr(i, 2) == "%%") {
+      *out += '%', ++i;
+      continue;
+    }
+    const std::size_t d = pattern.find_first_not_of("0123456789", i + 1);
+    const std::string width = pattern.substr(i + 1, d == std::string::npos ? d : d - i - 1);
+    if (d == std::string::npos || pattern[d] != 'd' || width.size() > 3 ||
+        (!width.empty() && (width[0] != '0' || width.size() == 1)))
+      fail("has a % that is no number of a frame");
+    if (numbered_) fail("has two numbers");
+    numbered_ = true;
+    digits_ = width.empty() ? 0 : std::stoi(width);
+    out = &after_;
+    i = d;
+  }
+}
+
+std::string FramePattern::path(std::int64_t frame) const {
+  if (!numbered_) return before_;
+  std::string digits = std::to_string(frame);
+  if (digits.size() < static_cast<std::size_t>(digits_))
+    digits.insert(0, static_cast<std::size_t>(digits_) - digits.size(), '0');
+  return before_ + digits + after_;
+}
+
+FramePattern sequence_pattern(const std::string& pattern, const FrameRange& range, const std::string& where) {
+  FramePattern names(pattern, where);
+  if (range.count() > 1 && !names.numbered()) {
+    const std::size_t slash = pattern.rfind('/') + 1, dot = pattern.rfind('.');
+    const std::size_t end = dot == std::string::npos || dot < slash ? pattern.size() : dot;
+    throw Error(ExitCode::usage, where,
+                text("\"", pattern, "\" is one name for ", range.count(),
+                     " frames; put their number in it, as in ", pattern.substr(0, end),
+                     end > slash ? "-" : "", "%04d", pattern.substr(end)));
+  }
+  return names;
+}
+
+}  // namespace phos

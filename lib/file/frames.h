@@ -1,0 +1,41 @@
+// Numbers of frames, and the names of one file for each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/options.h"
+
+namespace phos {
+
+/// Whole frames, both ends included. Frame f is the scene at f / frames_per_s seconds.
+struct FrameRange {
+  std::int64_t first = 0, last = 0;
+  std::int64_t count() const { return last - first + 1; }
+  bool contains(std::int64_t frame) const { return first <= frame && frame <= last; }
+};
+/// --frames A:B, or one frame A; `frames` empty: not given.
+void declare_frames(Options& options, std::string& frames, Recorded recorded = Recorded::yes);
+/// Throws Error(usage) for what is no range, a reversed one, or one that begins below 0.
+FrameRange parse_frames(const std::string& frames);
+
+/// A file's name with the frame's number in it, as printf has it: film/%04d.exr (0012), or %d (12); %% is %.
+class FramePattern {
+ public:
+  /// Throws Error(usage, where) for anything else after a %, or for two numbers.
+  FramePattern(const std::string& pattern, const std::string& where);
+  /// Is there a number in it? Else every frame has one name.
+  bool numbered() const { return numbered_; }
+  std::string path(std::int64_t frame) const;
+
+ private:
+  std::string before_, after_;
+  int digits_ = 0;
+  bool numbered_ = false;
+};
+
+/// The pattern of a sequence of `range`. Throws Error(usage, where), with an example, where several frames
+/// would have one name.
+FramePattern sequence_pattern(const std::string& pattern, const FrameRange& range, const std::string& where);
+
+}  // namespace phos

@@ -1,0 +1,59 @@
+// A place of a film and what its light was found to be, at some frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cache/estimator.h"
+#include "cache/growth.h"
+#include "scene/anchor.h"
+#include "temporal/film_cache.h"
+#include "temporal/survey.h"
+
+namespace phos {
+
+/// What was found at one frame.
+struct Key {
+  std::int64_t frame = 0;
+  /// The frame up to which this key and the next are what the light there is known by; `frame` itself: this
+  /// key only ends what came before.
+  std::int64_t until = 0;
+  IrradianceRecord record;  ///< radius settled
+  std::shared_ptr<const RadianceRecord> radiance;
+  Pose pose;
+};
+
+struct Chain {
+  std::uint32_t number = 0;  ///< its rays' random numbers, at every frame
+  Anchor anchor;             ///< no triangle: it never moves
+  float share = 1;           ///< of its own radius that its first neighbours left it
+  float least_radius_m = 0, most_radius_m = kInfinity;  ///< its place's own bounds
+  std::vector<Key> keys;                                ///< by frame
+
+  const Key* at(std::int64_t frame) const;
+};
+
+/// Random streams of chains: kFilmItems + number.
+inline constexpr std::uint64_t kFilmItems = std::uint64_t{1} << 43;
+
+/// Where the chain is at a frame: nothing if its surface has no area then.
+std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& pose);
+
+/// The key that an estimate gives (the radius within the chain's share and bounds).
+Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std::int64_t frame,
+           const Pose& pose);
+
+/// A new chain from a record that placement has settled. Its surface's triangle is remembered if that moves
+/// at any frame of the film.
+Chain chain_of(const Made& made, const IrradianceRecord& settled, const RadianceRecord* radiance,
+               const RayScene& rays, std::int64_t frame, const FilmSurvey& survey);
+
+/// The records that chains stand for: each key until the next, with the change to it unless `gradients` are
+/// none. What ends at the last frame of a shot lives for that frame.
+Film film_of(std::span<const Chain> chains, const FilmInfo& info);
+RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info);
+
+}  // namespace phos

@@ -1,0 +1,282 @@
+#include "temporal/film_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "cache/placer.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "scene/picture.h"
+#include "temporal/visible_places.h"
+
+namespace phos {
+namespace {
+
+/// Frames of a piece, besides its first, whose view is looked at for places.
+constexpr std::int64_t kLooks = 4;
+/// A middle estimate that misses what is interpolated by less than this share of the accuracy is not kept: it
+/// would tell of noise.
+constexpr double kWorthKeeping = 0.125;
+/// F3: relative changes count against this share of the scene's mean irradiance at least.
+constexpr double kFloorShare = 1e-3;
+
+double norm2(const Rgb& v) { return static_cast<double>(glm::dot(v, v)); }
+
+double mean_irradiance(std::span<const Chain> chains) {
+  double sum = 0;
+  for (const Chain& c : chains) sum += std::sqrt(norm2(c.keys.front().record.irradiance));
+  return chains.empty() ? 0 : sum / static_cast<double>(chains.size());
+}
+
+}  // namespace
+
+FrameLight& FrameLights::at(std::int64_t frame) {
+  const auto found =
+      std::find_if(recent_.begin(), recent_.end(), [&](const auto& l) { return l->frame() == frame; });
+  if (found != recent_.end()) {
+    std::rotate(found, found + 1, recent_.end());
+    return *recent_.back();
+  }
+  if (recent_.size() == kKept) recent_.erase(recent_.begin());
+  recent_.push_back(std::make_unique<FrameLight>(scenes_.at(frame), options_, source_));
+  ++made_;
+  return *recent_.back();
+}
+
+FilmMaker::FilmMaker(FrameLights& lights, const FilmSurvey& survey, const FilmOptions& options, FilmTask task,
+                     Counters& counters)
+    : lights_(lights), survey_(survey), options_(options), task_(std::move(task)), counters_(counters) {
+  bounds_ = bounds_of(task_.records);
+}
+
+void FilmMaker::resume(std::vector<Chain> chains, std::int64_t done) {
+  chains_ = std::move(chains), resumed_after_ = done;
+  for (const Chain& c : chains_) next_number_ = std::max(next_number_, c.number + 1);
+}
+
+void FilmMaker::run(const std::function<void(std::int64_t)>& done) {
+  Progress progress("film", static_cast<std::uint64_t>(survey_.frames.count()), "frames");
+  for (const FrameRange& shot : survey_.shots) {
+    for (std::int64_t begin = shot.first; begin <= shot.last;) {
+      const std::int64_t end = std::min(begin + options_.max_life, shot.last);
+      const bool last = end == shot.last;
+      block(begin, end, shot);
+      if (done) done(end);
+      progress.advance(static_cast<std::uint64_t>(last ? end - begin + 1 : end - begin));
+      begin = last ? shot.last + 1 : end;
+    }
+  }
+}
+
+/// Frames [begin, end] of a shot; the frame `end` belongs to the next piece too, unless it is the shot's
+/// last.
+void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& shot) {
+  std::vector<std::int64_t> looks;
+  const std::int64_t step = std::max<std::int64_t>(1, (end - begin) / kLooks);
+  for (std::int64_t f = begin; f < end; f += step) looks.push_back(f);
+  if (end == shot.last && (looks.empty() || looks.back() != end)) looks.push_back(end);
+  const std::vector<std::size_t> wanted = place_at(begin, looks);
+  if (begin == shot.first && floor_ == 0) floor_ = kFloorShare * mean_irradiance(chains_);
+  if (begin < end) {
+    std::vector<Segment> segments;
+    end_at(wanted, end);
+    for (const std::size_t i : wanted) {
+      if (chains_[i].at(begin) && chains_[i].at(end)) segments.push_back({i, begin, end, 0});
+    }
+    if (options_.checks > 0) refine(std::move(segments));
+  }
+  if (end == shot.last)
+    for (const std::size_t i : wanted)
+      if (Key& last = chains_[i].keys.back(); last.frame == end) last.until = end + 1;
+}
+
+/// Which chains the coming frames want, with new ones where the views `looks` lack them.
+std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std::int64_t> looks) {
+  FrameLight& light = lights_.at(frame);
+  std::vector<std::size_t> known;  // chains that are there at this frame
+  for (std::size_t i = 0; i < chains_.size(); ++i)
+    if (!chains_[i].keys.empty() && chains_[i].keys.back().frame == frame) known.push_back(i);
+  // A jump: all that were there before it may be wanted after it.
+  std::vector<std::size_t> before;
+  for (std::size_t i = 0; i < chains_.size(); ++i)
+    if (!chains_[i].keys.empty() && chains_[i].keys.back().until == frame &&
+        chains_[i].keys.back().frame != frame)
+      before.push_back(i);
+  end_at(before, frame);
+  for (const std::size_t i : before)
+    if (chains_[i].keys.back().frame == frame) known.push_back(i);
+  std::sort(known.begin(), known.end());
+
+  IrradianceCache cache;
+  cache.accuracy = task_.records.accuracy;
+  for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
+
+  std::vector<std::size_t> wanted;
+  const std::size_t first_new = chains_.size();
+  if (task_.placement.place == Place::view) {
+    VisiblePlaces places(light, cache, task_.placement, task_.wanted, kFilmItems + next_number_);
+    for (const std::int64_t f : looks) places.look(lights_.scene_at(f));
+    report_.sites += places.sites();
+    next_number_ += static_cast<std::uint32_t>(places.open().size());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (places.in_sight()[i])
+        wanted.push_back(known[i]);
+      else
+        ++report_.deleted;
+    }
+    report_.kept_alive += wanted.size();
+    add_chains(frame, known, places.open());
+  } else {
+    wanted = known;
+    add_chains(frame, known, {});
+  }
+  for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
+  return wanted;
+}
+
+/// New chains where the known ones leave sites (or, of other placements than views, surfaces) uncovered.
+std::vector<std::size_t> FilmMaker::add_chains(std::int64_t frame, const std::vector<std::size_t>& known,
+                                               std::vector<RecordSite> sites) {
+  FrameLight& light = lights_.at(frame);
+  IrradianceCache cache;
+  cache.accuracy = task_.records.accuracy;
+  for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
+  const std::size_t before = cache.records.size();
+  const Estimator& estimator = task_.estimator(light);
+  PlacementReport placed;
+  if (task_.placement.place == Place::view) {
+    if (sites.empty()) return {};
+    const Candidates candidates{
+        sites.size(), [&](std::size_t i, std::vector<RecordSite>& out) { out.push_back(sites[i]); }};
+    placed =
+        place_records(cache, estimator, light.rays(), task_.records, task_.placement, candidates, counters_);
+  } else {
+    PlacementSource source;
+    source.wanted = task_.wanted;
+    if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
+    placed = place(cache, estimator, light.rays(), task_.records, task_.placement, source, counters_);
+  }
+  report_.estimates += placed.made, report_.making_s += placed.making_s,
+      report_.uncovered += placed.uncovered;
+  std::vector<std::size_t> added;
+  for (std::size_t i = 0; i < placed.made_records.size(); ++i) {
+    Made& made = placed.made_records[i];
+    if (task_.placement.place != Place::view) made.item = kFilmItems + next_number_++;
+    const RadianceRecord* radiance = placed.radiance.empty() ? nullptr : &placed.radiance[i];
+    added.push_back(chains_.size());
+    chains_.push_back(chain_of(made, cache.records[before + i], radiance, light.rays(), frame, survey_));
+  }
+  return added;
+}
+
+/// Keys of chains at a frame, where their surfaces are there then: `there` are those chains.
+std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, std::int64_t frame,
+                                     std::vector<std::size_t>& there) {
+  there.clear();
+  if (chains.empty()) return {};
+  FrameLight& light = lights_.at(frame);
+  std::vector<RecordSite> sites;
+  std::vector<Pose> poses;
+  for (const std::size_t i : chains) {
+    Pose pose;
+    const std::optional<RecordSite> site = site_of(chains_[i], light.scene(), pose);
+    if (!site) continue;
+    sites.push_back(*site), poses.push_back(pose), there.push_back(i);
+  }
+  ParallelMaker maker(task_.estimator(light));
+  const std::vector<Made> made = maker.make(sites);
+  report_.estimates += made.size(), report_.making_s += maker.seconds();
+  maker.count_into(counters_);
+  std::vector<Key> keys;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    keys.push_back(key_of(chains_[there[i]], made[i], bounds_, frame, poses[i]));
+  return keys;
+}
+
+/// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
+void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
+  std::vector<std::size_t> there;
+  std::vector<Key> keys = estimate(chains, frame, there);
+  for (const std::size_t i : chains) {
+    Key& last = chains_[i].keys.back();
+    if (last.until == last.frame) last.until = frame;
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) chains_[there[i]].keys.push_back(std::move(keys[i]));
+}
+
+/// Halves segments where the light in their middle is not what lies between their ends.
+void FilmMaker::refine(std::vector<Segment> segments) {
+  while (!segments.empty()) {
+    std::erase_if(segments, [](const Segment& s) { return s.end - s.begin < 2; });
+    std::map<std::int64_t, std::vector<Segment>> by_middle;
+    for (const Segment& s : segments) by_middle[(s.begin + s.end) / 2].push_back(s);
+    segments.clear();
+    for (const auto& [middle, at_middle] : by_middle) {
+      std::vector<std::size_t> chains, there;
+      for (const Segment& s : at_middle) chains.push_back(s.chain);
+      std::vector<Key> keys = estimate(chains, middle, there);
+      for (std::size_t i = 0, found = 0; i < at_middle.size(); ++i) {
+        const Segment& s = at_middle[i];
+        Chain& chain = chains_[s.chain];
+        if (found == there.size() || there[found] != s.chain) continue;  // its surface has no area then
+        Key& key = keys[found++];
+        double share = 0;
+        const bool straight = is_straight(*chain.at(s.begin), key, *chain.at(s.end), share);
+        const bool halved = !straight || s.depth + 1 < options_.checks;
+        if (halved) {
+          segments.push_back({s.chain, s.begin, middle, s.depth + 1});
+          segments.push_back({s.chain, middle, s.end, s.depth + 1});
+        }
+        if (!halved && share < kWorthKeeping) continue;
+        const auto after = std::upper_bound(chain.keys.begin(), chain.keys.end(), middle,
+                                            [](std::int64_t f, const Key& k) { return f < k.frame; });
+        std::prev(after)->until = middle;
+        key.until = after->frame;
+        chain.keys.insert(after, std::move(key));
+      }
+    }
+  }
+}
+
+/// Is the middle as interpolation has it? `share`: of what may be missed, that is missed.
+bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, double& share) const {
+  const double t =
+      static_cast<double>(middle.frame - from.frame) / static_cast<double>(to.frame - from.frame);
+  double missed2 = 0, light2 = 0, noise2 = 0;
+  if (middle.radiance) {
+    const std::vector<float>&a = from.radiance->light, &m = middle.radiance->light, &b = to.radiance->light;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      const double straight = (1 - t) * static_cast<double>(a[i]) + t * static_cast<double>(b[i]);
+      const double value = static_cast<double>(m[i]);
+      missed2 += (value - straight) * (value - straight), light2 += value * value;
+    }
+    const std::vector<float>& error = middle.radiance->stderr_light;
+    for (std::size_t i = 0; i < error.size(); ++i)
+      noise2 += static_cast<double>(2 * (i / 3) + 1) * static_cast<double>(error[i] * error[i]);
+  } else {
+    const Rgb& value = middle.record.irradiance;
+    missed2 = norm2(value - glm::mix(from.record.irradiance, to.record.irradiance, static_cast<float>(t)));
+    light2 = norm2(value), noise2 = norm2(middle.record.stderr_lx);
+  }
+  const double allowed = options_.temporal_accuracy * std::max(std::sqrt(light2), floor_);
+  if (missed2 == 0) return share = 0, true;
+  share = allowed > 0 ? std::sqrt(missed2) / allowed : kInfinity;
+  // What noise alone would do (of the three estimates: 3/2 of its variance; twice its deviation) is no
+  // change.
+  return missed2 <= allowed * allowed + 6 * noise2;
+}
+
+FilmReport FilmMaker::report(const FilmInfo& info) const {
+  FilmReport report = report_;
+  report.chains = chains_.size(), report.frames_with_light = lights_.made();
+  (void)info;
+  for (const Chain& c : chains_)
+    for (const Key& k : c.keys)
+      if (k.until > k.frame) ++report.records, ++report.lives[k.until - k.frame];
+  return report;
+}
+
+}  // namespace phos

@@ -1,0 +1,99 @@
+// The records of a film.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "cache/placement.h"
+#include "temporal/chain.h"
+#include "temporal/film_options.h"
+#include "temporal/frame_light.h"
+#include "temporal/survey.h"
+
+namespace phos {
+
+/// The light of the frames in work: the last few that were asked for.
+class FrameLights {
+ public:
+  /// `source` as of FrameLight. Holds references.
+  FrameLights(FrameScenes& scenes, const LightOptions& options, const Film* source)
+      : scenes_(scenes), options_(options), source_(source) {}
+  FrameLight& at(std::int64_t frame);
+  const FrameScene& scene_at(std::int64_t frame) { return *(last_ = scenes_.at(frame)); }
+  std::uint64_t made() const { return made_; }
+
+ private:
+  static constexpr std::size_t kKept = 3;
+  FrameScenes& scenes_;
+  const LightOptions& options_;
+  const Film* source_;
+  std::vector<std::unique_ptr<FrameLight>> recent_;
+  std::shared_ptr<const FrameScene> last_;
+  std::uint64_t made_ = 0;
+};
+
+struct FilmReport {
+  std::uint64_t chains = 0, records = 0;
+  std::uint64_t estimates = 0;          ///< records made, those that were not kept among them
+  std::uint64_t frames_with_light = 0;  ///< at which any was made
+  std::uint64_t sites = 0, uncovered = 0;
+  std::uint64_t kept_alive = 0, deleted = 0;  ///< places at the end of a life: replaced, or out of sight
+  double making_s = 0;
+  std::map<std::int64_t, std::uint64_t> lives;  ///< records by frames that they live
+};
+
+/// What is estimated, and where.
+struct FilmTask {
+  RecordOptions records;  ///< resolved
+  PlacementOptions placement;
+  MaterialFilter wanted;  ///< empty: diffuse surfaces
+  std::function<const Estimator&(FrameLight&)> estimator;
+};
+
+class FilmMaker {
+ public:
+  /// Holds references.
+  FilmMaker(FrameLights& lights, const FilmSurvey& survey, const FilmOptions& options, FilmTask task,
+            Counters& counters);
+
+  /// Continues after frames [survey.frames.first, done] with the chains of a film that ended there.
+  void resume(std::vector<Chain> chains, std::int64_t done);
+  /// All frames. After each piece that is whole, `done(frame)`: chains() are those of the film up to it.
+  void run(const std::function<void(std::int64_t frame)>& done = {});
+  const std::vector<Chain>& chains() const { return chains_; }
+  /// Relative changes count against at least this, lx (F3).
+  double floor_lx() const { return floor_; }
+  FilmReport report(const FilmInfo& info) const;
+
+ private:
+  struct Segment {
+    std::size_t chain;
+    std::int64_t begin, end;
+    std::int64_t depth;  ///< halvings before it
+  };
+  void block(std::int64_t begin, std::int64_t end, const FrameRange& shot);
+  std::vector<std::size_t> place_at(std::int64_t frame, std::vector<std::int64_t> looks);
+  std::vector<std::size_t> add_chains(std::int64_t frame, const std::vector<std::size_t>& known,
+                                      std::vector<RecordSite> sites);
+  std::vector<Key> estimate(std::span<const std::size_t> chains, std::int64_t frame,
+                            std::vector<std::size_t>& there);
+  void end_at(std::span<const std::size_t> chains, std::int64_t frame);
+  void refine(std::vector<Segment> segments);
+  bool is_straight(const Key& from, const Key& middle, const Key& to, double& share) const;
+
+  FrameLights& lights_;
+  const FilmSurvey& survey_;
+  const FilmOptions& options_;
+  FilmTask task_;
+  Counters& counters_;
+  std::vector<Chain> chains_;
+  RadiusBounds bounds_;
+  std::uint32_t next_number_ = 0;
+  double floor_ = 0;
+  std::int64_t resumed_after_ = -1;
+  FilmReport report_;
+};
+
+}  // namespace phos

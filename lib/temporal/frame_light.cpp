@@ -1,0 +1,98 @@
+#include "temporal/frame_light.h"
+
+#include <algorithm>
+
+#include "cache/gather.h"
+#include "cache/radiance_density.h"
+#include "cache/radiance_gather.h"
+#include "cache/record_maker.h"
+#include "core/error.h"
+
+namespace phos {
+
+std::shared_ptr<const FrameScene> FrameScenes::at(std::int64_t frame) {
+  const auto found =
+      std::find_if(recent_.begin(), recent_.end(), [&](const auto& s) { return s->frame == frame; });
+  if (found != recent_.end()) {
+    std::rotate(found, found + 1, recent_.end());
+    return recent_.back();
+  }
+  if (recent_.size() == kKept) recent_.erase(recent_.begin());
+  recent_.push_back(std::make_shared<const FrameScene>(path_, options_, isa_, frame));
+  ++loaded_;
+  return recent_.back();
+}
+
+FrameLight::FrameLight(std::shared_ptr<const FrameScene> frame, const LightOptions& options,
+                       const Film* source)
+    : at_(std::move(frame)), options_(options), source_(source), lights_(at_->scene) {}
+FrameLight::~FrameLight() = default;
+
+const PhotonMap& FrameLight::photons(Counters& counters) {
+  if (!photons_) {
+    PhotonTotals totals;
+    PhotonOptions options = options_.photons;
+    // A frame in which every lamp is out is dark.
+    const bool dark = std::none_of(scene().light.begin(), scene().light.end(),
+                                   [](const Light& l) { return max_component(l.flux_lm) > 0; });
+    if (dark) options.paths = 0;
+    Photons traced = trace_photons(rays(), options, options_.seed, totals, counters);
+    photons_ = std::make_unique<PhotonMap>(PhotonMap::build(std::move(traced), totals));
+  }
+  return *photons_;
+}
+
+const CoarseLevel& FrameLight::coarse(const RecordOptions& records, Counters& counters) {
+  if (!coarse_) {
+    if (records.gather_bounces == 1) {
+      coarse_ = std::make_unique<CoarseLevel>();
+    } else if (source_) {
+      coarse_ = std::make_unique<CoarseLevel>(rays(), cache_at(*source_, frame(), scene()), nullptr, records,
+                                              options_.seed);
+    } else {
+      coarse_ = std::make_unique<CoarseLevel>(rays(), photons(counters), records, options_.seed);
+    }
+  }
+  return *coarse_;
+}
+
+const Estimator& FrameLight::irradiance(Counters& counters) {
+  if (irradiance_) return *irradiance_;
+  const RecordOptions& r = options_.records;
+  switch (r.estimate) {
+    case Estimate::hull:
+    case Estimate::kernel:
+      irradiance_ = std::make_unique<RecordMaker>(photons(counters), rays(), r, options_.seed);
+      break;
+    case Estimate::gather:
+      irradiance_ =
+          std::make_unique<GatherEstimator>(rays(), lights_, coarse(r, counters).source(), r, options_.seed);
+      break;
+    case Estimate::raster:
+      throw Error(ExitCode::usage, "--estimate",
+                  "raster makes no films; use gather, which sees the same, or hull");
+  }
+  return *irradiance_;
+}
+
+const Estimator& FrameLight::source_records(Counters& counters) {
+  if (!source_records_)
+    source_records_ = std::make_unique<RecordMaker>(photons(counters), rays(),
+                                                    coarse_options(options_.records), options_.seed);
+  return *source_records_;
+}
+
+const Estimator& FrameLight::radiance(int order, Counters& counters) {
+  if (radiance_ && radiance_order_ == order) return *radiance_;
+  const RecordOptions& r = options_.radiance.records;
+  radiance_order_ = order;
+  if (r.estimate == Estimate::hull)
+    radiance_ = std::make_unique<RadianceDensityEstimator>(photons(counters), rays(), r, order,
+                                                           options_.radiance.gradients, options_.seed);
+  else
+    radiance_ = std::make_unique<RadianceEstimator>(rays(), lights_, coarse(r, counters).source(), r, order,
+                                                    options_.radiance.gradients, options_.seed);
+  return *radiance_;
+}
+
+}  // namespace phos

@@ -1,0 +1,189 @@
+#include "temporal/reprojection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "core/error.h"
+#include "core/sampling.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
+
+/// Turns about z, in [0, 1], to 2e-6 (Abramowitz and Stegun 4.4.47): the same bits on every machine.
+float turns_of(float x, float y) {
+  const float ax = std::fabs(x), ay = std::fabs(y);
+  const float most = std::max(ax, ay);
+  if (!(most > 0)) return 0;
+  const float t = std::min(ax, ay) / most, t2 = t * t;
+  float angle =
+      t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
+  if (ay > ax) angle = kPi / 2 - angle;
+  if (x < 0) angle = kPi - angle;
+  if (y < 0) angle = 2 * kPi - angle;
+  return angle / (2 * kPi);
+}
+
+/// The cell that a unit direction (in the frame of h) above the horizon lies in.
+std::size_t cell_of(const Hemisphere& h, const Vec3& local) {
+  const float sin2 = local.x * local.x + local.y * local.y;
+  const float share = h.measure == Measure::solid ? sin2 / (1 + local.z) : sin2;
+  const int ring = std::min(static_cast<int>(share * static_cast<float>(h.rings)), h.rings - 1);
+  const int slice =
+      std::min(static_cast<int>(turns_of(local.x, local.y) * static_cast<float>(h.slices)), h.slices - 1);
+  return h.at(ring, slice);
+}
+
+Vec3 middle_of(const Hemisphere& h, std::size_t cell) {
+  const auto slices = static_cast<std::size_t>(h.slices);
+  const float share = (static_cast<float>(cell / slices) + 0.5f) / static_cast<float>(h.rings);
+  const Vec2 around = cos_sin((static_cast<float>(cell % slices) + 0.5f) / static_cast<float>(h.slices));
+  const bool solid = h.measure == Measure::solid;
+  const float sin2 = solid ? share * (2 - share) : share;
+  const float z = solid ? 1 - share : std::sqrt(1 - sin2);
+  return h.frame.to_world(Vec3(std::sqrt(sin2) * around, z));
+}
+
+DVec3 point_of(const Scene& scene, const Hit& hit) {
+  const auto& v = scene.triangle[hit.triangle].v;
+  const double a = hit.u, b = hit.v;
+  return (1 - a - b) * DVec3(scene.position[v[0]]) + a * DVec3(scene.position[v[1]]) +
+         b * DVec3(scene.position[v[2]]);
+}
+
+/// Normal at the second time of the side that was hit; 0 where there is no surface any more.
+Vec3 turned_normal(const Motion& motion, std::uint32_t triangle, const Vec3& normal) {
+  const float side = glm::dot(geometric_normal(motion.now, triangle), normal);
+  const Vec3 next = geometric_normal(motion.next, triangle);
+  return side < 0 ? -next : next;
+}
+
+/// Sets direction, distance and normal of hit i as seen at the second time. False where it is out of sight.
+bool move(const Hemisphere& now, const Hit& hit, std::size_t i, const Motion& motion, const Vec3& shift_m,
+          Hemisphere& moved) {
+  const bool escaped = !std::isfinite(now.distance_m[i]);
+  const bool moves = !escaped && motion.moves(hit.triangle);
+  const Vec3 change = moves ? motion.of(hit) - shift_m : -shift_m;
+  moved.direction[i] = now.direction[i];
+  moved.distance_m[i] = now.distance_m[i];
+  moved.hit_normal[i] = moves ? turned_normal(motion, hit.triangle, now.hit_normal[i]) : now.hit_normal[i];
+  if (escaped || (!moves && change == Vec3(0))) return true;
+
+  const DVec3 way = static_cast<double>(now.distance_m[i]) * DVec3(now.direction[i]) + DVec3(change);
+  const double distance = glm::length(way);
+  if (!(distance > 0) || !std::isfinite(distance)) return false;
+  moved.direction[i] = Vec3(way / distance), moved.distance_m[i] = static_cast<float>(distance);
+  return glm::dot(moved.direction[i], moved.hit_normal[i]) < 0;
+}
+
+/// Fills each empty cell with what its deepest known neighbour holds, the deepest first.
+void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t>& source) {
+  struct Front {
+    float depth_m;
+    std::size_t cell;
+    bool operator<(const Front& other) const {
+      return depth_m != other.depth_m ? depth_m < other.depth_m : cell > other.cell;
+    }
+  };
+  const auto neighbours = [&](std::size_t cell, const auto& visit) {
+    const int ring = static_cast<int>(cell) / h.slices, slice = static_cast<int>(cell) % h.slices;
+    if (ring > 0) visit(h.at(ring - 1, slice));
+    if (ring + 1 < h.rings) visit(h.at(ring + 1, slice));
+    visit(h.at(ring, slice - 1)), visit(h.at(ring, slice + 1));
+  };
+  std::priority_queue<Front> fronts;
+  for (std::size_t cell = 0; cell < source.size(); ++cell) {
+    if (source[cell] == kNothing) continue;
+    bool beside_empty = false;
+    neighbours(cell, [&](std::size_t n) { beside_empty = beside_empty || source[n] == kNothing; });
+    if (beside_empty) fronts.push({moved.distance_m[source[cell]], cell});
+  }
+  while (!fronts.empty()) {
+    const Front front = fronts.top();
+    fronts.pop();
+    neighbours(front.cell, [&](std::size_t n) {
+      if (source[n] != kNothing) return;
+      source[n] = source[front.cell];
+      fronts.push({front.depth_m, n});
+    });
+  }
+}
+
+void set_cell(const Hemisphere& moved, std::size_t cell, std::size_t hit, bool flooded, Hemisphere& ahead) {
+  ahead.direction[cell] = flooded ? middle_of(ahead, cell) : moved.direction[hit];
+  ahead.radiance[cell] = moved.radiance[hit];
+  ahead.distance_m[cell] = moved.distance_m[hit];
+  ahead.hit_normal[cell] = moved.hit_normal[hit];
+  if (flooded && !(glm::dot(ahead.direction[cell], ahead.hit_normal[cell]) < 0))
+    ahead.hit_normal[cell] = -ahead.direction[cell];
+}
+
+}  // namespace
+
+Vec3 Motion::of(const Hit& hit) const {
+  return moves(hit.triangle) ? Vec3(point_of(next, hit) - point_of(now, hit)) : Vec3(0);
+}
+
+ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, std::span<const Rgb> radiance,
+                             const Motion& motion, const Vec3& shift_m, const Frame& frame,
+                             Hemisphere& ahead) {
+  const std::size_t n = now.size();
+  PHOS_CHECK(now.stratified() && hits.size() == n && radiance.size() == n, n, " rays, ", hits.size(),
+             " hits, ", radiance.size(), " radiances");
+  const bool turns = frame.x != now.frame.x || frame.z != now.frame.z;
+  ahead.frame = frame, ahead.rings = now.rings, ahead.slices = now.slices, ahead.measure = now.measure;
+  ahead.resize(n);
+  ReprojectionCounts counts{.cells = n};
+
+  Hemisphere moved;
+  moved.resize(n);
+  moved.radiance.assign(radiance.begin(), radiance.end());
+  std::vector<std::size_t> source(n, kNothing);  // per cell: the hit it shows
+  std::vector<bool> seen(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    seen[i] = move(now, hits[i], i, motion, shift_m, moved);
+    std::size_t cell = i;
+    if (turns || moved.direction[i] != now.direction[i]) {
+      const Vec3 local = frame.to_local(moved.direction[i]);
+      seen[i] = seen[i] && local.z > 0;
+      if (seen[i]) cell = cell_of(ahead, local);
+    }
+    if (!seen[i]) {
+      ++counts.hidden;
+    } else if (source[cell] == kNothing) {
+      source[cell] = i;
+    } else {
+      ++counts.hidden;
+      if (moved.distance_m[i] < moved.distance_m[source[cell]]) source[cell] = i;
+    }
+  }
+
+  std::vector<bool> empty(n);
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    empty[cell] = source[cell] == kNothing;
+    if (empty[cell]) ++counts.empty;
+  }
+  if (counts.empty > 0) flood(ahead, moved, source);
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    if (source[cell] == kNothing) {  // nothing is known of any cell
+      ahead.direction[cell] = middle_of(ahead, cell), ahead.radiance[cell] = Rgb(0);
+      ahead.distance_m[cell] = kInfinity, ahead.hit_normal[cell] = -ahead.direction[cell];
+      ++counts.holes;
+      continue;
+    }
+    set_cell(moved, cell, source[cell], empty[cell], ahead);
+    if (empty[cell] && (!seen[cell] || one_hides_other(moved, cell, source[cell], 0))) ++counts.holes;
+  }
+  const float each_sr = kPi / static_cast<float>(n);
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    const bool kept = !turns && ahead.direction[cell] == now.direction[cell];
+    const float z = now.measure == Measure::solid ? glm::dot(ahead.direction[cell], frame.z) : 0.5f;
+    ahead.projected_sr[cell] = kept ? now.projected_sr[cell] : each_sr * 2 * z;
+  }
+  return counts;
+}
+
+}  // namespace phos
