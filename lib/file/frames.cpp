@@ -83,10 +83,10 @@ FramePattern sequence_pattern(const std::string& pattern, const FrameRange& rang
   if (range.count() > 1 && !names.numbered()) {
     const std::size_t slash = pattern.rfind('/') + 1, dot = pattern.rfind('.');
     const std::size_t end = dot == std::string::npos || dot < slash ? pattern.size() : dot;
-    throw Error(ExitCode::usage, where,
-                text("\"", pattern, "\" is one name for ", range.count(),
-                     " frames; put their number in it, as in ", pattern.substr(0, end),
-                     end > slash ? "-" : "", "%04d", pattern.substr(end)));
+    throw Error(
+        ExitCode::usage, where,
+        text("\"", pattern, "\" is one name for ", range.count(), " frames; put their number in it, as in ",
+             pattern.substr(0, end), end > slash ? "-" : "", "%04d", pattern.substr(end)));
   }
   return names;
 }

@@ -31,13 +31,6 @@ void print_line(const std::string& line) {
   std::fwrite(whole.data(), 1, whole.size(), stderr);
 }
 
-int report(const std::string& tool, const std::string& where, const std::string& message, ExitCode code) {
-  std::cout.flush();
-  std::fflush(stdout);
-  print_line(where.empty() ? text(tool, ": ", message) : text(tool, ": ", where, ": ", message));
-  return static_cast<int>(code);
-}
-
 /// Makes a full disk behind a redirected stdout an error.
 void finish_stdout() {
   std::cout.flush();
@@ -105,7 +98,16 @@ void Tool::begin() {
   if (wants_output_ == Output::required && output_.empty())
     throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
   if (!stats_path_.empty()) require_writable(stats_path_);
-  if (!output_.empty() && !why_) require_writable(output_);
+  if (!output_.empty() && !why_ && frames_.empty()) require_writable(output_);
+}
+
+int Tool::report(const std::string& where, const std::string& message, ExitCode code) const {
+  std::cout.flush();
+  std::fflush(stdout);
+  std::string line = name_ + ": ";
+  if (at_frame_ && code != ExitCode::usage) line += text("frame ", *at_frame_, ": ");
+  print_line(line + (where.empty() ? "" : where + ": ") + message);
+  return static_cast<int>(code);
 }
 
 int Tool::run(int argc, const char* const* argv, const std::function<void()>& body) {
@@ -115,20 +117,23 @@ int Tool::run(int argc, const char* const* argv, const std::function<void()>& bo
     declare_common();
     if (options_.parse(argc, argv)) {
       begin();
-      body();
+      if (frames_.empty())
+        body();
+      else
+        run_frames(body);
       if (!stats_path_.empty()) write_stats(seconds_since(start));
     }
     finish_stdout();
     return static_cast<int>(exit_);
   } catch (const Error& e) {
-    return report(name_, e.where(), e.what(), e.code());
+    return report(e.where(), e.what(), e.code());
   } catch (const std::bad_alloc&) {
     const std::uint64_t mebibytes = peak_memory_bytes() >> 20;
-    return report(name_, "",
+    return report("",
                   text("out of memory (", mebibytes, " MiB in use); ask for less, or use a larger machine"),
                   ExitCode::bad_input);
   } catch (const std::exception& e) {
-    return report(name_, "", text("internal error: ", e.what(), "; please report it with the command"),
+    return report("", text("internal error: ", e.what(), "; please report it with the command"),
                   ExitCode::bad_input);
   }
 }
@@ -230,11 +235,16 @@ Provenance Tool::provenance(const std::string& kind, const std::string& scene_ha
   return p;
 }
 
-void Tool::say(const std::string& line) const {
-  if (!quiet_) print_line(text(name_, ": ", line));
+void Tool::tell(const std::string& kind, const std::string& line) const {
+  if (at_frame_ && !said_.insert(line).second) return;
+  print_line(text(name_, ": ", kind, at_frame_ ? text("frame ", *at_frame_, ": ") : "", line));
 }
 
-void Tool::warn(const std::string& line) const { print_line(text(name_, ": warning: ", line)); }
+void Tool::say(const std::string& line) const {
+  if (!quiet_) tell("", line);
+}
+
+void Tool::warn(const std::string& line) const { tell("warning: ", line); }
 
 void Tool::write_stats(double seconds) const {
   Json out = stats_;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "file/container.h"
+#include "file/frames.h"
 
 namespace phos {
 
@@ -43,6 +45,24 @@ class Tool {
   /// Adds the common options (--threads --seed -o --stats --progress --quiet --verbose --reuse --why ...),
   /// parses, calls body, writes --stats, and turns every exception into one line on stderr and an exit code.
   int run(int argc, const char* const* argv, const std::function<void()>& body);
+
+  /// For a command that can make a sequence, one file for each frame: declares --frames A:B. run() then calls
+  /// the body once per frame with `frame` set as --frame does, and output() the name of that frame's file;
+  /// inputs, counters and figures begin anew. Each file is the one that --frame N makes: no range is
+  /// recorded.
+  void takes_frames(std::optional<double>& frame);
+  /// Gives every frame these options as they were asked for, where a body fills automatic values in.
+  template <class T>
+  void fresh_each_frame(T& asked) {
+    fresh_.push_back([&asked, first = std::optional<T>()]() mutable {
+      if (!first) first = asked;
+      asked = *first;
+    });
+  }
+  /// The frames asked for; null: no sequence.
+  std::optional<FrameRange> frames() const;
+  /// The name of this frame's file of another output (--misses); as it is where there is no sequence, and "".
+  std::string frame_path(const std::string& pattern, const std::string& option) const;
 
   /// A command that worked but whose answer is "no" (phos-compare above a limit) ends with this code.
   void set_exit(ExitCode code) { exit_ = code; }
@@ -80,7 +100,8 @@ class Tool {
                         const Json& scene_parts) const;
 
   Counters& counters() { return counters_; }
-  /// A line for people on stderr, unless --quiet.
+  /// A line for people on stderr, unless --quiet. In a sequence it says which frame, and a line that repeats
+  /// is said once.
   void say(const std::string& line) const;
   /// A line on stderr that --quiet does not silence.
   void warn(const std::string& line) const;
@@ -106,6 +127,10 @@ class Tool {
  private:
   void declare_common();
   void begin();
+  void run_frames(const std::function<void()>& body);
+  void begin_frame(std::int64_t frame, const FramePattern& names);
+  int report(const std::string& where, const std::string& message, ExitCode code) const;
+  void tell(const std::string& kind, const std::string& line) const;
   void write_stats(double seconds) const;
   std::string key() const;
   bool explain() const;
@@ -126,6 +151,11 @@ class Tool {
   Counters counters_;
   std::map<std::string, std::string> inputs_;
   Json history_ = Json::Array{};
+  std::string frames_;                      ///< --frames
+  std::optional<double>* frame_ = nullptr;  ///< --frame
+  std::optional<std::int64_t> at_frame_;
+  std::vector<std::function<void()>> fresh_;
+  mutable std::set<std::string> said_;
 };
 
 /// Largest resident set of this process so far, bytes.
