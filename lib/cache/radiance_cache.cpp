@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cache/radiance_columns.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hsh/rotation.h"
@@ -15,24 +16,6 @@ constexpr double kFirst = 1.2533141373155003;   // sqrt(pi / 2)
 constexpr double kSecond = 0.7236012545582676;  // sqrt(pi / 6)
 
 std::size_t count_of(int order) { return static_cast<std::size_t>(harmonic_count(order)); }
-
-/// A column of [colour][number] for each record, n numbers of which it may use fewer, from and to
-/// [number][colour].
-void to_column(const std::vector<float>& record, float* column, std::size_t n) {
-  for (std::size_t i = 0; i < record.size(); ++i) column[i % 3 * n + i / 3] = record[i];
-}
-std::vector<float> from_column(const float* column, std::size_t n, std::size_t used) {
-  std::vector<float> record(3 * used);
-  for (std::size_t i = 0; i < record.size(); ++i) record[i] = column[i % 3 * n + i / 3];
-  return record;
-}
-/// Is what a record does not use of its column 0?
-bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
-  for (std::size_t c = 0; c < 3; ++c)
-    if (std::any_of(column + c * n + used, column + (c + 1) * n, [](float x) { return x != 0; }))
-      return false;
-  return true;
-}
 
 bool all_finite(const std::vector<float>& v) {
   return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });

@@ -64,7 +64,8 @@ inline double reading_accuracy(const RadianceCache& cache) { return reading_accu
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
 /// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds
-/// them, and numbers beyond a record's own are 0. Its header names the basis. Of a film there are `more` columns.
+/// them, and numbers beyond a record's own are 0. Its header names the basis. Of a film there are `more`
+/// columns.
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
                     ContainerWriter more = {});
 /// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named), one of

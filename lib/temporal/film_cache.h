@@ -80,26 +80,32 @@ struct RadianceFilm {
 IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to);
 RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to);
 
-/// Each record that is alive at `frame`, moved with its surface and changed by t - birth frames (irradiance
-/// is at least 0, FORMULAS F5; a radius stays positive). Those whose surface has no area then are left out.
+/// A record as it is at a frame of its life, before it is moved with its surface: irradiance is at least 0
+/// (F5), a radius stays positive.
+IrradianceRecord changed(const FilmRecord& film, std::int64_t frame);
+RadianceRecord changed(const FilmRadianceRecord& film, std::int64_t frame);
+
+/// Each record that is alive at `frame`, moved with its surface and changed by t - birth frames.
+/// Those whose surface has no area then are left out.
 /// Weights: max(0, 1 - rate (t - birth) / a_t) (F1), at least a hundredth, except with interpolated
 /// gradients, times the fade. `scene` is the scene at that frame.
 IrradianceCache cache_at(const Film& film, std::int64_t frame, const Scene& scene);
 RadianceCache cache_at(const RadianceFilm& film, std::int64_t frame, const Scene& scene);
 
-/// The files: those of irradiance and radiance caches (records as they were born), with birth i32[n],
-/// end i32[n] (frames), chain u32[n], rate f32[n], temporal gradients of every column that changes, and,
-/// where surfaces move, anchor u32[n] (triangle), anchor_uv f32[n,2], anchor_turn f32[n,4] (x, y, z, w). The
-/// header has a `film` object: frames, frames_per... and the scene's hash at each frame.
+/// The files: those of irradiance and radiance caches (records as they were born, no index), with birth
+/// i32[n], end i32[n] (frames), chain u32[n], rate f32[n]; the change of every column that changes, its name
+/// with _change and its unit per frame, unless gradients are none; and, where surfaces move, anchor u32[n]
+/// (triangle, 2^32 - 1: none), anchor_uv f32[n,2], anchor_turn f32[n,4] (x, y, z, w). The header has a `film`
+/// object: frames, temporal_accuracy, max_life, gradients, fade, the scene's hash at each frame, and for
+/// people the number of chains and the mean life.
 void write_film(const std::string& path, const Film& film, Provenance provenance);
 void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance);
 /// Is this irradiance or radiance file one of a film?
 bool is_film(const Container& file);
-/// Throw Error(bad_input) for a damaged file, or one of no film.
+/// What its header says. Throws Error(bad_input) for one of no film, or a damaged one.
+FilmInfo read_film_info(const Container& file);
+/// Throw Error(bad_input) for a damaged file (the first bad record named), or one of no film.
 Film read_film(const Container& file);
 RadianceFilm read_radiance_film(const Container& file);
-
-/// Throws Error(mismatch) where a film does not have that frame, or was made from another scene.
-void require_frame(const Container& file, const FilmInfo& film, std::int64_t frame, const Scene& scene);
 
 }  // namespace phos

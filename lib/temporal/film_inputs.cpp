@@ -1,0 +1,56 @@
+#include "temporal/film_inputs.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+void require_frame(const Container& file, const FilmInfo& film, std::int64_t frame) {
+  if (film.frames.contains(frame)) return;
+  throw Error(ExitCode::mismatch, file.path(),
+              text("is a film of frames ", film.frames.first, " to ", film.frames.last,
+                   ", and the scene is at frame ", frame,
+                   "; choose one of those with --frame, or make more of them with phos-temporal"));
+}
+
+void require_same_frame(const Container& file, const FilmInfo& film, const Scene& scene) {
+  const std::int64_t frame = frame_of(scene);
+  require_frame(file, film, frame);
+  if (film.scene_hash[static_cast<std::size_t>(frame - film.frames.first)] == scene.hash) return;
+  const double exactly = scene.time_s * scene.frames_per_s;
+  const bool between = std::fabs(exactly - static_cast<double>(frame)) > 1e-6;
+  throw Error(ExitCode::mismatch, file.path(),
+              between ? text("is a film of whole frames, and the scene is at ", exactly,
+                             "; choose a whole one with --frame, or pass --allow-mismatch")
+                      : text("was made from another scene than ", scene.path, " is at frame ", frame,
+                             "; rerun phos-temporal, or pass --allow-mismatch"));
+}
+
+}  // namespace
+
+std::int64_t frame_of(const Scene& scene) { return std::llround(scene.time_s * scene.frames_per_s); }
+
+void require_same_scene(const Container& file, const std::string& scene_path, const Scene& scene) {
+  if (is_film(file))
+    require_same_frame(file, read_film_info(file), scene);
+  else
+    require_same_scene(file, scene_path, scene.hash, scene.parts);
+}
+
+IrradianceCache read_irradiance_at(const Container& file, const Scene& scene) {
+  if (!is_film(file)) return read_irradiance(file);
+  const Film film = read_film(file);
+  require_frame(file, film.info, frame_of(scene));
+  return cache_at(film, frame_of(scene), scene);
+}
+
+RadianceCache read_radiance_at(const Container& file, const Scene& scene) {
+  if (!is_film(file)) return read_radiance(file);
+  const RadianceFilm film = read_radiance_film(file);
+  require_frame(file, film.info, frame_of(scene));
+  return cache_at(film, frame_of(scene), scene);
+}
+
+}  // namespace phos

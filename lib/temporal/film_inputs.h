@@ -1,0 +1,26 @@
+// Caches and films alike, as what they are at the time of a scene.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cache/irradiance_cache.h"
+#include "cache/radiance_cache.h"
+#include "file/container.h"
+#include "scene/scene.h"
+#include "temporal/film_cache.h"
+
+namespace phos {
+
+/// The frame that a scene was loaded at: the nearest to its time.
+std::int64_t frame_of(const Scene& scene);
+
+/// Throws Error(mismatch) where a file was made from another scene; of a film, where it does not have the
+/// scene's frame or that was another.
+void require_same_scene(const Container& file, const std::string& scene_path, const Scene& scene);
+
+/// Of a film, the records of the scene's frame; throws Error(mismatch) where it has no such frame.
+IrradianceCache read_irradiance_at(const Container& file, const Scene& scene);
+RadianceCache read_radiance_at(const Container& file, const Scene& scene);
+
+}  // namespace phos
