@@ -17,12 +17,13 @@ void require_frames(const Scene& scene, const FrameRange& range);
 
 /// The scene at a frame. Throws as load_scene(), and Error(usage) where `options` state a time of their own.
 /// At every frame an animated scene has the same instances, triangles and materials in the same order: those
-/// that have no area at that time (scale 0) are there, and nothing hits them.
+/// that have no area at that time (scale 0) are there, and nothing hits them. Only the winding of an instance
+/// turns where its transform comes to mirror it. Lamps that are black, or without area, are left out.
 Scene load_frame(const std::string& path, const SceneOptions& options, std::int64_t frame);
 
 /// What differs between two times of one scene.
 struct Changes {
-  std::vector<bool> moved;  ///< by instance: any vertex is elsewhere
+  std::vector<bool> moved;  ///< by instance: any vertex is elsewhere, or its normal turned
   bool lights = false;      ///< any lamp moved, turned, dimmed (moved area lights too)
   bool materials = false;   ///< any material (emission too)
   bool cameras = false;
@@ -33,10 +34,20 @@ struct Changes {
 /// Throws Error(bad_input), naming the first instance that differs, if the two are not times of one scene.
 Changes changes(const Scene& a, const Scene& b);
 
-/// Does something jump from the middle frame to the next one: a lamp that is switched on or off or is
-/// elsewhere at once, an object that teleports, appears or vanishes? So it is where the step from b to c is
-/// far beyond those before (a to b) and after (c to d), and large by itself: light must not be interpolated
+/// Does something jump from b to c, of four scenes that follow one another: a lamp that is switched on or off
+/// or is elsewhere at once, an object that teleports, appears or vanishes? Light must not be interpolated
 /// over it. At an end of an animation give the same scene twice.
+///
+/// A jump is a step from b to c that is more than four times those from a to b and from c to d, and that is
+/// large by itself:
+///  - an object: its farthest moving vertex goes farther than a tenth of the object's diagonal, or a
+///    twentieth of the scene's. Where it has no area on one side of the step (scale 0), the step is its
+///    diagonal on the other; where on both, it is 0;
+///  - a lamp's flux (directional: illuminance): more than a tenth of the larger one, in any colour;
+///  - the place of a point or spot light: more than a hundredth of the scene's diagonal;
+///  - the direction of a spot or directional light: more than a tenth of a radian.
+/// So nothing that takes three frames or more to change steadily is a jump, however fast, and no corner of a
+/// movement is one. An object that comes to be mirrored always jumps: its triangles have other corners.
 bool jumps(const Scene& a, const Scene& b, const Scene& c, const Scene& d);
 
 }  // namespace phos

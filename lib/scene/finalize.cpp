@@ -128,6 +128,16 @@ void repair_normals(Scene& scene) {
   if (repaired) scene.events["normals repaired"] += repaired;
 }
 
+/// What has no area at this time may be anywhere: nothing sees it.
+Bounds bounds_of(const Scene& scene, bool with_area) {
+  Bounds bounds;
+  for (std::uint32_t t = 0; t < scene.triangle.size(); ++t) {
+    if (with_area && geometric_normal(scene, t) == Vec3(0)) continue;
+    for (const std::uint32_t v : scene.triangle[t].v) bounds.include(scene.position[v]);
+  }
+  return bounds;
+}
+
 }  // namespace
 
 Vec3 geometric_normal(const Scene& scene, std::uint32_t tri) {
@@ -147,10 +157,8 @@ void finalize(Scene& scene) {
   check_arrays(scene);
   if (scene.normal.empty()) make_flat_normals(scene);
   repair_normals(scene);
-  scene.bounds = Bounds();
-  for (const Triangle& t : scene.triangle) {
-    for (const std::uint32_t v : t.v) scene.bounds.include(scene.position[v]);
-  }
+  scene.bounds = bounds_of(scene, true);
+  if (scene.bounds.empty()) scene.bounds = bounds_of(scene, false);
   if (!std::isfinite(scene.bounds.diagonal_m()))
     fail(scene, "the scene is larger than numbers can say; scale it down");
   fill_lights(scene);

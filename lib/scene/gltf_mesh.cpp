@@ -35,6 +35,7 @@ class PrimitiveReader {
     data_.uv0 = vectors<Vec2>("TEXCOORD_0");
     data_.uv1 = vectors<Vec2>("TEXCOORD_1");
     read_colour();
+    data_.deforms = !from_.targets.empty();
     blend_targets(weights);
     read_triangles(mode);
     return std::move(data_);
@@ -140,6 +141,7 @@ bool apply_skin(const GltfDocument& document, std::size_t mesh, std::size_t prim
     if (!data.normal.empty()) data.normal[i] = Vec3(DVec3(m * glm::dvec4(DVec3(data.normal[i]), 0.0)));
   }
   data.tangent.clear();
+  data.deforms = true;
   return true;
 }
 

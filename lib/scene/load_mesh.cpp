@@ -72,16 +72,13 @@ void place(MeshData& mesh, const glm::dmat4& to_world) {
   for (Triangle& t : mesh.triangle) std::swap(t.v[1], t.v[2]);
 }
 
-std::uint64_t drop_degenerate(MeshData& mesh) {
-  std::size_t kept = 0;
-  for (const Triangle& t : mesh.triangle) {
-    const DVec3 c = cross_of(mesh, t);
-    if (c.x == 0 && c.y == 0 && c.z == 0) continue;
-    mesh.triangle[kept++] = t;
-  }
-  const std::size_t dropped = mesh.triangle.size() - kept;
-  mesh.triangle.resize(kept);
-  return dropped;
+bool has_area(const MeshData& mesh, const Triangle& t) { return cross_of(mesh, t) != DVec3(0); }
+bool has_three_corners(const Triangle& t) { return t.v[0] != t.v[1] && t.v[1] != t.v[2] && t.v[2] != t.v[0]; }
+
+template <class Keep>
+void keep_triangles(Scene& scene, MeshData& mesh, const Keep& keep) {
+  const std::size_t dropped = std::erase_if(mesh.triangle, [&](const Triangle& t) { return !keep(t); });
+  if (dropped) scene.events["degenerate triangles dropped"] += dropped;
 }
 
 void drop_unused_vertices(MeshData& mesh) {
@@ -103,9 +100,11 @@ void drop_unused_vertices(MeshData& mesh) {
 }
 
 /// A normal that is zero or not finite becomes the mean of the triangles about its vertex, weighted by their
-/// angles there, so that it does not depend on how polygons were cut.
+/// angles there, so that it does not depend on how polygons were cut. Vertices of triangles that all have no
+/// area at this time do not count: nothing sees them.
 std::uint64_t repair_normals(MeshData& mesh) {
   std::vector<DVec3> sum;
+  std::vector<bool> seen(mesh.normal.size(), false);
   std::uint64_t repaired = 0;
   for (std::size_t i = 0; i < mesh.normal.size(); ++i) {
     if (is_finite(mesh.normal[i]) && glm::length(mesh.normal[i]) > 0.5f) continue;
@@ -113,11 +112,13 @@ std::uint64_t repair_normals(MeshData& mesh) {
       sum.resize(mesh.position.size(), DVec3(0));
       for (const Triangle& t : mesh.triangle) {
         add_corner_normals(mesh.position, t, sum);
+        if (!has_area(mesh, t)) continue;
+        for (const std::uint32_t v : t.v) seen[v] = true;
       }
     }
     const double length = glm::length(sum[i]);
     mesh.normal[i] = length > 0 ? Vec3(sum[i] / length) : Vec3(0, 0, 1);
-    ++repaired;
+    repaired += seen[i];
   }
   return repaired;
 }
@@ -126,7 +127,7 @@ void make_flat_normals(MeshData& mesh) {
   unshare_vertices(mesh);
   mesh.normal.resize(mesh.position.size());
   for (const Triangle& t : mesh.triangle) {
-    const Vec3 n(glm::normalize(cross_of(mesh, t)));
+    const Vec3 n = has_area(mesh, t) ? Vec3(glm::normalize(cross_of(mesh, t))) : Vec3(0, 0, 1);
     for (const std::uint32_t v : t.v) mesh.normal[v] = n;
   }
 }
@@ -224,6 +225,10 @@ void unshare_vertices(MeshData& mesh) {
 void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const std::string& node,
                   std::uint32_t material, bool make_tangents, const std::string& what) {
   check(scene, mesh, what);
+  const auto with_area = [&](const Triangle& t) { return has_area(mesh, t); };
+  const bool animated = !scene.animation.empty();
+  if (animated && mesh.deforms) keep_triangles(scene, mesh, has_three_corners);
+  if (animated && !mesh.deforms) keep_triangles(scene, mesh, with_area);
   place(mesh, to_world);
   check(scene, mesh, what + " placed by its transform");
   std::uint64_t not_finite = 0;
@@ -231,7 +236,7 @@ void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const
   clear_where_not_finite(mesh.uv1, not_finite);
   clear_where_not_finite(mesh.colour, not_finite);
   if (not_finite) scene.events["vertex attributes not finite, set to zero"] += not_finite;
-  if (const std::uint64_t n = drop_degenerate(mesh)) scene.events["degenerate triangles dropped"] += n;
+  if (!animated) keep_triangles(scene, mesh, with_area);
   if (mesh.triangle.empty()) return;
   drop_unused_vertices(mesh);
   if (mesh.normal.empty()) {

@@ -158,7 +158,12 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), count));
   if (vertices && indices) {
     std::memcpy(vertices, scene.position.data(), scene.position.size() * sizeof(Vec3));
-    for (std::size_t i = 0; i < count; ++i) indices[i] = scene.triangle[triangles ? (*triangles)[i] : i];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t t = triangles ? (*triangles)[i] : static_cast<std::uint32_t>(i);
+      const auto& v = scene.triangle[t].v;
+      // Without area it must not be hit, whatever its rounded edges say.
+      indices[i] = geometric_normal(scene, t) == Vec3(0) ? Triangle{{v[0], v[0], v[0]}} : scene.triangle[t];
+    }
     if (id == kMasked) {
       rtcSetGeometryUserData(geometry, this);
       rtcSetGeometryIntersectFilterFunction(geometry, filter);
