@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 
@@ -17,6 +18,7 @@ namespace {
 
 /// Frames of a piece, besides its first, whose view is looked at for places.
 constexpr std::int64_t kLooks = 4;
+constexpr std::int64_t kStillLooks = 100;  // of a film without change
 /// A middle estimate that misses what is interpolated by less than this share of the accuracy is not kept: it
 /// would tell of noise.
 constexpr double kWorthKeeping = 0.125;
@@ -71,6 +73,13 @@ void FilmMaker::run(const std::function<void(std::int64_t)>& done) {
   }
 }
 
+void FilmMaker::still() {
+  std::vector<std::int64_t> looks;
+  const std::int64_t step = std::max<std::int64_t>(1, survey_.frames.count() / kStillLooks);
+  for (std::int64_t f = survey_.frames.first; f <= survey_.frames.last; f += step) looks.push_back(f);
+  place_at(survey_.frames.first, looks);
+}
+
 /// Frames [begin, end] of a shot; the frame `end` belongs to the next piece too, unless it is the shot's
 /// last.
 void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& shot) {
@@ -117,7 +126,8 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std
   std::vector<std::size_t> wanted;
   const std::size_t first_new = chains_.size();
   if (task_.placement.place == Place::view) {
-    VisiblePlaces places(light, cache, task_.placement, task_.wanted, kFilmItems + next_number_);
+    VisiblePlaces places(light, cache, task_.placement, task_.wanted, task_.unwanted,
+                         kFilmItems + next_number_);
     for (const std::int64_t f : looks) places.look(lights_.scene_at(f));
     report_.sites += places.sites();
     next_number_ += static_cast<std::uint32_t>(places.open().size());
@@ -156,6 +166,7 @@ std::vector<std::size_t> FilmMaker::add_chains(std::int64_t frame, const std::ve
   } else {
     PlacementSource source;
     source.wanted = task_.wanted;
+    if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
     if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
     placed = place(cache, estimator, light.rays(), task_.records, task_.placement, source, counters_);
   }
@@ -269,13 +280,9 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
   return missed2 <= allowed * allowed + 6 * noise2;
 }
 
-FilmReport FilmMaker::report(const FilmInfo& info) const {
+FilmReport FilmMaker::report() const {
   FilmReport report = report_;
-  report.chains = chains_.size(), report.frames_with_light = lights_.made();
-  (void)info;
-  for (const Chain& c : chains_)
-    for (const Key& k : c.keys)
-      if (k.until > k.frame) ++report.records, ++report.lives[k.until - k.frame];
+  report.frames_with_light = lights_.made();
   return report;
 }
 

@@ -50,6 +50,7 @@ struct FilmTask {
   PlacementOptions placement;
   MaterialFilter wanted;  ///< empty: diffuse surfaces
   std::function<const Estimator&(FrameLight&)> estimator;
+  MaterialFilter unwanted{};  ///< of those, not these; empty: all
 };
 
 class FilmMaker {
@@ -62,10 +63,17 @@ class FilmMaker {
   void resume(std::vector<Chain> chains, std::int64_t done);
   /// All frames. After each piece that is whole, `done(frame)`: chains() are those of the film up to it.
   void run(const std::function<void(std::int64_t frame)>& done = {});
+  /// For a film in which no light changes: what its frames need, at the first.
+  void still();
   const std::vector<Chain>& chains() const { return chains_; }
+  std::vector<Chain> take_chains() { return std::move(chains_); }
+  /// Chains are numbered from here on.
+  void number_from(std::uint32_t first) { next_number_ = first; }
+  std::uint32_t next_number() const { return next_number_; }
   /// Relative changes count against at least this, lx (F3).
   double floor_lx() const { return floor_; }
-  FilmReport report(const FilmInfo& info) const;
+  /// All but what chains tell themselves (chains, records, lives).
+  FilmReport report() const;
 
  private:
   struct Segment {

@@ -26,6 +26,7 @@ VisiblePlaces::VisiblePlaces(const FrameLight& light, const IrradianceCache& kno
       known_(known),
       placement_(placement),
       wanted_(wanted),
+      unwanted_(unwanted),
       next_item_(first_item),
       tree_(light.scene().bounds, reading_accuracy(known.accuracy)),
       in_sight_(known.records.size(), false) {
@@ -52,9 +53,12 @@ void VisiblePlaces::look(const FrameScene& at) {
         for (std::size_t i = begin; i < end; ++i) candidates.sites(i, sites);
         part.sites = sites.size();
         for (RecordSite& site : sites) {
-          if (!still) {
+          if (!still || unwanted_) {
             const Anchor anchor = anchor_at(at.rays, site.position, site.normal);
             if (anchor.triangle == kNoTriangle) continue;
+            if (unwanted_ &&
+                unwanted_(at.scene.instance[at.scene.triangle_instance[anchor.triangle]].material))
+              continue;
             if (since.moved[at.scene.triangle_instance[anchor.triangle]]) {
               const std::optional<Pose> then = pose_of(at.scene, anchor),
                                         now = pose_of(light_.scene(), anchor);

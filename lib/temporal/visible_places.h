@@ -14,9 +14,9 @@ class VisiblePlaces {
  public:
   /// `known`: records there; sites that none of them covers are open, and those that pictures read (see
   /// reading_accuracy) are in sight. Open sites are numbered from `first_item`. `wanted` empty: diffuse
-  /// surfaces. Holds references.
+  /// surfaces; but not `unwanted` ones. Holds references.
   VisiblePlaces(const FrameLight& light, const IrradianceCache& known, const PlacementOptions& placement,
-                const MaterialFilter& wanted, std::uint64_t first_item);
+                const MaterialFilter& wanted, const MaterialFilter& unwanted, std::uint64_t first_item);
   void look(const FrameScene& at);
 
   const std::vector<RecordSite>& open() const { return open_; }
@@ -27,7 +27,7 @@ class VisiblePlaces {
   const FrameLight& light_;
   const IrradianceCache& known_;
   const PlacementOptions& placement_;
-  const MaterialFilter& wanted_;
+  const MaterialFilter &wanted_, &unwanted_;
   std::uint64_t next_item_;
   RecordTree tree_;
   std::vector<RecordSite> open_;

@@ -1,0 +1,14 @@
+// What phos-temporal tells of a film.
+#pragma once
+
+#include "file/tool.h"
+#include "temporal/make_film.h"
+
+namespace phos {
+
+/// Before the work: frames, cuts, what moves; that nothing changes.
+void tell_of_film(Tool& tool, const FilmJob& job);
+/// After it: records, lives, cost; also as figures for --stats.
+void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& report);
+
+}  // namespace phos

@@ -1,0 +1,45 @@
+// From a scene and options to the records of a film.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cache/brdf_table.h"
+#include "cache/gloss_tables.h"
+#include "temporal/film_maker.h"
+
+namespace phos {
+
+/// What a film is made from.
+struct FilmJob {
+  FilmSurvey survey;
+  FilmOptions options;
+  LightOptions light;  ///< resolved
+  PlacementOptions placement;
+  GlossTables gloss;         ///< lobes that radiance records serve
+  bool of_radiance = false;  ///< make radiance records, where gloss wants them; else irradiance records
+  bool covered_by_radiance = false;  ///< what radiance records serve gets no irradiance records
+};
+
+/// What gathered rays read where they land: coarse records from photons traced every source_life frames.
+Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters);
+/// Do gathered rays read one?
+bool needs_source(const FilmJob& job);
+
+/// The chains of a film, and what it took to make them.
+struct FilmChains {
+  std::vector<Chain> chains;
+  FilmReport report;
+};
+/// `source` may be null where none is needed.
+FilmChains make_chains(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters);
+
+/// For a film in which no light changes: the records of its first frame that all of its frames need.
+std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters,
+                            FilmReport& report);
+
+/// What the film's file says of it.
+FilmInfo info_of(const FilmJob& job);
+
+}  // namespace phos

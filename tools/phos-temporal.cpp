@@ -1,0 +1,170 @@
+// phos-temporal: an animated scene -> records that live through its frames.
+#include "cache/gloss_report.h"
+#include "file/tool.h"
+#include "scene/load.h"
+#include "splat/irradiance_inputs.h"
+#include "temporal/film_report.h"
+#include "temporal/make_film.h"
+
+using namespace phos;
+
+namespace {
+
+enum class Kind { irradiance, radiance };
+
+/// View, photons or surface: places come from the scene itself.
+void resolve_places(PlacementOptions& placement, const Scene& scene) {
+  if (placement.place == Place::automatic) placement.place = Place::view;
+  if (placement.place == Place::given || placement.place == Place::every)
+    throw Error(ExitCode::usage, "--place",
+                "given and every read points, which films do not; give view, photons or surface");
+  PlacementSource own;
+  const PhotonMap traced = PhotonMap::build({}, {});
+  own.photons = &traced;  // there will be some
+  resolve(placement, scene, own);
+}
+
+/// The .brdf file among the inputs, if there is one, of these materials.
+std::vector<BrdfTable> lobes_of(const IrradianceFiles& files, const Scene& scene) {
+  if (files.brdf.empty()) return {};
+  const Container file = Container::open(files.brdf, "brdf");
+  require_same_scene(file, files.scene, scene.hash, scene.parts);
+  return read_brdf(file);
+}
+
+void refuse_inputs(const IrradianceFiles& files) {
+  const auto refuse = [](const std::string& path, const char* what) {
+    if (!path.empty()) throw Error(ExitCode::usage, path, what);
+  };
+  refuse(files.photons, "holds photons of one time; phos-temporal traces its own (--photons): leave it out");
+  refuse(files.source, "is an irradiance cache, which phos-temporal does not read; leave it out");
+}
+
+/// Records of a radiance film are made as phos-radiance makes them, unless options say otherwise.
+RadianceOptions radiance_options(const RecordOptions& given, const Options& options) {
+  RadianceOptions r;
+  const RecordOptions defaults = r.records;
+  r.records = given;
+  if (!options.given("rays")) r.records.rays = defaults.rays;
+  if (!options.given("accuracy")) r.records.accuracy = defaults.accuracy;
+  r.records.gradients = defaults.gradients;
+  return r;
+}
+
+IrradianceCache still_cache(const FilmJob& job, const std::vector<Key>& keys) {
+  IrradianceCache cache;
+  cache.accuracy = job.light.records.accuracy, cache.scene_hash = job.survey.scene_hash.front();
+  for (const Key& k : keys) cache.records.push_back(k.record);
+  return cache;
+}
+
+RadianceCache still_radiance(const FilmJob& job, const std::vector<Key>& keys) {
+  RadianceCache cache;
+  cache.accuracy = job.light.radiance.records.accuracy, cache.scene_hash = job.survey.scene_hash.front();
+  for (const Key& k : keys) {
+    cache.records.push_back(*k.radiance);
+    cache.records.back().radius_m = k.record.radius_m;
+  }
+  return cache;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("phos-temporal", "places records that live through the frames of an animation",
+            "Objects, lamps and the camera move: records are anchored to the surfaces that they lie on, and "
+            "the light at "
+            "each is computed at as few frames as its change allows, with the same random numbers at all of "
+            "them. Between "
+            "these frames phos-splat --frames (or --frame) interpolates. Photons are traced here, where they "
+            "are needed, for "
+            "the frames that need them. Places that the camera no longer sees are given up. A scene in which "
+            "no light "
+            "changes gives an ordinary cache. Inputs, in any order: a scene; for radiance records its .brdf "
+            "file (else "
+            "lobes are projected here); and for irradiance records the radiance film of the same frames, "
+            "whose surfaces then "
+            "get none of their own.",
+            1);
+  std::vector<std::string> paths;
+  std::string frames, isa;
+  SceneOptions scene_options;
+  FilmJob job;
+  Kind kind = Kind::irradiance;
+  GlossBy gloss = GlossBy::automatic;
+  RecordOptions& records = job.light.records;
+  records.estimate = Estimate::gather;
+  job.placement.place = Place::view;
+  Options& options = tool.options();
+  options.inputs("SCENE [BRDF] [RADIANCE]", paths,
+                 "animated scene (.glb, .gltf); its .brdf file; a radiance film");
+  declare_frames(options, frames);
+  options.choice<Kind>("kind", kind, {{"irradiance", Kind::irradiance}, {"radiance", Kind::radiance}},
+                       "of records: irradiance for diffuse surfaces, radiance for glossy ones");
+  declare_options(options, job.options);
+  declare_options(options, scene_options);
+  declare_options(options, gloss);
+  declare_options(options, records);
+  declare_place_options(options, job.placement);
+  declare_isa(options, isa);
+  options.example("phos-temporal room.glb --frames 0:199 -o room.irradiance",
+                  "200 frames of what the first camera sees");
+  options.example("phos-splat room.glb room.irradiance --frames 0:199 -o room/%04d.exr", "their pictures");
+  options.example("phos-temporal room.glb --frames 0:199 --kind radiance -o room.radiance",
+                  "the same for what is glossy there");
+
+  return tool.run(argc, argv, [&] {
+    const FrameRange range = parse_frames(frames);
+    const IrradianceFiles files = sort_inputs(paths);
+    add_inputs(tool, files, scene_options);
+    refuse_inputs(files);
+    job.options.resolve(options);
+    if (tool.up_to_date()) return;
+
+    {
+      const auto timer = tool.time("survey");
+      job.survey = survey(files.scene, scene_options, range);
+    }
+    FrameScenes scenes(files.scene, scene_options, isa);
+    const std::shared_ptr<const FrameScene> first = scenes.at(range.first);
+    job.of_radiance = kind == Kind::radiance;
+    job.light.radiance = radiance_options(records, options);
+    records.resolve(first->scene.bounds.diagonal_m());
+    job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());
+    job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
+    resolve_places(job.placement, first->scene);
+    job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
+    if (job.of_radiance || job.covered_by_radiance)
+      job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), gloss, {}, tool.counters());
+    tell_of_film(tool, job);
+
+    Film source;
+    if (needs_source(job)) {
+      const auto timer = tool.time("source");
+      source = make_source(job, scenes, tool.counters());
+      tool.stat("source_records", source.records.size());
+    }
+    const auto timer = tool.time("records");
+    const Film* read = needs_source(job) ? &source : nullptr;
+    const auto provenance = [&] {
+      return tool.provenance(job.of_radiance ? "radiance" : "irradiance", first->scene.hash,
+                             first->scene.parts);
+    };
+    FilmReport report;
+    if (!job.survey.light_changes) {
+      const std::vector<Key> keys = make_still(job, scenes, read, tool.counters(), report);
+      if (job.of_radiance)
+        write_radiance(tool.output(), still_radiance(job, keys), provenance());
+      else
+        write_irradiance(tool.output(), still_cache(job, keys), provenance());
+    } else {
+      const FilmChains made = make_chains(job, scenes, read, tool.counters());
+      report = made.report;
+      if (job.of_radiance)
+        write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
+      else
+        write_film(tool.output(), film_of(made.chains, info_of(job)), provenance());
+    }
+    tell_of_records(tool, job, report);
+  });
+}
