@@ -21,7 +21,7 @@ struct Seen {
 
 VisiblePlaces::VisiblePlaces(const FrameLight& light, const IrradianceCache& known,
                              const PlacementOptions& placement, const MaterialFilter& wanted,
-                             std::uint64_t first_item)
+                             const MaterialFilter& unwanted, std::uint64_t first_item)
     : light_(light),
       known_(known),
       placement_(placement),
