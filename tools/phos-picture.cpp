@@ -1,9 +1,10 @@
 // phos-picture: makes a picture for people from an image of light, or a plot from a table.
 #include "file/atomic_file.h"
+#include "file/frames.h"
 #include "file/tool.h"
 #include "image/csv_plot.h"
-#include "image/layer_picture.h"
-#include "image/metrics.h"
+#include "image/show.h"
+#include "image/video.h"
 
 namespace phos {
 namespace {
@@ -13,7 +14,11 @@ constexpr const char* kDescription =
     "default the light is tone mapped: the log-average luminance becomes a middle grey, the brightest half "
     "per cent becomes white, colours keep their hue. --false-colour shows luminance (cd/m2) or illuminance "
     "(lx) as colours, with a legend. Pixels that are not finite are magenta, and counted in a warning. From "
-    "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG.";
+    "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG. With "
+    "--frames "
+    "every frame of a sequence is shown with one exposure, that of the first which is not black, as pictures "
+    "or, "
+    "where ffmpeg is installed, as a video (.mp4, .mkv, .webm).";
 
 /// The name says what is written, the content of the input what can be.
 void check_output(const std::string& output, const std::string& input, bool image) {
@@ -44,60 +49,53 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
   }
 }
 
-std::size_t write_hdr_layer(const std::string& path, const Image& image, const std::string& layer) {
-  const std::vector<Rgb> colours = layer_colours(image, layer);
-  Image out(image.width(), image.height());
-  out.attributes = image.attributes;
-  out.set_rgb("", colours);
-  write_hdr(path, out);
-  std::size_t non_finite = 0;
-  for (const Rgb& c : colours) non_finite += is_finite(c) ? 0 : 1;
-  return non_finite;
-}
-
-void show_image(Tool& tool, const Image& image, const std::string& input, const LayerPictureOptions& p) {
-  const bool hdr = tool.output().ends_with(".hdr");
-  std::size_t non_finite = 0;
-  if (hdr) {
-    non_finite = write_hdr_layer(tool.output(), image, layer_from_label(p.layer));
-  } else {
-    const ToneMapped shown = layer_picture(image, p);
-    write_png(tool.output(), shown.picture);
-    non_finite = shown.non_finite;
-    if (tool.verbose() && !p.false_colour)
-      tool.say(
-          text("log-average luminance ", shown.key_cd_m2, " cd/m2, white ", shown.white_cd_m2, " cd/m2"));
-  }
-  if (non_finite == 0) return;
-  tool.counters().count("non-finite pixel", non_finite);
-  tool.warn(text(input, ": ", non_finite, " of ", image.pixels(), " pixels are not finite; they are ",
-                 hdr ? "black" : "magenta"));
+void check_usage(const Options& options, const std::string& output, const PictureSequence& s,
+                 bool false_colour) {
+  const auto refuse = [](const char* option, const std::string& why) {
+    throw Error(ExitCode::usage, option, why);
+  };
+  const bool video = is_video(output);
+  if (!output.ends_with(".png") && !output.ends_with(".hdr") && !output.ends_with(".svg") && !video)
+    refuse("--output", "the name must end in .png, .hdr or .svg, or for a video in .mp4, .mkv or .webm");
+  if (false_colour && output.ends_with(".hdr"))
+    refuse("--false-colour", "false colours need an output that ends in .png");
+  if (video && s.frames.empty()) refuse("--output", "a video is made of frames: --frames 0:47");
+  if (!video && s.frames_per_s) refuse("--fps", "is of videos: -o film.mp4");
+  if (s.frames.empty()) return;
+  if (const std::string option = given_plot_option(options); !option.empty() || output.ends_with(".svg"))
+    refuse("--frames", "is for images, not for plots; leave it out");
 }
 
 int main_of_tool(int argc, const char* const* argv) {
   Tool tool("phos-picture", "makes a picture from an image of light, or a plot from a table", kDescription,
             1);
   tool.output_has_no_key();
-  std::string input;
+  PictureSequence sequence;
+  const std::string& input = sequence.input;
   LayerPictureOptions picture;
   CsvPlotOptions plot;
   Options& options = tool.options();
-  options.input("INPUT", input, "OpenEXR, Radiance .hdr, or a table (CSV)");
+  options.input("INPUT", sequence.input,
+                "OpenEXR, Radiance .hdr, or a table (CSV); with --frames, a folder or a name with %04d");
   declare_options(options, picture);
+  options.section("Sequences");
+  declare_frames(options, sequence.frames);
+  options.number("fps", sequence.frames_per_s, "N",
+                 "frames a second of a video; else as the images say, else 24", kPositive);
   declare_options(options, plot);
   options.example("phos-picture room.exr -o room.png", "as a camera would see it");
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
                   "lux on every surface");
+  options.example("phos-picture film/%04d.exr --frames 0:99 -o film.mp4",
+                  "a video (ffmpeg makes it), exposed as its first frame");
   options.example(
       "phos-picture errors.csv --x seconds --y rmse --series method --log-x --log-y -o errors.svg",
       "a line for each method");
 
   return tool.run(argc, argv, [&] {
     const std::string& output = tool.output();
-    if (!output.ends_with(".png") && !output.ends_with(".hdr") && !output.ends_with(".svg"))
-      throw Error(ExitCode::usage, "--output", "the name must end in .png, .hdr or .svg");
-    if (picture.false_colour && output.ends_with(".hdr"))
-      throw Error(ExitCode::usage, "--false-colour", "false colours need an output that ends in .png");
+    check_usage(options, output, sequence, picture.false_colour);
+    if (!sequence.frames.empty()) return show_sequence(tool, sequence, picture);
     require_writable(output);
     tool.add_input("input", input);
     const std::string bytes = read_text(input);
@@ -110,7 +108,7 @@ int main_of_tool(int argc, const char* const* argv) {
     check_output(output, input, true);
     if (const std::string option = given_plot_option(options); !option.empty())
       throw Error(ExitCode::usage, "--" + option, text("is for tables; ", input, " is an image"));
-    show_image(tool, image, input, picture);
+    if (const auto shown = show_image(tool, image, input, output, picture)) write_png(output, *shown);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "image/image_provenance.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "scene/film.h"
 #include "scene/load.h"
 
 namespace {
@@ -53,6 +54,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   tool.stat("samples", picture.image.pixels() * static_cast<std::uint64_t>(picture.samples));
   tool.stat("samples a pixel", picture.samples);
   tool.stat("error", picture.error);
+  if (!scene.animation.empty()) picture.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
   set_provenance(picture.image, tool.provenance("image", scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
   picture.image.attributes["phos.error"] = shortest(picture.error);
@@ -87,6 +89,8 @@ int main(int argc, char** argv) {
   options.input("SCENE", scene_path, "glTF or OBJ scene");
   declare_options(options, reference);
   declare_options(options, scene_options);
+  tool.takes_frames(scene_options.frame);
+  tool.fresh_each_frame(reference);
   options.section("Points");
   options.file(
       "points", points_path,
@@ -97,6 +101,8 @@ int main(int argc, char** argv) {
   options.example("phos-reference room.glb --bounces 1 -o direct.exr", "direct light only");
   options.example("phos-reference room.glb --points desk.csv --samples 65536",
                   "lux at sensor points, to stdout");
+  options.example("phos-reference film.glb --frames 0:99 --samples 256 --reuse -o film/%04d.exr",
+                  "an animation; frames that are there already are left");
 
   return tool.run(argc, argv, [&] {
     if (points_path.empty() && tool.output().empty())
@@ -115,6 +121,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    if (const auto frames = tool.frames()) require_frames(scene, *frames);
     if (points_path.empty()) resolve_size(reference, find_camera(scene, reference.camera));
     if (scene.light.empty()) tool.warn("the scene has no light: everything will be black");
     const RayScene rays(scene);

@@ -22,6 +22,8 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   void write(std::string_view s) { write(std::as_bytes(std::span(s.data(), s.size()))); }
   void commit();
+  /// The file beside `path`, for another program to write; "" where `path` is written directly.
+  const std::string& temporary() const { return temporary_; }
 
  private:
   std::string path_, temporary_;

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cstddef>
+#include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "core/error.h"
@@ -19,6 +21,33 @@ std::int64_t whole(std::string_view digits, const std::string& frames) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
   if (error != std::errc() || end != digits.data() + digits.size()) refuse(frames);
   return n;
+}
+
+/// A file's name as a pattern; "" for a name without a number before its ending, or of another kind.
+std::string pattern_of(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || (name.substr(dot) != ".exr" && name.substr(dot) != ".hdr")) return "";
+  std::size_t begin = dot;
+  while (begin > 0 && name[begin - 1] >= '0' && name[begin - 1] <= '9') --begin;
+  if (begin == dot) return "";
+  std::string pattern;
+  for (const char c : name.substr(0, begin)) pattern += c == '%' ? "%%" : std::string(1, c);
+  const std::size_t digits = dot - begin;
+  const bool padded = name[begin] == '0' && digits > 1;
+  return pattern + (padded ? text("%0", digits, "d") : "%d") + name.substr(dot);
+}
+
+/// 0999 and 1000 are of one sequence: where there is a padded pattern, the plain one of the same name is it.
+std::set<std::string> patterns_in(const std::filesystem::path& folder) {
+  std::set<std::string> all;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const std::string p = pattern_of(entry.path().filename().string()); !p.empty()) all.insert(p);
+  std::set<std::string> padded;
+  for (const std::string& p : all)
+    if (const std::size_t at = p.rfind("%0"); at != std::string::npos)
+      padded.insert(p.substr(0, at) + "%d" + p.substr(p.rfind('.')));
+  for (const std::string& p : padded) all.erase(p);
+  return all;
 }
 
 }  // namespace
@@ -89,6 +118,22 @@ FramePattern sequence_pattern(const std::string& pattern, const FrameRange& rang
              pattern.substr(0, end), end > slash ? "-" : "", "%04d", pattern.substr(end)));
   }
   return names;
+}
+
+FramePattern existing_sequence(const std::string& path, const FrameRange& range, const std::string& where) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return sequence_pattern(path, range, where);
+  const std::set<std::string> patterns = patterns_in(path);
+  if (patterns.empty())
+    throw Error(ExitCode::bad_input, path,
+                "holds no numbered images (0000.exr); name them as folder/%04d.exr");
+  if (patterns.size() > 1)
+    throw Error(ExitCode::bad_input, path,
+                text("holds several sequences (", *patterns.begin(), ", ", *std::next(patterns.begin()),
+                     "); name one, as folder/", *patterns.begin()));
+  std::string folder;
+  for (const char c : path) folder += c == '%' ? "%%" : std::string(1, c);
+  return {folder + "/" + *patterns.begin(), where};
 }
 
 }  // namespace phos

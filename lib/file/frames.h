@@ -38,4 +38,8 @@ class FramePattern {
 /// would have one name.
 FramePattern sequence_pattern(const std::string& pattern, const FrameRange& range, const std::string& where);
 
+/// The frames that are there already, for reading: `path` itself, or the pattern of the numbered images
+/// (.exr, .hdr) in that folder. Throws Error(bad_input) for a folder without any, or with several sequences.
+FramePattern existing_sequence(const std::string& path, const FrameRange& range, const std::string& where);
+
 }  // namespace phos

@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "image/formats.h"
 #include "image/primaries.h"
@@ -182,6 +183,8 @@ Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes) {
       throw Iex::InputExc("deep pixels cannot be used; flatten the picture");
     read_part(file, i, i > 0 && header.hasName() ? header.name() : "", display, image);
   }
+  if (Imf::hasFramesPerSecond(first) && Imf::framesPerSecond(first).d != 0)
+    image.attributes[kFramesPerSecond] = shortest(static_cast<double>(Imf::framesPerSecond(first)));
   for (auto a = first.begin(); a != first.end(); ++a)
     if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
       image.attributes[a.name()] = s->value();
@@ -221,6 +224,8 @@ std::string encode_exr(const Image& image, ExrCompression compression) {
   Imf::addWhiteLuminance(header, 1.0f);
   const auto xy = [](const Vec2& v) { return Imath::V2f(v.x, v.y); };
   Imf::addChromaticities(header, {xy(kRec709.red), xy(kRec709.green), xy(kRec709.blue), xy(kRec709.white)});
+  if (const std::optional<double> rate = frames_per_s(image))
+    Imf::addFramesPerSecond(header, Imf::Rational(*rate));
   for (const auto& [name, value] : image.attributes)
     if (header.find(name) == header.end()) header.insert(name, Imf::StringAttribute(value));
   Imf::FrameBuffer buffer;

@@ -1,5 +1,8 @@
 #include "image/image.h"
 
+#include <charconv>
+#include <cmath>
+
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "image/formats.h"
@@ -22,6 +25,17 @@ std::span<float> Image::channel(const std::string& name) {
   std::vector<float>& values = channels_[name];
   values.resize(pixels());
   return values;
+}
+
+std::optional<double> frames_per_s(const Image& image) {
+  const auto found = image.attributes.find(kFramesPerSecond);
+  if (found == image.attributes.end()) return std::nullopt;
+  const std::string& s = found->second;
+  double rate = 0;
+  const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), rate);
+  if (error != std::errc() || end != s.data() + s.size() || !(rate > 0) || !std::isfinite(rate))
+    return std::nullopt;
+  return rate;
 }
 
 std::string channel_name(const std::string& layer, const std::string& component) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,13 +38,18 @@ class Image {
   /// Layers that have R, G and B; "" first.
   std::vector<std::string> layers() const;
 
-  /// Text attributes (provenance in EXR).
+  /// Text attributes (provenance in EXR; kFramesPerSecond).
   std::map<std::string, std::string> attributes;
 
  private:
   int width_ = 0, height_ = 0;
   std::map<std::string, std::vector<float>> channels_;
 };
+
+/// Attribute of the frames of an animation: how many are shown each second. EXR has a number of that name.
+inline constexpr const char* kFramesPerSecond = "framesPerSecond";
+/// That rate; nothing if it is absent or not above 0.
+std::optional<double> frames_per_s(const Image& image);
 
 /// "R" for layer "", else "layer.R".
 std::string channel_name(const std::string& layer, const std::string& component);

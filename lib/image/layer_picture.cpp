@@ -1,5 +1,6 @@
 #include "image/layer_picture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/metrics.h"
@@ -13,16 +14,25 @@ std::string title_of(const std::string& layer) {
   return layer == "illuminance" || layer_unit(layer) != "cd/m2" ? layer : "luminance, " + layer;
 }
 
+FalseColourRange range_of(std::span<const float> values, const std::string& unit,
+                          const LayerPictureOptions& p) {
+  const bool log = p.scale == ScaleChoice::automatic ? unit == "cd/m2" : p.scale == ScaleChoice::logarithmic;
+  return false_colour_range(values, log ? Scale::logarithmic : Scale::linear, p.min, p.max);
+}
+
 ToneMapped false_colours(const Image& image, const std::string& layer, const LayerPictureOptions& p) {
   const std::vector<float> values = layer_values(image, layer);
   const std::string unit = layer_unit(layer);
-  const bool log = p.scale == ScaleChoice::automatic ? unit == "cd/m2" : p.scale == ScaleChoice::logarithmic;
-  const FalseColourRange range =
-      false_colour_range(values, log ? Scale::logarithmic : Scale::linear, p.min, p.max);
   ToneMapped out;
-  out.picture = false_colour(values, image.width(), image.height(), range, p.palette, title_of(layer), unit);
+  out.picture = false_colour(values, image.width(), image.height(), range_of(values, unit, p), p.palette,
+                             title_of(layer), unit);
   for (const float v : values) out.non_finite += std::isfinite(v) ? 0 : 1;
   return out;
+}
+
+/// Is the layer one of directions, which are colours as they are?
+bool has_directions(const Image& image, const std::string& layer) {
+  return image.has(channel_name(layer, "X"));
 }
 
 }  // namespace
@@ -32,6 +42,8 @@ void declare_options(Options& o, LayerPictureOptions& p) {
   o.section("Tone mapping");
   o.number("exposure", p.tone.exposure_ev, "EV", "stops brighter than automatic", {-60, 60});
   o.number("white", p.tone.white_cd_m2, "CD/M2", "luminance that becomes white; else the 99.5th percentile",
+           kPositive);
+  o.number("key", p.tone.key_cd_m2, "CD/M2", "luminance that becomes a middle grey; else the log average",
            kPositive);
   o.choice<ToneOperator>("operator", p.tone.curve,
                          {{"reinhard", ToneOperator::reinhard},
@@ -67,11 +79,27 @@ std::vector<Rgb> layer_colours(const Image& image, const std::string& layer) {
   return colours;
 }
 
+LayerPictureOptions fixed_exposure(const Image& image, const LayerPictureOptions& p) {
+  const std::string layer = layer_from_label(p.layer);
+  LayerPictureOptions fixed = p;
+  if (!p.false_colour) {
+    if (!has_directions(image, layer)) fixed.tone = fixed_exposure(layer_colours(image, layer), p.tone);
+    return fixed;
+  }
+  const std::vector<float> values = layer_values(image, layer);
+  if (std::none_of(values.begin(), values.end(), [](float v) { return std::isfinite(v) && v != 0; }))
+    return fixed;
+  const FalseColourRange range = range_of(values, layer_unit(layer), p);
+  fixed.min = range.lo, fixed.max = range.hi;
+  return fixed;
+}
+
 ToneMapped layer_picture(const Image& image, const LayerPictureOptions& p) {
   const std::string layer = layer_from_label(p.layer);
   if (p.false_colour) return false_colours(image, layer, p);
-  const bool directions = image.has(channel_name(layer, "X"));
-  const ToneOptions tone = directions ? ToneOptions{ToneOperator::linear, p.tone.exposure_ev, 1.0} : p.tone;
+  const ToneOptions tone = has_directions(image, layer)
+                               ? ToneOptions{ToneOperator::linear, p.tone.exposure_ev, 1.0, std::nullopt}
+                               : p.tone;
   return tone_map(layer_colours(image, layer), image.width(), image.height(), tone);
 }
 

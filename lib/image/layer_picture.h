@@ -27,6 +27,10 @@ void declare_options(Options& options, LayerPictureOptions& picture);
 /// Error(bad_input) for a layer that is absent.
 std::vector<Rgb> layer_colours(const Image& image, const std::string& layer);
 
+/// The options with what is automatic as it is for this image, so that every frame of a sequence is shown
+/// alike; as they are where the image is black.
+LayerPictureOptions fixed_exposure(const Image& image, const LayerPictureOptions& options);
+
 /// Tone mapped (directions: linear, white 1), or in false colours, which count in `non_finite` alone.
 ToneMapped layer_picture(const Image& image, const LayerPictureOptions& options);
 

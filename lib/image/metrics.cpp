@@ -22,46 +22,6 @@ std::string list(const std::vector<std::string>& layers) {
   return s.empty() ? "none" : s;
 }
 
-std::vector<std::string> common_layers(const Image& image, const Image& reference,
-                                       const CompareOptions& options) {
-  if (image.width() != reference.width() || image.height() != reference.height())
-    throw Error(ExitCode::mismatch, "",
-                text("the image is ", image.width(), " x ", image.height(), " pixels and the reference ",
-                     reference.width(), " x ", reference.height(), "; render both at one size"));
-  const std::vector<std::string> ours = all_layers(image);
-  std::vector<std::string> both;
-  for (const std::string& layer : ours)
-    if (components_of(image, layer) == components_of(reference, layer)) both.push_back(layer);
-  if (both.empty())
-    throw Error(
-        ExitCode::mismatch, "",
-        text("no common layer (image: ", list(ours), "; reference: ", list(all_layers(reference)), ")"));
-  if (options.layers.empty()) return both;
-  std::vector<std::string> wanted;
-  for (const std::string& label : options.layers) {
-    const std::string layer = layer_from_label(label);
-    if (std::find(both.begin(), both.end(), layer) == both.end())
-      throw Error(ExitCode::mismatch, "",
-                  text("layer \"", label, "\" is not in both images; common are: ", list(both)));
-    if (std::find(wanted.begin(), wanted.end(), layer) == wanted.end()) wanted.push_back(layer);
-  }
-  std::sort(wanted.begin(), wanted.end());
-  return wanted;
-}
-
-/// 1 where a pixel counts.
-std::vector<char> emission_mask(const Image& image, const Image& reference, bool ignore_emission) {
-  std::vector<char> mask(reference.pixels(), 1);
-  if (!ignore_emission) return mask;
-  const Image& source = reference.has_layer("emission") ? reference : image;
-  if (!source.has_layer("emission"))
-    throw Error(ExitCode::mismatch, "--ignore-emission",
-                "neither image has the layer emission; leave the option out");
-  const std::vector<Rgb> emission = source.rgb("emission");
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = emission[i] == Rgb(0) ? 1 : 0;
-  return mask;
-}
-
 /// Clears what is not finite in either image, and says how many pixels that was.
 std::size_t leave_out_non_finite(const Image& image, const Image& reference, const std::string& layer,
                                  const std::vector<std::string>& components, std::vector<char>& counts) {
@@ -211,6 +171,45 @@ std::vector<std::string> all_layers(const Image& image) {
       layers.insert(name);
   }
   return {layers.begin(), layers.end()};
+}
+
+std::vector<std::string> common_layers(const Image& image, const Image& reference,
+                                       const CompareOptions& options) {
+  if (image.width() != reference.width() || image.height() != reference.height())
+    throw Error(ExitCode::mismatch, "",
+                text("the image is ", image.width(), " x ", image.height(), " pixels and the reference ",
+                     reference.width(), " x ", reference.height(), "; render both at one size"));
+  const std::vector<std::string> ours = all_layers(image);
+  std::vector<std::string> both;
+  for (const std::string& layer : ours)
+    if (components_of(image, layer) == components_of(reference, layer)) both.push_back(layer);
+  if (both.empty())
+    throw Error(
+        ExitCode::mismatch, "",
+        text("no common layer (image: ", list(ours), "; reference: ", list(all_layers(reference)), ")"));
+  if (options.layers.empty()) return both;
+  std::vector<std::string> wanted;
+  for (const std::string& label : options.layers) {
+    const std::string layer = layer_from_label(label);
+    if (std::find(both.begin(), both.end(), layer) == both.end())
+      throw Error(ExitCode::mismatch, "",
+                  text("layer \"", label, "\" is not in both images; common are: ", list(both)));
+    if (std::find(wanted.begin(), wanted.end(), layer) == wanted.end()) wanted.push_back(layer);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  return wanted;
+}
+
+std::vector<char> emission_mask(const Image& image, const Image& reference, bool ignore_emission) {
+  std::vector<char> mask(reference.pixels(), 1);
+  if (!ignore_emission) return mask;
+  const Image& source = reference.has_layer("emission") ? reference : image;
+  if (!source.has_layer("emission"))
+    throw Error(ExitCode::mismatch, "--ignore-emission",
+                "neither image has the layer emission; leave the option out");
+  const std::vector<Rgb> emission = source.rgb("emission");
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = emission[i] == Rgb(0) ? 1 : 0;
+  return mask;
 }
 
 std::vector<LayerMetrics> compare_images(const Image& image, const Image& reference,

@@ -51,6 +51,12 @@ struct CompareOptions {
 std::vector<LayerMetrics> compare_images(const Image& image, const Image& reference,
                                          const CompareOptions& options, const Image* second = nullptr);
 
+/// The layers that `options` ask for, "" for the beauty, in order. Throws as compare_images().
+std::vector<std::string> common_layers(const Image& image, const Image& reference,
+                                       const CompareOptions& options);
+/// 1 where a pixel counts, else 0: --ignore-emission. Throws as compare_images().
+std::vector<char> emission_mask(const Image& image, const Image& reference, bool ignore_emission);
+
 /// The layers of compare_images as pixels of `image - reference`; zero where left out, for a difference
 /// picture.
 Image difference_image(const Image& image, const Image& reference, const CompareOptions& options);

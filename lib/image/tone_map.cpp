@@ -64,15 +64,26 @@ Rgb in_gamut(Rgb c, double shown) {
 
 }  // namespace
 
-ToneMapped tone_map(std::span<const Rgb> values, int width, int height, const ToneOptions& options) {
+ToneOptions fixed_exposure(std::span<const Rgb> values, const ToneOptions& options) {
+  if (options.key_cd_m2 && options.white_cd_m2) return options;
   const Levels levels = measure_levels(values);
+  ToneOptions fixed = options;
+  const double key = options.key_cd_m2.value_or(levels.key);
+  if (!(key > 0)) return fixed;
+  fixed.key_cd_m2 = key;
+  // Below 1 relative to the key, Reinhard's curve would darken what is white already.
+  if (!options.white_cd_m2) fixed.white_cd_m2 = std::max(levels.white, key / kMiddleGrey);
+  return fixed;
+}
+
+ToneMapped tone_map(std::span<const Rgb> values, int width, int height, const ToneOptions& options) {
+  const ToneOptions fixed = fixed_exposure(values, options);
   ToneMapped out;
   out.picture = make_picture(width, height, kNotFinite);
-  out.key_cd_m2 = levels.key;
-  out.white_cd_m2 = options.white_cd_m2.value_or(levels.white);
-  const double to_relative = levels.key > 0 ? kMiddleGrey / levels.key : 0.0;
-  // Below 1, Reinhard's curve would darken what is white already.
-  const double white = std::max(out.white_cd_m2 * to_relative, options.white_cd_m2 ? 0.0 : 1.0);
+  out.key_cd_m2 = fixed.key_cd_m2.value_or(0);
+  out.white_cd_m2 = fixed.white_cd_m2.value_or(0);
+  const double to_relative = fixed.key_cd_m2 ? kMiddleGrey / *fixed.key_cd_m2 : 0.0;
+  const double white = out.white_cd_m2 * to_relative;
   const double gain = std::exp2(options.exposure_ev);
   for (const Rgb& v : values) out.non_finite += is_finite(v) ? 0 : 1;
   parallel_for(values.size(), 8192, [&](std::size_t i) {

@@ -1,0 +1,26 @@
+// What phos-picture does with images: one, or the frames of a sequence.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "file/tool.h"
+#include "image/layer_picture.h"
+
+namespace phos {
+
+/// Returns the picture, or writes it where `output` ends in .hdr. Warns of pixels that are not finite;
+/// `input` is their file.
+std::optional<Picture> show_image(Tool& tool, const Image& image, const std::string& input,
+                                  const std::string& output, const LayerPictureOptions& options);
+
+struct PictureSequence {
+  std::string input, frames;           ///< a pattern or a folder, and the range
+  std::optional<double> frames_per_s;  ///< of a video; else as the first image says, else 24
+};
+
+/// Every frame with one exposure, that of the first which is not black: pictures, or a video where the
+/// output's name says so. Throws as show_image(), FramePattern and VideoFile do.
+void show_sequence(Tool& tool, const PictureSequence& sequence, LayerPictureOptions options);
+
+}  // namespace phos
