@@ -54,13 +54,13 @@ std::vector<float> sample_keyframes(const Keyframes& keys, double time_s) {
     if (keys.rotation) make_unit(out);
     return out;
   };
-  const auto after = std::upper_bound(keys.time_s.begin(), keys.time_s.end(), time_s,
-                                      [](double t, float key) { return t < static_cast<double>(key); });
+  // Files have times in float: the key of a frame is met at that frame.
+  const auto after = std::upper_bound(keys.time_s.begin(), keys.time_s.end(), static_cast<float>(time_s));
   if (after == keys.time_s.begin()) return key_value(0);
   const auto k = static_cast<std::size_t>(after - keys.time_s.begin()) - 1;
   if (k + 1 >= n || keys.interpolation == Interpolation::step) return key_value(k);
   const double span_s = static_cast<double>(keys.time_s[k + 1]) - keys.time_s[k];
-  const double t = (time_s - keys.time_s[k]) / span_s;
+  const double t = std::clamp((time_s - keys.time_s[k]) / span_s, 0.0, 1.0);
   std::vector<float> out;
   if (cubic) {
     cubic_into(keys, k, t, span_s, out);
