@@ -128,26 +128,31 @@ void declare_options(Options& options, SensorOptions& s) {
 SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test)
     : leak_test_(leak_test) {
   for (const Container& file : files) {
-    const bool first = empty();
-    bool direct = false;
     if (file.provenance().kind == "radiance") {
-      const IrradianceCache cache = irradiance_of(read_radiance(file));
-      Bounds bounds;
-      for (const IrradianceRecord& r : cache.records) bounds.include(r.position);
-      const double accuracy = reading_accuracy(cache.accuracy);
-      RadianceFile& made = trees_.emplace_back(RadianceFile{accuracy, {bounds, accuracy, leak_test}});
-      for (const IrradianceRecord& r : cache.records) made.tree.insert(r);
-    } else {
-      lookups_.emplace_back(file, leak_test);
-      direct = lookups_.back().records().quantity() == "all";
+      add(irradiance_of(read_radiance(file)), file.path());
+      continue;
     }
-    if (!first && direct != holds_direct_) {
-      throw Error(ExitCode::mismatch, file.path(),
-                  text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
-                       direct ? "indirect" : "all", "; give caches made with the same --paths"));
-    }
-    holds_direct_ = direct;
+    RecordLookup lookup(file, leak_test);
+    require_light(lookup.records().quantity() == "all", file.path());
+    lookups_.push_back(std::move(lookup));
   }
+}
+
+void SensorCaches::add(const IrradianceCache& cache, const std::string& name) {
+  require_light(cache.quantity == "all", name);
+  Bounds bounds;
+  for (const IrradianceRecord& r : cache.records) bounds.include(r.position);
+  const double accuracy = reading_accuracy(cache.accuracy);
+  InMemory& made = trees_.emplace_back(InMemory{accuracy, {bounds, accuracy, leak_test_}});
+  for (const IrradianceRecord& r : cache.records) made.tree.insert(r);
+}
+
+void SensorCaches::require_light(bool direct, const std::string& name) {
+  if (!empty() && direct != holds_direct_)
+    throw Error(ExitCode::mismatch, name,
+                text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
+                     direct ? "indirect" : "all", "; give caches made with the same --paths"));
+  holds_direct_ = direct;
 }
 
 Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
@@ -159,7 +164,7 @@ Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
     sum.weight += part.weight;
   };
   for (const RecordLookup& lookup : lookups_) add(lookup.interpolate(p, n));
-  for (const RadianceFile& file : trees_) add(file.tree.interpolate(p, n));
+  for (const InMemory& cache : trees_) add(cache.tree.interpolate(p, n));
   sum.finish();
   return sum;
 }
@@ -174,8 +179,8 @@ std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   };
   for (const RecordLookup& lookup : lookups_)
     for (std::size_t i = 0; i < lookup.records().size(); ++i) add(lookup.records()[i], lookup.accuracy());
-  for (const RadianceFile& file : trees_)
-    for (const IrradianceRecord& r : file.tree.records()) add(r, file.accuracy);
+  for (const InMemory& cache : trees_)
+    for (const IrradianceRecord& r : cache.tree.records()) add(r, cache.accuracy);
   return tree;
 }
 

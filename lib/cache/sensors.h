@@ -67,6 +67,8 @@ class SensorCaches {
   /// Files of irradiance, or of radiance, whose records hold irradiance too. Throws Error(bad_input) for one
   /// of another kind, Error(mismatch) if one holds all light and another indirect light.
   SensorCaches(std::span<const Container> files, const RayScene* leak_test);
+  /// The same of a cache in memory; `name` is its own in messages.
+  void add(const IrradianceCache& cache, const std::string& name);
   bool empty() const { return lookups_.empty() && trees_.empty(); }
   bool holds_direct() const { return holds_direct_; }
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
@@ -74,12 +76,14 @@ class SensorCaches {
   std::unique_ptr<RecordTree> tree(const Scene& scene) const;
 
  private:
-  struct RadianceFile {
+  struct InMemory {
     double accuracy;  ///< at which it is read
     RecordTree tree;
   };
+  /// Throws unless all hold the same light.
+  void require_light(bool direct, const std::string& name);
   std::vector<RecordLookup> lookups_;
-  std::vector<RadianceFile> trees_;
+  std::vector<InMemory> trees_;
   const RayScene* leak_test_;
   bool holds_direct_ = false;
 };

@@ -53,4 +53,17 @@ RadianceCache read_radiance_at(const Container& file, const Scene& scene) {
   return cache_at(film, frame_of(scene), scene);
 }
 
+SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& scene,
+                              const RayScene* leak_test) {
+  std::vector<Container> caches, films;
+  for (const Container& file : files) (is_film(file) ? films : caches).push_back(file);
+  SensorCaches all(caches, leak_test);
+  for (const Container& film : films) {
+    const bool radiance = film.provenance().kind == "radiance";
+    all.add(radiance ? irradiance_of(read_radiance_at(film, scene)) : read_irradiance_at(film, scene),
+            film.path());
+  }
+  return all;
+}
+
 }  // namespace phos

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "cache/irradiance_cache.h"
 #include "cache/radiance_cache.h"
+#include "cache/sensors.h"
 #include "file/container.h"
 #include "scene/scene.h"
 #include "temporal/film_cache.h"
@@ -22,5 +24,8 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
 /// Of a film, the records of the scene's frame; throws Error(mismatch) where it has no such frame.
 IrradianceCache read_irradiance_at(const Container& file, const Scene& scene);
 RadianceCache read_radiance_at(const Container& file, const Scene& scene);
+/// Files of irradiance and radiance, all looked up together. Throws as the two and SensorCaches do.
+SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& scene,
+                              const RayScene* leak_test);
 
 }  // namespace phos
