@@ -11,6 +11,7 @@
 namespace phos {
 namespace {
 
+constexpr double kMostGrowth = 4;  // of what a hit covers
 constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
 
 /// Turns about z, in [0, 1], to 2e-6 (Abramowitz and Stegun 4.4.47): the same bits on every machine.
@@ -112,14 +113,37 @@ void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t
   }
 }
 
-void set_cell(const Hemisphere& moved, std::size_t cell, std::size_t hit, bool flooded, Hemisphere& ahead) {
-  ahead.direction[cell] = flooded ? middle_of(ahead, cell) : moved.direction[hit];
-  ahead.radiance[cell] = moved.radiance[hit];
-  ahead.distance_m[cell] = moved.distance_m[hit];
-  ahead.hit_normal[cell] = moved.hit_normal[hit];
-  if (flooded && !(glm::dot(ahead.direction[cell], ahead.hit_normal[cell]) < 0))
-    ahead.hit_normal[cell] = -ahead.direction[cell];
+/// What a hit covers of the hemisphere's measure at the second time, in parts of what it covered: cos(theta)
+/// cos(xi) / r^2, the first cosine in projected solid angle alone.
+double growth(const Hemisphere& now, const Hemisphere& moved, std::size_t i, const Vec3& normal) {
+  const auto dot = [](const Vec3& a, const Vec3& b) { return static_cast<double>(glm::dot(a, b)); };
+  double before = 1, after = 1;
+  if (now.measure == Measure::projected)
+    before *= dot(now.direction[i], now.frame.z), after *= dot(moved.direction[i], normal);
+  if (std::isfinite(now.distance_m[i])) {
+    const double nearer = static_cast<double>(now.distance_m[i]) / static_cast<double>(moved.distance_m[i]);
+    before *= -dot(now.direction[i], now.hit_normal[i]);
+    after *= -dot(moved.direction[i], moved.hit_normal[i]) * nearer * nearer;
+  }
+  // At a grazing angle it means little.
+  return before > 0 ? std::clamp(after / before, 0.0, kMostGrowth) : 1;
 }
+
+/// Hits, moved, and the cells that they fall into.
+struct Moved {
+  const Hemisphere& now;
+  std::span<const Hit> hits;
+  const Motion& motion;
+  Hemisphere h;                // by hit
+  std::vector<bool> seen;      // by hit
+  std::vector<double> covers;  // by hit, in cells
+
+  bool goes(std::size_t i) const {
+    return std::isfinite(now.distance_m[i]) && motion.moves(hits[i].triangle);
+  }
+  /// Are these two of surfaces of which one may come to hide the other?
+  bool apart(std::size_t a, std::size_t b) const { return goes(a) != goes(b) || one_hides_other(h, a, b, 0); }
+};
 
 }  // namespace
 
@@ -138,47 +162,69 @@ ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, s
   ahead.resize(n);
   ReprojectionCounts counts{.cells = n};
 
-  Hemisphere moved;
-  moved.resize(n);
-  moved.radiance.assign(radiance.begin(), radiance.end());
-  std::vector<std::size_t> source(n, kNothing);  // per cell: the hit it shows
-  std::vector<bool> seen(n);
+  Moved moved{now, hits, motion, {}, std::vector<bool>(n), std::vector<double>(n, 1)};
+  Hemisphere& h = moved.h;
+  h.resize(n);
+  std::vector<std::size_t> cell_of_hit(n), front(n, kNothing);  // front: by cell, the nearest hit in it
   for (std::size_t i = 0; i < n; ++i) {
-    seen[i] = move(now, hits[i], i, motion, shift_m, moved);
-    std::size_t cell = i;
-    if (turns || moved.direction[i] != now.direction[i]) {
-      const Vec3 local = frame.to_local(moved.direction[i]);
-      seen[i] = seen[i] && local.z > 0;
-      if (seen[i]) cell = cell_of(ahead, local);
+    moved.seen[i] = move(now, hits[i], i, motion, shift_m, h);
+    cell_of_hit[i] = i;
+    if (turns || h.direction[i] != now.direction[i]) {
+      const Vec3 local = frame.to_local(h.direction[i]);
+      moved.seen[i] = moved.seen[i] && local.z > 0;
+      if (!moved.seen[i]) continue;
+      cell_of_hit[i] = cell_of(ahead, local);
+      moved.covers[i] = growth(now, h, i, frame.z);
     }
-    if (!seen[i]) {
-      ++counts.hidden;
-    } else if (source[cell] == kNothing) {
-      source[cell] = i;
-    } else {
-      ++counts.hidden;
-      if (moved.distance_m[i] < moved.distance_m[source[cell]]) source[cell] = i;
-    }
+    if (!moved.seen[i]) continue;
+    std::size_t& nearest = front[cell_of_hit[i]];
+    if (nearest == kNothing || h.distance_m[i] < h.distance_m[nearest]) nearest = i;
   }
 
-  std::vector<bool> empty(n);
-  for (std::size_t cell = 0; cell < n; ++cell) {
-    empty[cell] = source[cell] == kNothing;
-    if (empty[cell]) ++counts.empty;
-  }
-  if (counts.empty > 0) flood(ahead, moved, source);
-  for (std::size_t cell = 0; cell < n; ++cell) {
-    if (source[cell] == kNothing) {  // nothing is known of any cell
-      ahead.direction[cell] = middle_of(ahead, cell), ahead.radiance[cell] = Rgb(0);
-      ahead.distance_m[cell] = kInfinity, ahead.hit_normal[cell] = -ahead.direction[cell];
-      ++counts.holes;
+  // What is seen takes its light to its cell.
+  std::fill(ahead.radiance.begin(), ahead.radiance.end(), Rgb(0));
+  double covered = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t cell = cell_of_hit[i], nearest = moved.seen[i] ? front[cell] : kNothing;
+    if (nearest == kNothing || (nearest != i && moved.apart(i, nearest))) {
+      ++counts.hidden;
       continue;
     }
-    set_cell(moved, cell, source[cell], empty[cell], ahead);
-    if (empty[cell] && (!seen[cell] || one_hides_other(moved, cell, source[cell], 0))) ++counts.holes;
+    ahead.radiance[cell] += radiance[i] * static_cast<float>(moved.covers[i]);
+    covered += moved.covers[i];
   }
+
+  // What is missing came to light in cells that another surface has left.
+  std::vector<std::size_t> source = front, holes;
+  flood(ahead, h, source);
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    if (front[cell] != kNothing) continue;
+    ++counts.empty;
+    const bool known = source[cell] != kNothing;
+    if (!moved.seen[cell] || !known || moved.apart(cell, source[cell]))
+      holes.push_back(cell);
+    else
+      source[cell] = cell;
+  }
+  const auto all = static_cast<double>(n), empty = static_cast<double>(holes.size());
+  counts.holes = std::clamp(all - covered, 0.0, empty);
+  for (const std::size_t cell : holes)
+    if (source[cell] != kNothing)
+      ahead.radiance[cell] = radiance[source[cell]] * static_cast<float>(counts.holes / empty);
+  if (covered > 0 && covered + counts.holes != all) {
+    const auto scale = static_cast<float>(std::min(all / (covered + counts.holes), kMostGrowth));
+    for (Rgb& light : ahead.radiance) light *= scale;
+  }
+
   const float each_sr = kPi / static_cast<float>(n);
   for (std::size_t cell = 0; cell < n; ++cell) {
+    const std::size_t hit = source[cell];
+    const bool fell_in = front[cell] != kNothing;
+    ahead.direction[cell] = fell_in ? h.direction[hit] : middle_of(ahead, cell);
+    ahead.distance_m[cell] = hit == kNothing ? kInfinity : h.distance_m[hit];
+    ahead.hit_normal[cell] = hit == kNothing ? -ahead.direction[cell] : h.hit_normal[hit];
+    if (!fell_in && !(glm::dot(ahead.direction[cell], ahead.hit_normal[cell]) < 0))
+      ahead.hit_normal[cell] = -ahead.direction[cell];
     const bool kept = !turns && ahead.direction[cell] == now.direction[cell];
     const float z = now.measure == Measure::solid ? glm::dot(ahead.direction[cell], frame.z) : 0.5f;
     ahead.projected_sr[cell] = kept ? now.projected_sr[cell] : each_sr * 2 * z;

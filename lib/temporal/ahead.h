@@ -1,0 +1,56 @@
+// What a record will be one frame on, estimated when it is made (thesis 5.2.4).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "cache/estimator.h"
+#include "cache/record_options.h"
+#include "scene/film.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+#include "temporal/film_options.h"
+
+namespace phos {
+
+/// With LookAhead::none, Made::ahead is null. Reprojection is for estimators that sample hemispheres; others
+/// make the next frame's record in full.
+struct AheadOptions {
+  LookAhead look = LookAhead::reproject;
+  double share = 0.125;      ///< of what rays hit, where the lamps are asked again; in (0, 1]
+  double most_holes = 0.03;  ///< of the hemisphere; where more came to light, the next frame is traced (F6)
+};
+
+/// A frame, and the estimator of its records.
+struct FrameEstimator {
+  const Estimator& estimator;
+  const RayScene& rays;
+  const Luminaires& lights;
+};
+
+/// The estimator of one frame that looks one frame ahead. Records are those of `now`, bit for bit; in
+/// Made::ahead is the same place, moved with its surface, at `next`, whose estimator should have the same
+/// seed (and photons the same paths), so that only what changes differs. Where a place's surface is no more,
+/// Made::ahead is null.
+///
+/// By reprojection, light is taken as follows: what was straight from a lamp is looked at again, with lamps
+/// and surfaces of both frames, the same random numbers, and for a share of the hits, each of which speaks
+/// for its neighbours: unbiased, and exactly nothing where nothing changes. All other light stays with what
+/// sends it, which a frame later is nearly right, and free of the noise of another frame's photons. Where
+/// nothing at all changes the record ahead is the record itself: its expected rate is exactly 0.
+class AheadEstimator : public Estimator {
+ public:
+  /// Holds references. `changes` are those between the two frames; `resolved` and `seed` as of `now`.
+  AheadEstimator(const FrameEstimator& now, const FrameEstimator& next, const Changes& changes,
+                 const RecordOptions& resolved, std::uint64_t seed, const AheadOptions& options);
+  ~AheadEstimator() override;
+  std::unique_ptr<Estimator::Worker> make_worker() const override;
+  Made make(const RecordSite& site, Estimator::Worker& worker) const override;
+  bool one_thread() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos
