@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "image/formats.h"
@@ -21,6 +22,26 @@ Image random_image(int width, int height, const std::vector<std::string>& channe
   for (const std::string& name : channels)
     for (float& v : image.channel(name)) v = std::exp(20 * random.uniform() - 10);
   return image;
+}
+
+/// OpenEXR has a rational number for it, which other programs read; here it is text.
+TEST(Exr, FramesPerSecondIsTheStandardAttribute) {
+  const std::string path = test::scratch("frame-rate") + "/a.exr";
+  Image image(2, 2);
+  image.set_rgb("", std::vector<Rgb>(4));
+  EXPECT_FALSE(frames_per_s(image));
+  for (const double rate : {24.0, 12.5, 24000.0 / 1001}) {
+    image.attributes[kFramesPerSecond] = shortest(rate);
+    write_exr(path, image);
+    EXPECT_NEAR(frames_per_s(read_image(path)).value_or(0), rate, 1e-6);
+    EXPECT_NE(test::slurp(path).find(std::string("framesPerSecond\0rational", 24)), std::string::npos);
+  }
+  for (const char* wrong : {"", "fast", "0", "-1", "nan", "inf", "24 fps"}) {
+    image.attributes[kFramesPerSecond] = wrong;
+    EXPECT_FALSE(frames_per_s(image)) << wrong;
+    write_exr(path, image);
+    EXPECT_FALSE(frames_per_s(read_image(path))) << wrong;
+  }
 }
 
 TEST(Image, ChannelsAndLayers) {
