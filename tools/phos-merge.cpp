@@ -58,6 +58,11 @@ int main(int argc, char** argv) {
   tool.options().example("phos-merge a.irradiance b.irradiance -o room.irradiance",
                          "joins the files of --part 1/2 and 2/2");
   return tool.run(argc, argv, [&] {
+    for (const std::string& path : shards)
+      if (records_of(Container::open(path)) == RecordsOf::film)
+        throw Error(
+            ExitCode::usage, path,
+            "is a film, which has no parts; phos-merge joins shards of photons and parts of irradiance");
     const bool irradiance = Container::open(shards.front()).provenance().kind == "irradiance";
     irradiance ? merge_irradiance(tool, shards) : merge_photons(tool, shards);
   });

@@ -6,7 +6,9 @@
 #include "file/atomic_file.h"
 #include "file/tool.h"
 #include "reference/point_irradiance.h"
+#include "scene/film.h"
 #include "scene/load.h"
+#include "temporal/film_inputs.h"
 
 using namespace phos;
 
@@ -94,6 +96,8 @@ int main(int argc, char** argv) {
   options.inputs("SCENE [CACHE]", inputs.paths,
                  "scene (.glb, .gltf, .obj), irradiance and radiance caches of it");
   declare_options(options, scene_options);
+  tool.takes_frames(scene_options.frame);
+  tool.fresh_each_frame(inputs);
   options.section("Sensors");
   options.file(
       "points", inputs.points,
@@ -114,15 +118,19 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     inputs.sort_out();
+    inputs.summary = tool.frame_path(inputs.summary, "--summary");
+    if (tool.frames() && inputs.points == "-")
+      throw Error(ExitCode::usage, "--points", "stdin has no points for several frames; give a file");
     check_usage(options, inputs, sense, exact);
     check(grid, inputs.points);
     tool.add_input("scene", scene_files(inputs.scene, scene_options));
     const Scene scene = load_scene(inputs.scene, scene_options);
+    if (const auto frames = tool.frames()) require_frames(scene, *frames);
     std::vector<Container> files;
     for (const std::string& path : inputs.caches) {
       files.push_back(Container::open(path));
       if (files.back().provenance().kind != "radiance") files.back() = Container::open(path, "irradiance");
-      if (!allow_mismatch) require_same_scene(files.back(), inputs.scene, scene.hash, scene.parts);
+      if (!allow_mismatch) require_same_scene(files.back(), inputs.scene, scene);
     }
     const RayScene rays(scene, {isa});
     const Luminaires lights(scene);
@@ -142,7 +150,8 @@ int main(int argc, char** argv) {
     std::vector<Reading> readings;
     {
       const auto timer = tool.time("read");
-      const SensorCaches caches(files, sense.leak_test == LeakTest::ray ? &rays : nullptr);
+      const SensorCaches caches =
+          sensor_caches_at(files, scene, sense.leak_test == LeakTest::ray ? &rays : nullptr);
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }

@@ -6,11 +6,13 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
+#include "scene/film.h"
 #include "scene/load.h"
 #include "scene/rays.h"
 #include "splat/caches.h"
 #include "splat/picture_gloss.h"
 #include "splat/picture_report.h"
+#include "temporal/film_inputs.h"
 
 namespace {
 
@@ -64,6 +66,8 @@ int main(int argc, char** argv) {
   SceneOptions scene_options;
   declare_options(options, render);
   declare_options(options, scene_options);
+  tool.takes_frames(scene_options.frame);
+  tool.fresh_each_frame(render);
   options.section("Output");
   options.choice<ExrCompression>(
       "compression", compression,
@@ -85,11 +89,15 @@ int main(int argc, char** argv) {
                   "where the records are, and what each lights");
   options.example("phos-splat room.glb room.irradiance --camera desk --misses m.csv -o desk.exr",
                   "another camera from the same cache, and the points it lacks");
+  options.example("phos-splat film.glb film.irradiance --frames 0:99 -o film/%04d.exr",
+                  "an animation; ranges may be given to several machines");
 
   return tool.run(argc, argv, [&] {
     tool.add_input("scene", scene_files(scene_path, scene_options));
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
     render.seed = tool.seed();
+    const std::string misses = tool.frame_path(misses_path, "--misses");
+    const std::string gloss_misses = tool.frame_path(gloss_misses_path, "--gloss-misses");
     tool.set_provenance_reader(read_image_provenance);
     if (options.given("reuse") && !(misses_path.empty() && gloss_misses_path.empty()))
       throw Error(ExitCode::usage, misses_path.empty() ? "--gloss-misses" : "--misses",
@@ -101,11 +109,12 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    if (const auto frames = tool.frames()) require_frames(scene, *frames);
     if (!allow_mismatch)
-      for (const Container& file : files) require_same_scene(file, scene_path, scene.hash, scene.parts);
+      for (const Container& file : files) require_same_scene(file, scene_path, scene);
     const bool glossy = !glossy_materials(scene).empty();
     tell_of_files(tool, files, render, glossy);
-    SplatCaches caches = read_caches(files, glossy);
+    SplatCaches caches = read_caches(files, scene, glossy);
     if (caches.irradiance.quantity == "all")
       tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
     resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
@@ -122,12 +131,13 @@ int main(int argc, char** argv) {
     Rendering rendering =
         render_scene(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr);
     require_finite(rendering.image);
+    if (!scene.animation.empty()) rendering.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");
     write_exr(tool.output(), rendering.image, compression);
-    if (!misses_path.empty()) write_misses(misses_path, rendering.misses);
-    if (!gloss_misses_path.empty()) write_misses(gloss_misses_path, rendering.gloss_misses);
-    report_picture(tool, render, rendering, gloss, misses_path, gloss_misses_path);
+    if (!misses.empty()) write_misses(misses, rendering.misses);
+    if (!gloss_misses.empty()) write_misses(gloss_misses, rendering.gloss_misses);
+    report_picture(tool, render, rendering, gloss, misses, gloss_misses);
     tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ",
                   caches.irradiance.records.size(), " records"));
   });

@@ -193,6 +193,12 @@ std::string rows(const Json& table, const std::function<std::string(const Json&)
   return out;
 }
 
+/// As brief(), but of a list of texts only how many they are.
+std::string counted(const Json& v) {
+  const bool texts = v.is_array() && !v.as_array().empty() && v.as_array().front().is_string();
+  return texts ? text('(', v.as_array().size(), " texts)") : brief(v);
+}
+
 std::string tensor_line(const Json& t, bool numbers) {
   std::string out = t.find("dtype")->as_string() + "  " + shape_text(*t.find("shape"));
   const std::string& unit = t.find("unit")->as_string();
@@ -260,7 +266,7 @@ std::string describe_text(const Container& file) {
   block(out, "tensors", *all.find("tensors"), [](const Json& t) { return tensor_line(t, true); });
   block(out, "counters", *all.find("counters"), brief);
   block(out, "extra", *all.find("extra"), [](const Json& v) {
-    return is_table(v) ? rows(v, brief) : v.is_object() ? v.dump() : brief(v);
+    return is_table(v) ? rows(v, brief) : v.is_object() ? rows(Json::Array{v}, counted) : brief(v);
   });
   return out;
 }

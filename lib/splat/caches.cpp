@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "temporal/film_inputs.h"
 
 namespace phos {
 
@@ -57,15 +58,15 @@ std::vector<Container> open_caches(const std::vector<std::string>& paths) {
   return files;
 }
 
-SplatCaches read_caches(const std::vector<Container>& files, bool glossy) {
+SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy) {
   SplatCaches caches;
   Joined all(caches.irradiance);
   for (const Container& file : files) {
     if (is_brdf(file)) {
       for (BrdfTable& table : read_brdf(file)) caches.brdf.push_back(std::move(table));
     } else if (!is_radiance(file)) {
-      all.add(file, read_irradiance(file));
-    } else if (RadianceCache more = read_radiance(file); glossy && !more.records.empty()) {
+      all.add(file, read_irradiance_at(file, scene));
+    } else if (RadianceCache more = read_radiance_at(file, scene); glossy && !more.records.empty()) {
       all.add(file, irradiance_of(more));
       add(caches.radiance, std::move(more));
     }

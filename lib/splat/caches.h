@@ -8,6 +8,7 @@
 #include "cache/irradiance_cache.h"
 #include "cache/radiance_cache.h"
 #include "file/container.h"
+#include "scene/scene.h"
 
 namespace phos {
 
@@ -25,8 +26,8 @@ bool is_radiance(const Container& file);
 /// Opens .irradiance, .radiance and .brdf files, told from their content. Throws Error(bad_input) for any
 /// other, or where there are no records among them.
 std::vector<Container> open_caches(const std::vector<std::string>& paths);
-/// `glossy`: does the scene have glossy materials? Throws Error(mismatch) for records of different paths of
-/// light.
-SplatCaches read_caches(const std::vector<Container>& files, bool glossy = true);
+/// Films are taken as they are at the scene's frame. `glossy`: does the scene have glossy materials? Throws
+/// Error(mismatch) for records of different paths of light, or a film without that frame.
+SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy = true);
 
 }  // namespace phos

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "file/hash.h"
+#include "temporal/film_inputs.h"
 
 namespace phos {
 namespace {
@@ -58,13 +59,13 @@ EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, boo
   }
   if (!files.source.empty()) {
     const Container file = Container::open(files.source, "irradiance");
-    if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
-    inputs.source = read_irradiance(file);
+    if (!allow_mismatch) require_same_scene(file, files.scene, scene);
+    inputs.source = read_irradiance_at(file, scene);
   }
   if (!files.radiance.empty()) {
     const Container file = Container::open(files.radiance, "radiance");
-    if (!allow_mismatch) require_same_scene(file, files.scene, scene.hash, scene.parts);
-    inputs.radiance = read_radiance(file);
+    if (!allow_mismatch) require_same_scene(file, files.scene, scene);
+    inputs.radiance = read_radiance_at(file, scene);
     if (inputs.source && inputs.source->quantity == "indirect")
       append(*inputs.source, irradiance_of(*inputs.radiance));
   }
@@ -91,6 +92,10 @@ void CoveredBy::take_out(IrradianceCache& cache) const {
 Container open_to_add(const std::string& path, const std::string& kind, const IrradianceFiles& files,
                       const Scene& scene, bool allow_mismatch) {
   Container file = Container::open(path, kind);
+  if (is_film(file))
+    throw Error(ExitCode::usage, path,
+                "is a film, and records are added to a cache of one scene; give one as --add-to, or both "
+                "files to phos-splat");
   if (!allow_mismatch) {
     require_same_scene(file, files.scene, scene.hash, scene.parts);
     const auto& inputs = file.provenance().inputs;

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Films an animated scene, end to end: one cache for all frames, their pictures, and a video where ffmpeg is installed.
+#   pipelines/film.sh SCENE FOLDER [--frames A:B] [--photons N] [--rays N] [--width W] [--camera NAME] [--samples N]
+# All frames if none are given. Writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4.
+set -euo pipefail
+
+usage() { sed -n '2,4s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+[[ $# -ge 2 ]] || usage
+scene=$1 folder=$2
+shift 2
+frames='' photons=100000 rays='' width=640 camera='' samples=4
+while (($# > 0)); do
+  case $1 in
+    --frames | --photons | --rays | --width | --camera | --samples)
+      [[ $# -ge 2 ]] || usage
+      declare "${1#--}=$2"
+      shift 2 ;;
+    *) usage ;;
+  esac
+done
+[[ -f $scene ]] || { echo "film.sh: $scene: no such file" >&2; exit 3; }
+source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+mkdir -p "$folder/frames"
+base=$folder/$(basename "${scene%.*}")
+if [[ -z $frames ]]; then
+  count=$(phos-scene "$scene" --json | sed -n 's/^ *"frames": *\([0-9]*\),*$/\1/p')
+  ((count > 0)) || { echo "film.sh: $scene: is not animated; pipelines/render.sh renders it, or give --frames" >&2; exit 2; }
+  frames=0:$((count - 1))
+fi
+view=(--width "$width")
+[[ -z $camera ]] || view+=(--camera "$camera")
+
+# 1. Light: records that live through the frames, where the camera sees them.
+phos-temporal "$scene" --frames "$frames" "${view[@]}" --photons "$photons" ${rays:+--rays "$rays"} --reuse -o "$base.irradiance"
+# 2. A picture of each frame; of an interrupted run those that are there are kept.
+phos-splat "$scene" "$base.irradiance" --frames "$frames" "${view[@]}" --pixel-samples "$samples" --reuse -o "$folder/frames/%04d.exr"
+# 3. The same to look at, with one exposure.
+phos-picture "$folder/frames/%04d.exr" --frames "$frames" -o "$folder/frames/%04d.png"
+echo "frames:   $folder/frames"
+if command -v ffmpeg >/dev/null; then
+  phos-picture "$folder/frames/%04d.exr" --frames "$frames" -o "$base.mp4"
+  echo "video:    $base.mp4"
+fi
