@@ -32,25 +32,38 @@ double rate_between(const Key& from, const Key& to) {
   return change_rate(from.record.irradiance, to.record.irradiance, floor) / frames;
 }
 
+/// The key one frame on, as it was expected.
+std::optional<Key> expected(const Key& key) {
+  if (!key.ahead) return std::nullopt;
+  return Key{key.frame + 1, key.frame + 1, key.ahead->record, key.ahead->radiance, key.ahead_pose};
+}
+
 template <class Record, class Make>
 std::vector<Record> records_of(std::span<const Chain> chains, const FilmInfo& info, const Make& make) {
   std::vector<Record> records;
   for (const Chain& chain : chains) {
+    const auto with_life = [&](const Key& k) {
+      Record r = make(k);
+      r.life.birth = static_cast<std::int32_t>(k.frame), r.life.end = static_cast<std::int32_t>(k.until);
+      r.life.chain = chain.number, r.life.anchor = chain.anchor, r.life.turn = k.pose.turn;
+      return r;
+    };
     for (std::size_t i = 0; i < chain.keys.size(); ++i) {
       const Key& key = chain.keys[i];
       if (key.until <= key.frame) continue;
-      const auto with_life = [&](const Key& k) {
-        Record r = make(k);
-        r.life.birth = static_cast<std::int32_t>(k.frame), r.life.end = static_cast<std::int32_t>(k.until);
-        r.life.chain = chain.number, r.life.anchor = chain.anchor, r.life.turn = k.pose.turn;
-        return r;
-      };
       Record record = with_life(key);
-      const Key* next = i + 1 < chain.keys.size() ? &chain.keys[i + 1] : nullptr;
-      if (next && next->frame == key.until) {
-        record.life.rate = static_cast<float>(rate_between(key, *next));
-        if (info.gradients == TemporalGradients::interpolated)
-          record.change = change_between(record, with_life(*next));
+      const Key* next =
+          i + 1 < chain.keys.size() && chain.keys[i + 1].frame == key.until ? &chain.keys[i + 1] : nullptr;
+      record.life.rate = static_cast<float>(next && !key.ahead ? rate_between(key, *next) : key.rate);
+      if (info.gradients == TemporalGradients::interpolated && next && !key.jumps) {
+        record.change = change_between(record, with_life(*next));
+      } else if (info.gradients != TemporalGradients::none) {
+        if (const std::optional<Key> then = expected(key)) {
+          Record to = with_life(*then);
+          to.record.radius_m =
+              record.record.radius_m;  // neighbours and bounds have no say in what is expected
+          record.change = change_between(record, to);
+        }
       }
       records.push_back(std::move(record));
     }

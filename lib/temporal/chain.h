@@ -24,6 +24,11 @@ struct Key {
   IrradianceRecord record;  ///< radius settled
   std::shared_ptr<const RadianceRecord> radiance;
   Pose pose;
+  /// One frame on, as it was expected (with Lives::rate), the pose there, and the relative change to it.
+  std::shared_ptr<const Ahead> ahead{};
+  Pose ahead_pose{};
+  double rate = 0;
+  bool jumps = false;  ///< what follows at `until` comes after a jump: nothing is interpolated to it
 };
 
 struct Chain {
@@ -51,8 +56,8 @@ Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std
 Chain chain_of(const Made& made, const IrradianceRecord& settled, const RadianceRecord* radiance,
                const RayScene& rays, std::int64_t frame, const FilmSurvey& survey);
 
-/// The records that chains stand for: each key until the next, with the change to it unless `gradients` are
-/// none. What ends at the last frame of a shot lives for that frame.
+/// The records that chains stand for: each key until the next, changed as info.gradients says (where nothing
+/// follows, as was expected). What ends at the last frame of a shot lives for that frame.
 Film film_of(std::span<const Chain> chains, const FilmInfo& info);
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info);
 

@@ -62,6 +62,13 @@ void FilmMaker::resume(std::vector<Chain> chains, std::int64_t done) {
 void FilmMaker::run(const std::function<void(std::int64_t)>& done) {
   Progress progress("film", static_cast<std::uint64_t>(survey_.frames.count()), "frames");
   for (const FrameRange& shot : survey_.shots) {
+    if (options_.lives == Lives::rate) {
+      for (std::int64_t frame = shot.first; frame <= shot.last; ++frame, progress.advance()) {
+        frame_by_rate(frame, shot);
+        if (done) done(frame);
+      }
+      continue;
+    }
     for (std::int64_t begin = shot.first; begin <= shot.last;) {
       const std::int64_t end = std::min(begin + options_.max_life, shot.last);
       const bool last = end == shot.last;
@@ -88,7 +95,7 @@ void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& sh
   for (std::int64_t f = begin; f < end; f += step) looks.push_back(f);
   if (end == shot.last && (looks.empty() || looks.back() != end)) looks.push_back(end);
   const std::vector<std::size_t> wanted = place_at(begin, looks);
-  if (begin == shot.first && floor_ == 0) floor_ = kFloorShare * mean_irradiance(chains_);
+  if (floor_ == 0) set_floor();
   if (begin < end) {
     std::vector<Segment> segments;
     end_at(wanted, end);
@@ -124,6 +131,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std
   for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
 
   std::vector<std::size_t> wanted;
+  std::vector<Made> made;
   const std::size_t first_new = chains_.size();
   if (task_.placement.place == Place::view) {
     VisiblePlaces places(light, cache, task_.placement, task_.wanted, task_.unwanted,
@@ -138,57 +146,53 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std
         ++report_.deleted;
     }
     report_.kept_alive += wanted.size();
-    add_chains(frame, known, places.open());
+    add_chains(light, task_.estimator(light), cache, places.open(), made);
   } else {
     wanted = known;
-    add_chains(frame, known, {});
+    add_chains(light, task_.estimator(light), cache, {}, made);
   }
   for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
   return wanted;
 }
 
-/// New chains where the known ones leave sites (or, of other placements than views, surfaces) uncovered.
-std::vector<std::size_t> FilmMaker::add_chains(std::int64_t frame, const std::vector<std::size_t>& known,
-                                               std::vector<RecordSite> sites) {
-  FrameLight& light = lights_.at(frame);
-  IrradianceCache cache;
-  cache.accuracy = task_.records.accuracy;
-  for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
-  const std::size_t before = cache.records.size();
-  const Estimator& estimator = task_.estimator(light);
+/// New chains where the known records leave sites (or, of other placements than views, surfaces) uncovered;
+/// `made` is what each was made from.
+void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache known,
+                           std::span<const RecordSite> sites, std::vector<Made>& made) {
+  made.clear();
+  const std::size_t before = known.records.size();
+  const bool view = task_.placement.place == Place::view;
   PlacementReport placed;
-  if (task_.placement.place == Place::view) {
-    if (sites.empty()) return {};
+  if (view) {
+    if (sites.empty()) return;
     const Candidates candidates{
         sites.size(), [&](std::size_t i, std::vector<RecordSite>& out) { out.push_back(sites[i]); }};
     placed =
-        place_records(cache, estimator, light.rays(), task_.records, task_.placement, candidates, counters_);
+        place_records(known, estimator, light.rays(), task_.records, task_.placement, candidates, counters_);
   } else {
     PlacementSource source;
     source.wanted = task_.wanted;
     if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
     if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
-    placed = place(cache, estimator, light.rays(), task_.records, task_.placement, source, counters_);
+    placed = place(known, estimator, light.rays(), task_.records, task_.placement, source, counters_);
   }
   report_.estimates += placed.made, report_.making_s += placed.making_s,
       report_.uncovered += placed.uncovered;
-  std::vector<std::size_t> added;
-  for (std::size_t i = 0; i < placed.made_records.size(); ++i) {
-    Made& made = placed.made_records[i];
-    if (task_.placement.place != Place::view) made.item = kFilmItems + next_number_++;
+  made = std::move(placed.made_records);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!view) made[i].item = kFilmItems + next_number_++;
     const RadianceRecord* radiance = placed.radiance.empty() ? nullptr : &placed.radiance[i];
-    added.push_back(chains_.size());
-    chains_.push_back(chain_of(made, cache.records[before + i], radiance, light.rays(), frame, survey_));
+    chains_.push_back(
+        chain_of(made[i], known.records[before + i], radiance, light.rays(), light.frame(), survey_));
   }
-  return added;
 }
 
-/// Keys of chains at a frame, where their surfaces are there then: `there` are those chains.
-std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, std::int64_t frame,
-                                     std::vector<std::size_t>& there) {
-  there.clear();
-  if (chains.empty()) return {};
-  FrameLight& light = lights_.at(frame);
+/// Keys of chains at a frame, where their surfaces are there then: `there` are those chains, `made` what
+/// their keys are made from.
+std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameLight& light,
+                                     const Estimator& estimator, std::vector<std::size_t>& there,
+                                     std::vector<Made>& made) {
+  there.clear(), made.clear();
   std::vector<RecordSite> sites;
   std::vector<Pose> poses;
   for (const std::size_t i : chains) {
@@ -197,20 +201,26 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, std::i
     if (!site) continue;
     sites.push_back(*site), poses.push_back(pose), there.push_back(i);
   }
-  ParallelMaker maker(task_.estimator(light));
-  const std::vector<Made> made = maker.make(sites);
+  if (sites.empty()) return {};
+  ParallelMaker maker(estimator);
+  made = maker.make(sites);
   report_.estimates += made.size(), report_.making_s += maker.seconds();
   maker.count_into(counters_);
   std::vector<Key> keys;
   for (std::size_t i = 0; i < made.size(); ++i)
-    keys.push_back(key_of(chains_[there[i]], made[i], bounds_, frame, poses[i]));
+    keys.push_back(key_of(chains_[there[i]], made[i], bounds_, light.frame(), poses[i]));
   return keys;
 }
 
+void FilmMaker::set_floor() { floor_ = kFloorShare * mean_irradiance(chains_); }
+
 /// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
 void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
+  if (chains.empty()) return;
   std::vector<std::size_t> there;
-  std::vector<Key> keys = estimate(chains, frame, there);
+  std::vector<Made> made;
+  FrameLight& light = lights_.at(frame);
+  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
   for (const std::size_t i : chains) {
     Key& last = chains_[i].keys.back();
     if (last.until == last.frame) last.until = frame;
@@ -228,7 +238,9 @@ void FilmMaker::refine(std::vector<Segment> segments) {
     for (const auto& [middle, at_middle] : by_middle) {
       std::vector<std::size_t> chains, there;
       for (const Segment& s : at_middle) chains.push_back(s.chain);
-      std::vector<Key> keys = estimate(chains, middle, there);
+      std::vector<Made> made;
+      FrameLight& light = lights_.at(middle);
+      std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
       for (std::size_t i = 0, found = 0; i < at_middle.size(); ++i) {
         const Segment& s = at_middle[i];
         Chain& chain = chains_[s.chain];

@@ -82,11 +82,15 @@ class FilmMaker {
     std::int64_t depth;  ///< halvings before it
   };
   void block(std::int64_t begin, std::int64_t end, const FrameRange& shot);
+  void frame_by_rate(std::int64_t frame, const FrameRange& shot);
+  void live(Key& key, const Chain& chain, const Made& made, const FrameScene* next, std::int64_t most) const;
   std::vector<std::size_t> place_at(std::int64_t frame, std::vector<std::int64_t> looks);
-  std::vector<std::size_t> add_chains(std::int64_t frame, const std::vector<std::size_t>& known,
-                                      std::vector<RecordSite> sites);
-  std::vector<Key> estimate(std::span<const std::size_t> chains, std::int64_t frame,
-                            std::vector<std::size_t>& there);
+  void add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache known,
+                  std::span<const RecordSite> sites, std::vector<Made>& made);
+  std::vector<Key> estimate(std::span<const std::size_t> chains, FrameLight& light,
+                            const Estimator& estimator, std::vector<std::size_t>& there,
+                            std::vector<Made>& made);
+  void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);
   void refine(std::vector<Segment> segments);
   bool is_straight(const Key& from, const Key& middle, const Key& to, double& share) const;

@@ -62,6 +62,8 @@ class FrameLight {
   ~FrameLight();
 
   std::int64_t frame() const { return at_->frame; }
+  const FrameScene& at() const { return *at_; }
+  std::uint64_t seed() const { return options_.seed; }
   const Scene& scene() const { return at_->scene; }
   const RayScene& rays() const { return at_->rays; }
   const Luminaires& lights() const { return lights_; }
