@@ -62,7 +62,7 @@ Rgb irradiance_of(std::span<const float> light) {
 IrradianceRecord irradiance_of(const RadianceRecord& r) {
   IrradianceRecord e;
   e.position = r.position, e.normal = r.frame.z;
-  e.distance_m = r.distance_m, e.radius_m = r.radius_m;
+  e.distance_m = r.distance_m, e.radius_m = r.radius_m, e.weight = r.weight;
   e.irradiance = glm::max(irradiance_of(r.light), Rgb(0));
   for (int c = 0; c < 3; ++c) {
     const auto at = static_cast<std::size_t>(c);

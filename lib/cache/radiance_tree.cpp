@@ -57,6 +57,9 @@ struct RadianceTree::Impl {
   std::vector<RadianceRecord> records;
   std::vector<float> steepness_per_m;
 
+  float weight(const IrradianceRecord& r, const Vec3& p, const Vec3& n) const {
+    return weight_at(r.position, r.normal, r.radius_m, accuracy, p, n) * r.weight;
+  }
   /// How far along frame.x and frame.y a record is followed towards p, m.
   Vec2 step_m(std::size_t record, const Vec3& p) const {
     const RadianceRecord& r = records[record];
@@ -157,7 +160,7 @@ float RadianceTree::interpolate(const Vec3& p, const Frame& frame, int order, Wo
     const auto record = static_cast<std::size_t>(found - first);
     const RadianceRecord& r = impl_->records[record];
     if (!own || !same(*own, r.frame)) turn(), own = &r.frame;
-    const float w = weight_at(found->position, found->normal, found->radius_m, impl_->accuracy, p, frame.z);
+    const float w = impl_->weight(*found, p, frame.z);
     impl_->add(record, w, p, worker.sum);
     for (std::size_t i = 0; i < worker.stderr_light.size(); ++i)
       worker.stderr_light[i] += w * r.stderr_light[i];
@@ -187,7 +190,7 @@ GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<
     const RadianceRecord& r = impl_->records[record];
     if (!own || !same(*own, r.frame)) impl_->turn_lobe(lobe, frame, r.frame, worker);
     own = &r.frame;
-    const float w = weight_at(found->position, found->normal, found->radius_m, impl_->accuracy, p, frame.z);
+    const float w = impl_->weight(*found, p, frame.z);
     const Vec2 step = impl_->step_m(record, p);
     light.radiance += w * impl_->through(worker.turned, record, step);
     if (least != Rgb(0)) irradiance += w * impl_->irradiance(record, step);

@@ -99,7 +99,7 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
       const IrradianceRecord r = records_[i];
       if (record_in_front(r, p, n)) continue;
       if (leak_test_ && !record_in_sight(*leak_test_, r, p, n)) continue;
-      if (!visit(r, w)) return;
+      if (!visit(r, w * r.weight)) return;
     }
     side /= 2;
     const unsigned o = octant_of(point, lo + side);

@@ -99,7 +99,7 @@ struct RecordTree::Impl {
         const float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
         if (!(w > kLeastWeight) || record_in_front(records[e.record], p, n)) continue;
         if (leak_test && !record_in_sight(*leak_test, records[e.record], p, n)) continue;
-        if (!visit(records[e.record], w)) return;
+        if (!visit(records[e.record], w * records[e.record].weight)) return;
       }
       side /= 2;
       const unsigned o = octant_of(point, cell_lo + side);
