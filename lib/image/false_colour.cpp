@@ -59,6 +59,7 @@ std::string number(double v) {
 struct LegendText {
   std::string title, unit;
   std::vector<std::string> figures;  ///< lines below the palette
+  bool steady = false;               ///< room for any figures, so that every legend is of one size
 };
 
 /// "mean 17.2" and the extremes of the finite values, which the palette may not reach.
@@ -85,13 +86,15 @@ Picture with_legend(const Picture& picture, const FalseColourRange& range, const
                     const std::function<Colour8(double)>& colour) {
   const int dot = 1 + std::max(picture.height, 60) / 350;
   const int line = text_height(dot), gap = 4 * dot;
-  const int footer = static_cast<int>(words.figures.size()) * (line + gap);
+  const std::size_t lines = words.steady ? 4 : words.figures.size();
+  const int footer = static_cast<int>(lines) * (line + gap);
   const int height = std::max(picture.height, 16 * line + footer);
   const int top = 2 * line + 5 * gap, bottom = height - footer - 3 * gap;
   const int bar_width = 12 * dot, bar_height = bottom - top;
   const std::string unit = text_for_picture(words.unit == "1" ? "" : words.unit);
   std::vector<std::pair<double, std::string>> marks;
   int widest = std::max(text_width(words.title, dot), text_width(unit, dot));
+  if (words.steady) widest = std::max(widest, text_width("not finite 12345678", dot));
   for (const std::string& s : words.figures) widest = std::max(widest, text_width(s, dot));
   widest -= bar_width + 2 * gap;
   for (const double v : scale_marks(range, std::clamp(bar_height / (2 * line), 2, 14))) {
@@ -254,10 +257,10 @@ std::vector<double> scale_marks(const FalseColourRange& range, int wanted) {
 }
 
 Picture false_colour(std::span<const float> values, int width, int height, const FalseColourRange& range,
-                     Palette palette, const std::string& title, const std::string& unit) {
+                     Palette palette, const std::string& title, const std::string& unit, bool steady) {
   const auto colour = [palette](double t) { return palette_colour(palette, t); };
-  return with_legend(coloured(values, width, height, range, colour), range, {title, unit, figures_of(values)},
-                     colour);
+  return with_legend(coloured(values, width, height, range, colour), range,
+                     {title, unit, figures_of(values), steady}, colour);
 }
 
 Picture difference_picture(std::span<const float> values, int width, int height, double range,
@@ -272,8 +275,8 @@ Picture difference_picture(std::span<const float> values, int width, int height,
   }
   const FalseColourRange scale{Scale::linear, -range, range};
   const auto colour = [](double t) { return difference_colour(2 * t - 1); };
-  return with_legend(coloured(values, width, height, scale, colour), scale, {title, unit, figures_of(values)},
-                     colour);
+  return with_legend(coloured(values, width, height, scale, colour), scale,
+                     {title, unit, figures_of(values), false}, colour);
 }
 
 }  // namespace phos

@@ -43,9 +43,10 @@ FalseColourRange false_colour_range(std::span<const float> values, Scale scale, 
                                     std::optional<double> hi);
 
 /// The picture, with a legend at its right: title, unit, palette, and round numbers beside their colours;
-/// below it mean and extremes, as the brightest pixels may lie beyond the palette.
+/// below it mean and extremes, as the brightest pixels may lie beyond the palette. `steady`: of one size,
+/// whatever these are.
 Picture false_colour(std::span<const float> values, int width, int height, const FalseColourRange& range,
-                     Palette palette, const std::string& title, const std::string& unit);
+                     Palette palette, const std::string& title, const std::string& unit, bool steady = false);
 
 /// Signed values, blue to white to red over -range .. range (0: the 99th percentile of |value|, rounded up).
 Picture difference_picture(std::span<const float> values, int width, int height, double range,

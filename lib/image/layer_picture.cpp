@@ -25,7 +25,7 @@ ToneMapped false_colours(const Image& image, const std::string& layer, const Lay
   const std::string unit = layer_unit(layer);
   ToneMapped out;
   out.picture = false_colour(values, image.width(), image.height(), range_of(values, unit, p), p.palette,
-                             title_of(layer), unit);
+                             title_of(layer), unit, p.steady);
   for (const float v : values) out.non_finite += std::isfinite(v) ? 0 : 1;
   return out;
 }

@@ -20,6 +20,7 @@ struct LayerPictureOptions {
   ScaleChoice scale = ScaleChoice::automatic;
   Palette palette = Palette::viridis;
   std::optional<double> min, max;
+  bool steady = false;  ///< one of a sequence: the legend is of one size
 };
 void declare_options(Options& options, LayerPictureOptions& picture);
 

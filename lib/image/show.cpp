@@ -60,6 +60,7 @@ void show_sequence(Tool& tool, const PictureSequence& s, LayerPictureOptions p) 
   const bool video = is_video(tool.output());
   const FramePattern inputs = existing_sequence(s.input, range, "INPUT");
   const FramePattern outputs = video ? FramePattern("", "") : sequence_pattern(tool.output(), range, "-o");
+  p.steady = true;
   std::optional<VideoFile> film;
   bool exposed = tool.output().ends_with(".hdr");
   Progress progress("pictures", static_cast<std::uint64_t>(range.count()), "frames");
