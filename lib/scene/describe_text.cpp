@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "core/error.h"
@@ -72,9 +73,19 @@ std::string camera_line(const Json& c) {
   return line;
 }
 
+/// The first few of them.
+std::string moving_values(const Json::Array& targets) {
+  constexpr std::size_t kShown = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kShown, targets.size()); ++i)
+    out += (i > 0 ? ", " : "") + targets[i].as_string();
+  if (targets.size() > kShown) out += text(" and ", targets.size() - kShown, " more");
+  return out;
+}
+
 std::string animation_line(const Json& a) {
   return text("  ", padded(at(a, "name").as_string(), 24), " ", figure(at(a, "start_s")), " to ",
-              figure(at(a, "end_s")), " s, ", at(a, "targets").as_array().size(), " moving values\n");
+              figure(at(a, "end_s")), " s, moves ", moving_values(at(a, "targets").as_array()), "\n");
 }
 
 std::string requirement_line(const Json& r) {
@@ -109,8 +120,8 @@ std::string describe_text(const Json& d) {
   out += list(d, "cameras", "Cameras", camera_line);
   if (!at(d, "animations").as_array().empty()) {
     out += list(d, "animations",
-                text("Animations, ", at(d, "frames").as_integer(), " frames at ",
-                     figure(at(d, "frames_per_s")), " per second"),
+                text("Animations, frames 0:", std::max<std::int64_t>(at(d, "frames").as_integer(), 1) - 1,
+                     " at ", figure(at(d, "frames_per_s")), " per second"),
                 animation_line);
   }
   out += list(d, "requires", "Requires", requirement_line);

@@ -123,31 +123,36 @@ bool is_jump(float before, float step, float after, float large) {
   return step > large && step > kFarBeyond * std::max(before, after);
 }
 
-/// Diagonal, m; 0 for what has no area.
-float size_m(const Scene& scene, std::size_t instance) {
+bool has_area(const Scene& scene, std::size_t instance) {
   const Instance& i = scene.instance[instance];
-  bool seen = false;
-  for (std::uint32_t t = 0; t < i.triangle_count && !seen; ++t)
-    seen = geometric_normal(scene, i.first_triangle + t) != Vec3(0);
+  for (std::uint32_t t = i.first_triangle; t < i.first_triangle + i.triangle_count; ++t)
+    if (geometric_normal(scene, t) != Vec3(0)) return true;
+  return false;
+}
+
+Bounds bounds_of(const Scene& scene, std::size_t instance) {
   Bounds bounds;
-  if (seen) for_each_vertex(scene, instance, [&](std::uint32_t v) { bounds.include(scene.position[v]); });
-  return bounds.diagonal_m();
+  for_each_vertex(scene, instance, [&](std::uint32_t v) { bounds.include(scene.position[v]); });
+  return bounds;
 }
 
 float object_step_m(const Scene& a, const Scene& b, std::size_t instance) {
-  const float from = size_m(a, instance), to = size_m(b, instance);
-  if (from == 0 || to == 0) return from + to;
+  const bool from = has_area(a, instance), to = has_area(b, instance);
+  if (!from && !to) return 0;
+  // Where it was while nothing saw it is no matter, but how large.
+  const Vec3 way = from && to ? Vec3(0) : bounds_of(b, instance).centre() - bounds_of(a, instance).centre();
   float step = 0;
   for_each_vertex(a, instance, [&](std::uint32_t v) {
-    step = std::max(step, glm::distance(a.position[v], b.position[v]));
+    step = std::max(step, glm::distance(a.position[v], b.position[v] - way));
   });
   return step;
 }
 
 bool object_jumps(const Scene& a, const Scene& b, const Scene& c, const Scene& d, std::size_t i,
                   float scene_m) {
-  const float size = std::max(size_m(b, i), size_m(c, i)), step = object_step_m(b, c, i);
+  const float step = object_step_m(b, c, i);
   if (step == 0) return false;
+  const float size = std::max(bounds_of(b, i).diagonal_m(), bounds_of(c, i).diagonal_m());
   if (is_turned_over(b, c, i)) return true;
   const float large = std::min(kOwnSize * size, kSceneSize * scene_m);
   return step > large && is_jump(object_step_m(a, b, i), step, object_step_m(c, d, i), large);

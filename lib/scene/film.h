@@ -41,8 +41,8 @@ Changes changes(const Scene& a, const Scene& b);
 /// A jump is a step from b to c that is more than four times those from a to b and from c to d, and that is
 /// large by itself:
 ///  - an object: its farthest moving vertex goes farther than a tenth of the object's diagonal, or a
-///    twentieth of the scene's. Where it has no area on one side of the step (scale 0), the step is its
-///    diagonal on the other; where on both, it is 0;
+///    twentieth of the scene's. Where it has no area on one side of the step (scale 0), only how far its
+///    vertices go from its middle counts; where on both, nothing moves;
 ///  - a lamp's flux (directional: illuminance): more than a tenth of the larger one, in any colour;
 ///  - the place of a point or spot light: more than a hundredth of the scene's diagonal;
 ///  - the direction of a spot or directional light: more than a tenth of a radian.

@@ -71,7 +71,7 @@ class Linter {
       }
     }
     for (std::uint32_t t = 0; t < scene_.triangle.size(); ++t) area += area_m2(scene_, t);
-    mean_lx += lumens / area;
+    if (area > 0) mean_lx += lumens / area;
     const std::string figure =
         text("all lights together give ", shortest(static_cast<float>(lumens)), " lm, ",
              shortest(static_cast<float>(mean_lx)), " lx if spread over every surface");

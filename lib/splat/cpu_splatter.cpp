@@ -50,6 +50,7 @@ PackedRecord pack_record(const IrradianceRecord& r) {
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   p.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
   p.front_limit_m = -kFrontTolerance * r.radius_m;
+  p.weight = r.weight;
   for (int i = 0; i < 3; ++i) {
     p.position[i] = r.position[i], p.normal[i] = r.normal[i];
     p.irradiance[i] = r.irradiance[i], p.limit[i] = kGrowthLimit * r.irradiance[i],

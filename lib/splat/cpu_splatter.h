@@ -24,7 +24,7 @@ struct alignas(64) SplatTile {
 /// the change by rotation, (n_i x n).g_r, is (n - n_i).turn.
 struct PackedRecord {
   float position[3], inverse_radius, normal[3], front_limit_m;
-  float irradiance[3], limit[3], stderr_lx[3];
+  float irradiance[3], weight, limit[3], stderr_lx[3];
   float turn[3][3], translation[3][3];
 };
 PackedRecord pack_record(const IrradianceRecord& record);

@@ -18,7 +18,7 @@ namespace {
 void pack(const RadianceRecord& r, std::vector<Vec4>& block) {
   block = {Vec4(r.position, std::min(1 / r.radius_m, std::numeric_limits<float>::max())),
            Vec4(r.frame.z, -kFrontTolerance * r.radius_m), Vec4(r.frame.x, steepness_per_m(r)),
-           Vec4(r.frame.y, 0)};
+           Vec4(r.frame.y, r.weight)};
   const auto rgb = [](const std::vector<float>& v, std::size_t i) {
     return v.empty() ? Vec4(0) : Vec4(v[i], v[i + 1], v[i + 2], 0);
   };

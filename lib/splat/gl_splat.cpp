@@ -30,7 +30,7 @@ constexpr Attribute kAttributes[] = {
     {0, 4, offsetof(SplatInstance, rect)},
     {1, 4, kRecord + offsetof(PackedRecord, position)},
     {2, 4, kRecord + offsetof(PackedRecord, normal)},
-    {3, 3, kRecord + offsetof(PackedRecord, irradiance)},
+    {3, 4, kRecord + offsetof(PackedRecord, irradiance)},
     {4, 3, kRecord + offsetof(PackedRecord, stderr_lx)},
     {5, 3, kRecord + offsetof(PackedRecord, turn)},
     {6, 3, kRecord + offsetof(PackedRecord, turn) + 12},

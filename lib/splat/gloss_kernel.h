@@ -30,6 +30,7 @@ struct GlossGroup {
 struct GlossSplat {
   float position[3], inverse_radius, normal[3], front_limit_m;
   float x[3], y[3];       ///< axes of its frame
+  float weight;           ///< its own
   float steepness_per_m;  ///< steps by more than 1/this are shortened to that; 0: no steps at all
   const float *light, *gradient_x, *gradient_y, *stderr_light;
   float irradiance[3], irradiance_x[3], irradiance_y[3];  ///< of the former three

@@ -36,6 +36,7 @@ GlossSplat pack(const RadianceRecord& r) {
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   s.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
   s.front_limit_m = -kFrontTolerance * r.radius_m;
+  s.weight = r.weight;
   s.steepness_per_m = steepness_per_m(r);
   s.light = r.light.data(), s.stderr_light = r.stderr_light.data();
   s.gradient_x = r.gradient_x.data(), s.gradient_y = r.gradient_y.data();

@@ -53,7 +53,7 @@ const char* const splat_vertex = R"(#version 450 core
 layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
 layout(location = 1) in vec4 position;    // and 1 / radius
 layout(location = 2) in vec4 normal;      // and the limit of the in-front test
-layout(location = 3) in vec3 irradiance;
+layout(location = 3) in vec4 irradiance;  // and the record's own weight
 layout(location = 4) in vec3 error;
 layout(location = 5) in vec3 turn_r;
 layout(location = 6) in vec3 turn_g;
@@ -61,8 +61,8 @@ layout(location = 7) in vec3 turn_b;
 layout(location = 8) in vec3 translation_r;
 layout(location = 9) in vec3 translation_g;
 layout(location = 10) in vec3 translation_b;
-flat out vec4 a, b;
-flat out vec3 e, s, rr, rg, rb, tr, tg, tb;
+flat out vec4 a, b, e;
+flat out vec3 s, rr, rg, rb, tr, tg, tb;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
@@ -73,8 +73,8 @@ void main() {
 )";
 
 const char* const splat_fragment = R"(#version 450 core
-flat in vec4 a, b;
-flat in vec3 e, s, rr, rg, rb, tr, tg, tb;
+flat in vec4 a, b, e;
+flat in vec3 s, rr, rg, rb, tr, tg, tb;
 uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
@@ -88,11 +88,11 @@ void main() {
   float eps = sqrt(dot(d, d)) * a.w + sqrt(dot(turned, turned)) * 0.70710678;
   float w = 1.0 - eps * rule.x;
   bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w);
-  w = valid ? w : 0.0;
-  vec3 value = e + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
+  w = valid ? w * e.w : 0.0;
+  vec3 value = e.rgb + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
   // Not max and min: what is not a number becomes 0.
   value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
-  value = mix(rule.z * e, value, lessThan(value, rule.z * e));
+  value = mix(rule.z * e.rgb, value, lessThan(value, rule.z * e.rgb));
   light = vec4(w * value, w);
   error = vec4(w * s, valid ? 1.0 : 0.0);
 }
@@ -111,7 +111,7 @@ layout(std140, binding = 0) uniform Record {
   vec4 position;                          // and 1 / radius
   vec4 normal;                            // and the limit of the in-front test
   vec4 axis_x;                            // and the steepness
-  vec4 axis_y;
+  vec4 axis_y;                            // and the record's own weight
   vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y
 };
 uniform vec4 rule;                        // 1 / accuracy, least weight, first and end row of the class
@@ -137,6 +137,7 @@ void main() {
   float eps = sqrt(dot(d, d)) * position.w + sqrt(dot(turned, turned)) * 0.70710678;
   float w = 1.0 - eps * rule.x;
   if (!(w > rule.y && dot(n, normal.xyz) > 0.0 && !(dot(d, n + normal.xyz) * 0.5 < normal.w))) return;
+  w *= axis_y.w;
   float change = axis_x.w * sqrt(dot(d, d));
   float share = w * (change > 1.0 ? 1.0 / change : 1.0);
   if (axis_x.w == 0.0) share = 0.0;

@@ -29,6 +29,13 @@ TEST(PhosScene, JsonIsOneObject) {
   EXPECT_TRUE(d.find("requires")->is_array());
 }
 
+TEST(PhosScene, TellsWhatMoves) {
+  const test::Run run = run_tool({"scene", data("moving-light.glb")});
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* word : {"frames 0:399 at 25 per second", "moves node light translation"})
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+}
+
 TEST(PhosScene, TellsWhatComputesGloss) {
   const std::string room = data("cornell-glossy22.glb");
   const test::Run run = run_tool({"scene", room});

@@ -48,8 +48,9 @@ inline SplatBuffer splat_one_by_one(const std::vector<IrradianceRecord>& records
     const Vec3 p(g.position[i]), n(g.normal[i]);
     for (const IrradianceRecord& r : records) {
       if (!g.covered(i) || record_in_front(r, p, n)) continue;
-      const float w = record_weight(record_error(r, p, n), accuracy);
+      float w = record_weight(record_error(r, p, n), accuracy);
       if (!(w > 1e-6f)) continue;
+      w *= r.weight;
       light += glm::dvec4(w * extrapolate(r, p, n), w);
       error += glm::dvec4(w * r.stderr_lx, 1);
     }

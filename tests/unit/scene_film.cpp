@@ -267,6 +267,11 @@ const std::vector<Case> kCases = {
        r.animate(r.slab("block", 1, 0, 1, 0), "scale", {0, 9}, {0, 0, 0, 1, 1, 1});
      },
      {}},
+    {"object slides open",
+     [](Room& r) {
+       r.animate(r.slab("block", 1, 0, 1, 0), "scale", {0, 9}, {0, 1, 1, 1, 1, 1});
+     },
+     {}},
     {"object teleports unseen",
      [](Room& r) {
        const int block = r.slab("block", 1, 0, 1, 0);
