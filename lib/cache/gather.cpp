@@ -51,7 +51,12 @@ struct GatherEstimator::Impl : HemisphereRecords {
 struct GatherEstimator::Impl::Worker : HemisphereWorker {
   std::vector<Ray> rays;  // tile by tile
   std::vector<Hit> found;
-  std::vector<std::vector<Hit>> hits;  // of each pass, in order
+  struct Found {
+    std::vector<Hit> hits;  // in order
+    std::vector<LampSight> sights;
+    std::size_t sight_count = 0;
+  };
+  std::vector<Found> found_in;  // each pass
   std::vector<Hemisphere> passes;
   std::size_t pass_count = 0;  // of the last record
 };
@@ -102,12 +107,14 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   each_in_tiles(h, [&](std::size_t i) { w.rays.push_back({origin, h.direction[i]}); });
   w.found.assign(h.size(), Hit());
   impl_->rays.intersect(w.rays, w.found);
-  if (w.hits.size() <= pass) w.hits.resize(pass + 1);
-  std::vector<Hit>& hits = w.hits[pass];
+  if (w.found_in.size() <= pass) w.found_in.resize(pass + 1);
+  auto& [hits, sights, sight_count] = w.found_in[pass];
   hits.resize(h.size());
   const Hit* next = w.found.data();
   each_in_tiles(h, [&](std::size_t i) { hits[i] = *next++; });
   impl_->light.shade(origin, hits, site.item, pass, h, *w.light);
+  std::swap(sights, w.light->sights);
+  sight_count = w.light->sight_count;
   w.counters.merge(w.light->counters);
   w.light->counters = Counters();
   clear_own_surface(from.error_m, h);
@@ -167,14 +174,16 @@ Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) co
   return impl_->record(site, light, w);
 }
 
-std::span<const Hit> GatherEstimator::hits(const Estimator::Worker& worker, std::uint32_t pass) {
-  return static_cast<const Impl::Worker&>(worker).hits[pass];
+SeenPass GatherEstimator::seen(const Estimator::Worker& worker, std::uint32_t pass, const Hemisphere& h) {
+  const Impl::Worker::Found& found = static_cast<const Impl::Worker&>(worker).found_in[pass];
+  return {&h, found.hits, std::span(found.sights).first(found.sight_count)};
 }
 
 std::vector<SeenPass> GatherEstimator::last_seen(const Estimator::Worker& worker) const {
   const auto& w = static_cast<const Impl::Worker&>(worker);
   std::vector<SeenPass> seen;
-  for (std::size_t pass = 0; pass < w.pass_count; ++pass) seen.push_back({&w.passes[pass], w.hits[pass]});
+  for (std::size_t i = 0; i < w.pass_count; ++i)
+    seen.push_back(GatherEstimator::seen(worker, static_cast<std::uint32_t>(i), w.passes[i]));
   return seen;
 }
 

@@ -45,12 +45,6 @@ class HitLight {
            const RecordOptions& resolved, std::uint64_t seed);
   ~HitLight();
 
-  /// Light straight from a lamp at a diffuse hit, and what it makes of it.
-  struct LampSight {
-    ArrivingLight light;
-    Rgb brdf{0};            ///< 1/sr
-    std::uint32_t hit = 0;  ///< which of the hits
-  };
   /// Memory and counts of one thread.
   struct Worker {
     Counters counters;
@@ -63,6 +57,9 @@ class HitLight {
     std::uint64_t beyond_reach = 0, without_record = 0, without_radiance = 0;  // since counted
   };
   std::unique_ptr<Worker> make_worker() const;
+
+  /// Has this material no other lobe than a diffuse one? Only its points leave sights.
+  bool is_diffuse(std::uint32_t material) const;
 
   /// Sets radiance, distance_m and hit_normal of h from what its rays hit (distance_m infinite: nothing), by
   /// one sample of the lamps at each hit (low-discrepancy over the hits) and `source`. Lamps' own emission is
@@ -99,8 +96,8 @@ class GatherEstimator : public HemisphereEstimator {
   /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
   void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
               Measure measure = Measure::projected) const;
-  /// What the rays of the worker's last sample() of a pass hit.
-  static std::span<const Hit> hits(const Worker& worker, std::uint32_t pass);
+  /// What the worker's last sample() of a pass found; `h` is the hemisphere that it filled.
+  static SeenPass seen(const Worker& worker, std::uint32_t pass, const Hemisphere& h);
 
  private:
   struct Impl;

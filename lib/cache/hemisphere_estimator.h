@@ -6,14 +6,24 @@
 
 #include "cache/estimator.h"
 #include "cache/hemisphere.h"
+#include "cache/lamp_sampler.h"
 #include "scene/rays.h"
 
 namespace phos {
 
-/// One pass over a hemisphere, and what each of its rays hit.
+/// Light straight from a lamp at a diffuse hit, and what it makes of it.
+struct LampSight {
+  ArrivingLight light;
+  Rgb brdf{0};            ///< 1/sr
+  std::uint32_t hit = 0;  ///< which of the hits
+  bool arrived = false;   ///< nothing was in the way
+};
+
+/// One pass over a hemisphere: what each of its rays hit, and the lamps' light there.
 struct SeenPass {
   const Hemisphere* hemisphere;
   std::span<const Hit> hits;
+  std::span<const LampSight> sights;
 };
 
 class HemisphereEstimator : public Estimator {

@@ -312,6 +312,8 @@ HitLight::~HitLight() = default;
 
 std::unique_ptr<HitLight::Worker> HitLight::make_worker() const { return std::make_unique<Worker>(); }
 
+bool HitLight::is_diffuse(std::uint32_t material) const { return impl_->surface[material].diffuse; }
+
 void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
                      Hemisphere& h, Worker& worker) const {
   PHOS_CHECK(hits.size() == h.size() && pass < 0xffff, hits.size(), " hits of ", h.size(), " rays, pass ",
@@ -335,9 +337,10 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
                         ? impl_->from_diffuse(point, lamp_points[i], ray, worker)
                         : impl_->from_any(point, -h.direction[i], ray, worker);
   }
-  for (const LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
+  for (LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
     const Rgb radiance = sight.brdf * sight.light.lux;
-    if (impl_->arrives(sight.light))
+    sight.arrived = impl_->arrives(sight.light);
+    if (sight.arrived)
       h.radiance[sight.hit] += radiance;
     else
       worker.hidden_radiance += radiance, ++worker.hidden;

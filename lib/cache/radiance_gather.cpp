@@ -53,7 +53,7 @@ Made RadianceEstimator::make(const RecordSite& site, Estimator::Worker& worker) 
 
 std::vector<SeenPass> RadianceEstimator::last_seen(const Estimator::Worker& worker) const {
   const auto& w = static_cast<const RadianceWorker&>(worker);
-  return {{&w.hemisphere, GatherEstimator::hits(*w.gather, 0)}};
+  return {GatherEstimator::seen(*w.gather, 0, w.hemisphere)};
 }
 
 Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemisphere> passes,
@@ -65,8 +65,7 @@ Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemi
   // The radius asks for gradients even where the record is to have none.
   const bool without = impl_->gradient == RadianceGradient::none;
   const RadianceGradient gradient = without ? RadianceGradient::hybrid : impl_->gradient;
-  RadianceRecord record =
-      w.projector.project(h, gradient, static_cast<float>(*options.min_radius_m));
+  RadianceRecord record = w.projector.project(h, gradient, static_cast<float>(*options.min_radius_m));
   record.position = site.position;
   require_finite(record);
   const float reach = reach_m(record, h, options);

@@ -18,6 +18,9 @@ namespace {
 /// Sets the random numbers of looking ahead apart from those of the records.
 constexpr std::uint64_t kOwnStreams = 0x6168656164206f66;
 
+/// With more moving things than this, it is quicker to ask the lamps again than to look who crosses.
+constexpr std::size_t kMostCrossers = 8;
+
 /// Hits that speak for their neighbours: one of each tile of about `size` cells.
 struct Tiles {
   int rows, columns;
@@ -26,14 +29,50 @@ struct Tiles {
         columns((size + rows - 1) / rows) {}
 };
 
+/// Where each thing that moves is at either time.
+std::vector<Bounds> swept(const Motion& motion) {
+  std::vector<Bounds> all;
+  for (std::size_t i = 0; i < motion.now.instance.size(); ++i) {
+    if (!motion.moved[i]) continue;
+    Bounds bounds;
+    const Instance& instance = motion.now.instance[i];
+    for (const Scene* scene : {&motion.now, &motion.next})
+      for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
+        for (const std::uint32_t v : scene->triangle[instance.first_triangle + t].v)
+          bounds.include(scene->position[v]);
+    if (!bounds.empty()) all.push_back(bounds);
+  }
+  return all;
+}
+
+bool crosses(const Ray& ray, const Bounds& box) {
+  // Most pass by even the sphere about it.
+  const Vec3 half = 0.5f * box.size(), way = box.centre() - ray.origin;
+  const Vec3 aside = way - std::clamp(glm::dot(way, ray.direction), 0.f, ray.t_max_m) * ray.direction;
+  if (glm::dot(aside, aside) > 1.001f * glm::dot(half, half)) return false;
+  float from = ray.t_min_m, to = ray.t_max_m;
+  for (int a = 0; a < 3; ++a) {
+    if (ray.direction[a] == 0) {
+      if (ray.origin[a] < box.lo[a] || ray.origin[a] > box.hi[a]) return false;
+      continue;
+    }
+    const float lo = (box.lo[a] - ray.origin[a]) / ray.direction[a];
+    const float hi = (box.hi[a] - ray.origin[a]) / ray.direction[a];
+    from = std::max(from, std::min(lo, hi)), to = std::min(to, std::max(lo, hi));
+  }
+  // Some roundings wider: a thing may be flat.
+  return from <= to * (1 + 1e-5f);
+}
+
 struct AheadWorker : Estimator::Worker {
   std::unique_ptr<Estimator::Worker> now, next;
   std::unique_ptr<HitLight::Worker> lamps_now, lamps_next;
-  std::vector<Hemisphere> passes;            // one frame on
-  std::vector<Rgb> radiance;                 // of hits, one frame on
-  Hemisphere chosen_now, chosen_next;        // of each tile one ray
-  std::vector<Hit> hits_now, hits_next;      // of those
-  std::vector<std::vector<std::size_t>> of;  // the cells that each speaks for
+  std::vector<Hemisphere> passes;        // one frame on
+  std::vector<Rgb> radiance;             // of hits, one frame on
+  Hemisphere chosen_now, chosen_next;    // of each tile one ray
+  std::vector<Hit> hits_now, hits_next;  // of those
+  std::vector<std::size_t> cells, end;   // that each speaks for: up to its end
+  std::vector<std::uint8_t> ask;         // by hit: the lamps are asked again
 };
 
 void take_counters(Estimator::Worker& from, Counters& into) {
@@ -53,6 +92,8 @@ struct AheadEstimator::Impl {
   std::uint64_t seed;
   AheadOptions options;
   Tiles tiles;
+  std::vector<Bounds> movers;
+  bool lamps_stay, area_lamps;
 
   Impl(const FrameEstimator& n, const FrameEstimator& m, const Changes& c, const RecordOptions& resolved,
        std::uint64_t own_seed, const AheadOptions& o)
@@ -67,9 +108,17 @@ struct AheadEstimator::Impl {
         records(resolved),
         seed(own_seed ^ kOwnStreams),
         options(o),
-        tiles(static_cast<int>(std::lround(1 / o.share))) {}
+        tiles(static_cast<int>(std::lround(1 / o.share))),
+        movers(swept(motion)),
+        lamps_stay(!c.lights && !c.materials && movers.size() <= kMostCrossers),
+        area_lamps(std::any_of(motion.now.light.begin(), motion.now.light.end(),
+                               [](const Light& l) { return l.kind == Light::Kind::area; })) {}
 
   std::optional<RecordSite> moved(const RecordSite& site) const;
+  bool goes(const SeenPass& seen, std::size_t i) const {
+    return std::isfinite(seen.hemisphere->distance_m[i]) && motion.moves(seen.hits[i].triangle);
+  }
+  bool change_of_shadows(const SeenPass& seen, AheadWorker& w) const;
   bool change_of_lamps(const SeenPass& seen, std::uint32_t pass, const RecordSite& from, const RecordSite& to,
                        AheadWorker& w) const;
   Ahead reprojected(const Made& made, const RecordSite& from, const RecordSite& to, AheadWorker& w) const;
@@ -87,34 +136,65 @@ std::optional<RecordSite> AheadEstimator::Impl::moved(const RecordSite& site) co
   return there;
 }
 
+/// Adds to w.radiance what things that move, and lamps that do not, change of the lamps' light at what does
+/// not: exact, ray by ray. Marks in w.ask where that cannot tell. False: nothing.
+bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& w) const {
+  const auto known = [&](std::size_t i) {
+    const Hit& hit = seen.hits[i];
+    return !motion.moves(hit.triangle) &&
+           lamps_now.is_diffuse(motion.now.instance[motion.now.triangle_instance[hit.triangle]].material);
+  };
+  for (std::size_t i = 0; i < w.ask.size(); ++i)
+    w.ask[i] = std::isfinite(seen.hemisphere->distance_m[i]) && (area_lamps || !known(i));
+  bool any = false;
+  for (const LampSight& sight : seen.sights) {
+    // Light that a ray found (near area lamps) has no way to look along again.
+    if (sight.light.certain || !known(sight.hit)) continue;
+    w.ask[sight.hit] = 0;
+    const Ray& way = sight.light.ray;
+    if (std::none_of(movers.begin(), movers.end(), [&](const Bounds& box) { return crosses(way, box); }))
+      continue;
+    const bool arrives = !next.rays.occluded(way);
+    if (arrives == sight.arrived) continue;
+    any = true;
+    w.radiance[sight.hit] += (arrives ? 1.f : -1.f) * sight.brdf * sight.light.lux;
+  }
+  return any;
+}
+
 /// Sets w.radiance to what the hits of a pass will send. False: the same as now.
 bool AheadEstimator::Impl::change_of_lamps(const SeenPass& seen, std::uint32_t pass, const RecordSite& from,
                                            const RecordSite& to, AheadWorker& w) const {
   const Hemisphere& h = *seen.hemisphere;
   w.radiance = h.radiance;
-  w.hits_now.clear(), w.hits_next.clear(), w.of.clear();
+  w.ask.assign(h.size(), 1);
+  // Where there are no sights, the direct light is in the source, or there is none.
+  bool any = lamps_stay && !seen.sights.empty() && change_of_shadows(seen, w);
+  w.hits_now.clear(), w.hits_next.clear(), w.cells.clear(), w.end.clear();
   w.chosen_now.direction.clear(), w.chosen_next.direction.clear();
   RandomStream random(seed, Stage::record, from.item);
   random.start_bounce(pass);
   const Vec3 shift = to.position - from.position;
   for (int ring = 0; ring < h.rings; ring += tiles.rows) {
     for (int slice = 0; slice < h.slices; slice += tiles.columns) {
-      std::vector<std::size_t> cells;
+      const std::size_t first = w.cells.size();
       for (int j = ring; j < std::min(ring + tiles.rows, h.rings); ++j)
         for (int k = slice; k < std::min(slice + tiles.columns, h.slices); ++k)
-          if (std::isfinite(h.distance_m[h.at(j, k)])) cells.push_back(h.at(j, k));
-      const auto pick = static_cast<std::size_t>(random.uniform() * static_cast<float>(cells.size()));
-      if (cells.empty()) continue;
-      const std::size_t i = cells[pick];
+          if (w.ask[h.at(j, k)] && std::isfinite(h.distance_m[h.at(j, k)])) w.cells.push_back(h.at(j, k));
+      const std::size_t count = w.cells.size() - first;
+      if (count == 0) continue;
+      const std::size_t i =
+          w.cells[first + static_cast<std::size_t>(random.uniform() * static_cast<float>(count))];
       const Hit& hit = seen.hits[i];
       const Vec3 way = h.distance_m[i] * h.direction[i] + (motion.of(hit) - shift);
       w.chosen_now.direction.push_back(h.direction[i]);
       w.chosen_next.direction.push_back(glm::normalize(way));
       w.hits_now.push_back(hit);
       w.hits_next.push_back({glm::length(way), hit.triangle, hit.u, hit.v});
-      w.of.push_back(std::move(cells));
+      w.end.push_back(w.cells.size());
     }
   }
+  if (w.hits_now.empty()) return any;
   const auto shade = [&](const RayScene& rays, const HitLight& lamps, const RecordSite& site,
                          std::span<const Hit> hits, Hemisphere& chosen, HitLight::Worker& worker) {
     chosen.resize(hits.size());
@@ -124,12 +204,10 @@ bool AheadEstimator::Impl::change_of_lamps(const SeenPass& seen, std::uint32_t p
   };
   shade(now.rays, lamps_now, from, w.hits_now, w.chosen_now, *w.lamps_now);
   shade(next.rays, lamps_next, to, w.hits_next, w.chosen_next, *w.lamps_next);
-  bool any = false;
-  for (std::size_t k = 0; k < w.of.size(); ++k) {
+  for (std::size_t k = 0, cell = 0; k < w.end.size(); ++k) {
     const Rgb change = w.chosen_next.radiance[k] - w.chosen_now.radiance[k];
-    if (change == Rgb(0)) continue;
-    any = true;
-    for (const std::size_t cell : w.of[k]) w.radiance[cell] += change;
+    any = any || change != Rgb(0);
+    for (; cell < w.end[k]; ++cell) w.radiance[w.cells[cell]] += change;
   }
   return any;
 }
@@ -138,27 +216,45 @@ Ahead AheadEstimator::Impl::reprojected(const Made& made, const RecordSite& from
                                         AheadWorker& w) const {
   const std::vector<SeenPass> seen = seer->last_seen(*w.now);
   const bool stays = to.position == from.position && to.normal == from.normal;
-  bool same = stays && records.paths == Quantity::indirect;
+  bool same = stays && (records.paths == Quantity::indirect || made.radiance);
   double cells = 0, holes = 0;
+  DVec3 irradiance(0);
   w.passes.resize(seen.size());
   for (std::size_t pass = 0; pass < seen.size(); ++pass) {
     const Hemisphere& h = *seen[pass].hemisphere;
     same = !change_of_lamps(seen[pass], static_cast<std::uint32_t>(pass), from, to, w) && same;
-    for (std::size_t i = 0; i < h.size() && same; ++i)
-      same = !std::isfinite(h.distance_m[i]) || !motion.moves(seen[pass].hits[i].triangle);
-    const ReprojectionCounts counts =
-        reproject(h, seen[pass].hits, w.radiance, motion, to.position - from.position, make_frame(to.normal),
-                  w.passes[pass]);
-    cells += static_cast<double>(counts.cells), holes += counts.holes;
+    bool moves = !stays;
+    for (std::size_t i = 0; i < h.size() && !moves; ++i) moves = goes(seen[pass], i);
+    same = same && !moves;
+    Hemisphere& then = w.passes[pass];
+    if (moves) {
+      const ReprojectionCounts counts = reproject(h, seen[pass].hits, w.radiance, motion,
+                                                  to.position - from.position, make_frame(to.normal), then);
+      holes += counts.holes;
+    } else {
+      then = h;
+      then.radiance = w.radiance;
+    }
+    cells += static_cast<double>(h.size());
+    irradiance += static_cast<double>(h.size()) * DVec3(irradiance_of(then));
   }
   if (same) return {made.record, made.radiance, 0};
   const auto share = static_cast<float>(holes / cells);
-  const bool trace = holes > options.most_holes * cells;
-  if (trace) w.counters.count("records traced one frame ahead");
-  Made ahead = trace ? next.estimator.make(to, *w.next) : next_seer->record_from(to, w.passes, *w.next);
+  if (holes > options.most_holes * cells) {
+    w.counters.count("records traced one frame ahead");
+    const Made next_made = next.estimator.make(to, *w.next);
+    return {next_made.record, next_made.radiance, share};
+  }
+  if (!options.whole && !made.radiance && records.paths == Quantity::indirect) {
+    Ahead ahead{made.record, {}, share};
+    ahead.record.position = to.position, ahead.record.normal = to.normal;
+    ahead.record.irradiance = Rgb(irradiance / cells);
+    return ahead;
+  }
+  Made then = next_seer->record_from(to, w.passes, *w.next);
   // Cells that are empty or crowded by chance say nothing of the light's own variance.
-  if (!trace) ahead.record.stderr_lx = made.record.stderr_lx;
-  return {ahead.record, ahead.radiance, share};
+  then.record.stderr_lx = made.record.stderr_lx;
+  return {then.record, then.radiance, share};
 }
 
 AheadEstimator::AheadEstimator(const FrameEstimator& now, const FrameEstimator& next, const Changes& changes,

@@ -19,6 +19,10 @@ struct AheadOptions {
   LookAhead look = LookAhead::reproject;
   double share = 0.125;      ///< of what rays hit, where the lamps are asked again; in (0, 1]
   double most_holes = 0.03;  ///< of the hemisphere; where more came to light, the next frame is traced (F6)
+  /// The record ahead has gradients and a radius of its own. Else, by reprojection, it is the record as it
+  /// is, at its place one frame on, but for its irradiance: a third of the cost. (Of radiance records all is
+  /// always had.)
+  bool whole = true;
 };
 
 /// A frame, and the estimator of its records.
@@ -33,11 +37,13 @@ struct FrameEstimator {
 /// seed (and photons the same paths), so that only what changes differs. Where a place's surface is no more,
 /// Made::ahead is null.
 ///
-/// By reprojection, light is taken as follows: what was straight from a lamp is looked at again, with lamps
-/// and surfaces of both frames, the same random numbers, and for a share of the hits, each of which speaks
-/// for its neighbours: unbiased, and exactly nothing where nothing changes. All other light stays with what
-/// sends it, which a frame later is nearly right, and free of the noise of another frame's photons. Where
-/// nothing at all changes the record ahead is the record itself: its expected rate is exactly 0.
+/// By reprojection, light is taken as follows. Where lamps and materials stay, what was straight from a lamp
+/// stays too, but where something that moves crosses its way (looked at again) or is what was hit. Light at
+/// what moved, or all of it where lamps change, is had again with the lamps and surfaces of both frames, the
+/// same random numbers, and for a share of the hits, each of which speaks for its neighbours: unbiased, and
+/// exactly nothing where nothing changes. All other light stays with what sends it, which a frame later is
+/// nearly right, and free of the noise of another frame's photons. Where nothing at all changes the record
+/// ahead is the record itself: its expected rate is exactly 0.
 class AheadEstimator : public Estimator {
  public:
   /// Holds references. `changes` are those between the two frames; `resolved` and `seed` as of `now`.

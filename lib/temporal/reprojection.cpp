@@ -80,6 +80,15 @@ bool move(const Hemisphere& now, const Hit& hit, std::size_t i, const Motion& mo
   return glm::dot(moved.direction[i], moved.hit_normal[i]) < 0;
 }
 
+/// Neighbours of a cell, up to four.
+template <class Visit>
+void each_neighbour(const Hemisphere& h, std::size_t cell, const Visit& visit) {
+  const int ring = static_cast<int>(cell) / h.slices, slice = static_cast<int>(cell) % h.slices;
+  if (ring > 0) visit(h.at(ring - 1, slice));
+  if (ring + 1 < h.rings) visit(h.at(ring + 1, slice));
+  visit(h.at(ring, slice - 1)), visit(h.at(ring, slice + 1));
+}
+
 /// Fills each empty cell with what its deepest known neighbour holds, the deepest first.
 void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t>& source) {
   struct Front {
@@ -89,23 +98,17 @@ void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t
       return depth_m != other.depth_m ? depth_m < other.depth_m : cell > other.cell;
     }
   };
-  const auto neighbours = [&](std::size_t cell, const auto& visit) {
-    const int ring = static_cast<int>(cell) / h.slices, slice = static_cast<int>(cell) % h.slices;
-    if (ring > 0) visit(h.at(ring - 1, slice));
-    if (ring + 1 < h.rings) visit(h.at(ring + 1, slice));
-    visit(h.at(ring, slice - 1)), visit(h.at(ring, slice + 1));
-  };
   std::priority_queue<Front> fronts;
   for (std::size_t cell = 0; cell < source.size(); ++cell) {
-    if (source[cell] == kNothing) continue;
-    bool beside_empty = false;
-    neighbours(cell, [&](std::size_t n) { beside_empty = beside_empty || source[n] == kNothing; });
-    if (beside_empty) fronts.push({moved.distance_m[source[cell]], cell});
+    if (source[cell] != kNothing) continue;
+    each_neighbour(h, cell, [&](std::size_t n) {
+      if (source[n] != kNothing) fronts.push({moved.distance_m[source[n]], n});
+    });
   }
   while (!fronts.empty()) {
     const Front front = fronts.top();
     fronts.pop();
-    neighbours(front.cell, [&](std::size_t n) {
+    each_neighbour(h, front.cell, [&](std::size_t n) {
       if (source[n] != kNothing) return;
       source[n] = source[front.cell];
       fronts.push({front.depth_m, n});
@@ -131,19 +134,39 @@ double growth(const Hemisphere& now, const Hemisphere& moved, std::size_t i, con
 
 /// Hits, moved, and the cells that they fall into.
 struct Moved {
-  const Hemisphere& now;
-  std::span<const Hit> hits;
-  const Motion& motion;
-  Hemisphere h;                // by hit
-  std::vector<bool> seen;      // by hit
-  std::vector<double> covers;  // by hit, in cells
+  Hemisphere h;                    // by hit
+  std::vector<std::uint8_t> goes;  // by hit: it moves itself
+  std::vector<std::uint8_t> seen;  // by hit
+  std::vector<std::size_t> cell;   // by hit
+  std::vector<float> covers;       // by hit, in cells
+  std::vector<std::size_t> front;  // by cell: the nearest hit in it
 
-  bool goes(std::size_t i) const {
-    return std::isfinite(now.distance_m[i]) && motion.moves(hits[i].triangle);
-  }
   /// Are these two of surfaces of which one may come to hide the other?
-  bool apart(std::size_t a, std::size_t b) const { return goes(a) != goes(b) || one_hides_other(h, a, b, 0); }
+  bool apart(std::size_t a, std::size_t b) const { return goes[a] != goes[b] || one_hides_other(h, a, b, 0); }
 };
+
+/// What hits cover and what is left of it must make up the whole. The difference belongs to what lies behind
+/// the edges of something nearer: hits there cover the more or the less for it, up to nothing or the double.
+/// Returns how much of it they took.
+double take_behind_edges(const Hemisphere& cells, double missing, bool place_moves, Moved& moved) {
+  std::vector<std::size_t> behind;
+  double cover = 0;
+  for (std::size_t i = 0; i < moved.seen.size(); ++i) {
+    if (!moved.seen[i] || !(moved.covers[i] > 0)) continue;
+    bool edge = false;
+    each_neighbour(cells, moved.cell[i], [&](std::size_t n) {
+      const std::size_t f = moved.front[n];
+      if (edge || f == kNothing || !(moved.h.distance_m[f] < moved.h.distance_m[i])) return;
+      edge = place_moves ? moved.apart(i, f) : moved.goes[i] != moved.goes[f];
+    });
+    if (!edge) continue;
+    behind.push_back(i), cover += static_cast<double>(moved.covers[i]);
+  }
+  if (behind.empty()) return 0;
+  const double share = std::clamp(missing / cover, -1.0, 1.0);
+  for (const std::size_t i : behind) moved.covers[i] *= static_cast<float>(1 + share);
+  return share * cover;
+}
 
 }  // namespace
 
@@ -162,64 +185,73 @@ ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, s
   ahead.resize(n);
   ReprojectionCounts counts{.cells = n};
 
-  Moved moved{now, hits, motion, {}, std::vector<bool>(n), std::vector<double>(n, 1)};
+  Moved moved;
   Hemisphere& h = moved.h;
   h.resize(n);
-  std::vector<std::size_t> cell_of_hit(n), front(n, kNothing);  // front: by cell, the nearest hit in it
+  moved.goes.resize(n), moved.seen.resize(n), moved.cell.resize(n);
+  moved.covers.assign(n, 1), moved.front.assign(n, kNothing);
   for (std::size_t i = 0; i < n; ++i) {
+    moved.goes[i] = std::isfinite(now.distance_m[i]) && motion.moves(hits[i].triangle);
     moved.seen[i] = move(now, hits[i], i, motion, shift_m, h);
-    cell_of_hit[i] = i;
+    moved.cell[i] = i;
     if (turns || h.direction[i] != now.direction[i]) {
       const Vec3 local = frame.to_local(h.direction[i]);
       moved.seen[i] = moved.seen[i] && local.z > 0;
       if (!moved.seen[i]) continue;
-      cell_of_hit[i] = cell_of(ahead, local);
-      moved.covers[i] = growth(now, h, i, frame.z);
+      moved.cell[i] = cell_of(ahead, local);
+      moved.covers[i] = static_cast<float>(growth(now, h, i, frame.z));
     }
     if (!moved.seen[i]) continue;
-    std::size_t& nearest = front[cell_of_hit[i]];
+    std::size_t& nearest = moved.front[moved.cell[i]];
     if (nearest == kNothing || h.distance_m[i] < h.distance_m[nearest]) nearest = i;
   }
 
-  // What is seen takes its light to its cell.
-  std::fill(ahead.radiance.begin(), ahead.radiance.end(), Rgb(0));
   double covered = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t cell = cell_of_hit[i], nearest = moved.seen[i] ? front[cell] : kNothing;
-    if (nearest == kNothing || (nearest != i && moved.apart(i, nearest))) {
-      ++counts.hidden;
-      continue;
+    if (moved.seen[i]) {
+      const std::size_t nearest = moved.front[moved.cell[i]];
+      moved.seen[i] = nearest == i || !moved.apart(i, nearest);
     }
-    ahead.radiance[cell] += radiance[i] * static_cast<float>(moved.covers[i]);
-    covered += moved.covers[i];
+    if (moved.seen[i])
+      covered += static_cast<double>(moved.covers[i]);
+    else
+      ++counts.hidden;
   }
 
-  // What is missing came to light in cells that another surface has left.
-  std::vector<std::size_t> source = front, holes;
-  flood(ahead, h, source);
+  // What is missing came to light, most of it in cells that another surface has left.
+  std::vector<std::size_t> source = moved.front, holes;
+  for (std::size_t cell = 0; cell < n; ++cell)
+    if (source[cell] == kNothing) ++counts.empty;
+  if (counts.empty > 0) flood(ahead, h, source);
   for (std::size_t cell = 0; cell < n; ++cell) {
-    if (front[cell] != kNothing) continue;
-    ++counts.empty;
+    if (moved.front[cell] != kNothing) continue;
     const bool known = source[cell] != kNothing;
     if (!moved.seen[cell] || !known || moved.apart(cell, source[cell]))
       holes.push_back(cell);
     else
       source[cell] = cell;
   }
-  const auto all = static_cast<double>(n), empty = static_cast<double>(holes.size());
-  counts.holes = std::clamp(all - covered, 0.0, empty);
+  const auto all = static_cast<double>(n), most = static_cast<double>(holes.size());
+  counts.holes = std::clamp(all - covered, 0.0, most);
+  covered += counts.holes;
+  if (covered != all) covered += take_behind_edges(ahead, all - covered, turns || shift_m != Vec3(0), moved);
+
+  // What is seen takes its light to its cell.
+  std::fill(ahead.radiance.begin(), ahead.radiance.end(), Rgb(0));
+  for (std::size_t i = 0; i < n; ++i)
+    if (moved.seen[i]) ahead.radiance[moved.cell[i]] += radiance[i] * moved.covers[i];
   for (const std::size_t cell : holes)
     if (source[cell] != kNothing)
-      ahead.radiance[cell] = radiance[source[cell]] * static_cast<float>(counts.holes / empty);
-  if (covered > 0 && covered + counts.holes != all) {
-    const auto scale = static_cast<float>(std::min(all / (covered + counts.holes), kMostGrowth));
+      ahead.radiance[cell] = radiance[source[cell]] * static_cast<float>(counts.holes / most);
+  if (covered > 0 && covered != all) {
+    const auto scale = static_cast<float>(std::min(all / covered, kMostGrowth));
     for (Rgb& light : ahead.radiance) light *= scale;
   }
 
   const float each_sr = kPi / static_cast<float>(n);
   for (std::size_t cell = 0; cell < n; ++cell) {
     const std::size_t hit = source[cell];
-    const bool fell_in = front[cell] != kNothing;
+    const bool fell_in = moved.front[cell] != kNothing;
     ahead.direction[cell] = fell_in ? h.direction[hit] : middle_of(ahead, cell);
     ahead.distance_m[cell] = hit == kNothing ? kInfinity : h.distance_m[hit];
     ahead.hit_normal[cell] = hit == kNothing ? -ahead.direction[cell] : h.hit_normal[hit];
