@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   options.example("phos-splat film.glb film.irradiance --frames 0:99 -o film/%04d.exr",
                   "an animation; ranges may be given to several machines");
 
+  std::vector<Container> files;  // open from the first frame on
   return tool.run(argc, argv, [&] {
     tool.add_input("scene", scene_files(scene_path, scene_options));
     for (std::size_t i = 0; i < cache_paths.size(); ++i) tool.add_input(text("cache ", i), cache_paths[i]);
@@ -104,7 +105,7 @@ int main(int argc, char** argv) {
                   "a picture that is not made anew has no misses; leave out --reuse");
     if (tool.up_to_date()) return;
 
-    const std::vector<Container> files = open_caches(cache_paths);
+    if (files.empty()) files = open_caches(cache_paths);
     const Scene scene = [&] {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);

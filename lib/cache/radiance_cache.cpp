@@ -140,6 +140,10 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
 }
 
 RadianceCache read_radiance(const Container& file, RecordsOf of) {
+  return read_radiance_rows(file, of, nullptr);
+}
+
+RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows) {
   if (file.provenance().kind != "radiance") {
     throw Error(ExitCode::bad_input, file.path(),
                 text("holds ", file.provenance().kind, ", not radiance; give the output of phos-radiance"));
@@ -171,18 +175,20 @@ RadianceCache read_radiance(const Container& file, RecordsOf of) {
   RadianceCache cache;
   cache.accuracy = accuracy->as_number();
   cache.scene_hash = file.provenance().scene_hash;
-  cache.records.resize(n);
-  std::vector<const char*> wrong(n);
-  parallel_for(n, 256, [&](std::size_t i) {
-    RadianceRecord& r = cache.records[i];
+  cache.records.resize(rows ? rows->size() : n);
+  std::vector<const char*> wrong(cache.records.size());
+  const auto row_of = [&](std::size_t record) { return rows ? (*rows)[record] : record; };
+  parallel_for(cache.records.size(), 256, [&](std::size_t record) {
+    RadianceRecord& r = cache.records[record];
+    const std::size_t i = row_of(record);
     const std::size_t own_bands = own_order ? own_order[i] : bands, own = own_bands * own_bands;
     if (own < 1 || own_bands > bands) {
-      wrong[i] = "no order that the file holds";
+      wrong[record] = "no order that the file holds";
       return;
     }
     const auto take = [&](const float* of_all, std::size_t stride, std::size_t used) {
       const float* row = of_all + 3 * i * stride;
-      if (!rest_is_zero(row, stride, used)) wrong[i] = "numbers beyond its own order";
+      if (!rest_is_zero(row, stride, used)) wrong[record] = "numbers beyond its own order";
       return from_column(row, stride, used);
     };
     const float* f = frame + 6 * i;
@@ -193,12 +199,12 @@ RadianceCache read_radiance(const Container& file, RecordsOf of) {
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
     if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
-    if (!wrong[i]) wrong[i] = what_is_wrong(r);
+    if (!wrong[record]) wrong[record] = what_is_wrong(r);
   });
-  for (std::size_t i = 0; i < n; ++i) {
-    if (wrong[i]) {
+  for (std::size_t record = 0; record < wrong.size(); ++record) {
+    if (wrong[record]) {
       throw Error(ExitCode::bad_input, file.path(),
-                  text("record ", i, " has ", wrong[i],
+                  text("record ", row_of(record), " has ", wrong[record],
                        "; the file is damaged or was made by a faulty program: make it again"));
     }
   }

@@ -1,10 +1,12 @@
-// Numbers of radiance records as their files have them: [colour][number] for each record, as many as the
+// Records of radiance files row by row. Numbers are [colour][number] for each record there, as many as the
 // greatest order has, 0 beyond a record's own; in memory they are [number][colour].
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "cache/radiance_cache.h"
 
 namespace phos {
 
@@ -25,5 +27,8 @@ inline bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
       return false;
   return true;
 }
+
+/// As read_radiance(), but of some rows alone, which then are all that is looked at; null: all.
+RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows);
 
 }  // namespace phos

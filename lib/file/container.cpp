@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -96,6 +97,7 @@ struct Container::Impl {
   Provenance provenance;
   std::map<std::string, Tensor> tensors;
   std::map<std::string, std::string> checksums;
+  mutable std::atomic<bool> verified = false;  ///< all of it, so that nobody needs to again
 };
 
 Container::Impl::Impl(const std::string& p, const std::string& kind) : path(p), file(p) {
@@ -152,7 +154,9 @@ const Tensor& Container::require(const std::string& name, Dtype dtype, const Sha
 }
 
 void Container::verify() const {
+  if (impl_->verified) return;
   for (const auto& [name, tensor] : impl_->tensors) impl_->check(name, tensor);
+  impl_->verified = true;
 }
 
 void Container::verify(const std::string& name) const {

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "hsh/rotation.h"
 #include "temporal/change.h"
+#include "temporal/film_lives.h"
 
 namespace phos {
 namespace {
@@ -75,17 +76,6 @@ float weight_at(std::int64_t frame, const Life& life, const FilmInfo& film) {
   return static_cast<float>(std::max(kLeast, w));
 }
 
-/// The share of a place that has records from frame `begin` to before `end`, while others take over. Nothing
-/// fades where the film itself begins or ends.
-float fade_at(std::int64_t frame, std::int64_t begin, std::int64_t end, const FilmInfo& film) {
-  const auto share = [&](std::int64_t frames) {
-    return std::min(1.f, static_cast<float>(frames) / static_cast<float>(film.fade + 1));
-  };
-  const float in = begin > film.frames.first ? share(frame - begin + 1) : 1.f;
-  const float out = end <= film.frames.last ? share(end - frame) : 1.f;
-  return in * out;
-}
-
 /// Moves a record with its surface; false where that has no area.
 template <class Record>
 bool move(Record& r, const Life& life, const Scene& scene) {
@@ -97,26 +87,21 @@ bool move(Record& r, const Life& life, const Scene& scene) {
   return true;
 }
 
-/// Appends those alive at a frame to `alive`.
-template <class FilmRecords, class Records>
-void take_alive(const FilmRecords& records, const FilmInfo& film, std::int64_t frame, const Scene& scene,
-                Records& alive) {
-  const auto follows = [&](std::size_t i) {
-    return records[i].life.chain == records[i - 1].life.chain &&
-           records[i].life.birth == records[i - 1].life.end;
-  };
-  for (std::size_t begin = 0, end = 0; begin < records.size(); begin = end) {
-    end = begin + 1;
-    while (end < records.size() && follows(end)) ++end;
-    const Life &first = records[begin].life, &last = records[end - 1].life;
-    if (frame < first.birth || frame >= last.end) continue;
-    std::size_t i = begin;
-    while (records[i].life.end <= frame) ++i;
-    auto record = changed(records[i], frame);
-    if (!move(record, records[i].life, scene)) continue;
-    record.weight = weight_at(frame, records[i].life, film) * fade_at(frame, first.birth, last.end, film);
-    alive.push_back(std::move(record));
-  }
+template <class Record>
+auto shown(const Record& film_record, float share, const FilmInfo& film, std::int64_t frame,
+           const Scene& scene) {
+  auto record = std::optional(changed(film_record, frame));
+  if (!move(*record, film_record.life, scene)) return decltype(record)();
+  record->weight = weight_at(frame, film_record.life, film) * share;
+  return record;
+}
+
+template <class AnyFilm, class Records>
+void take_alive(const AnyFilm& film, std::int64_t frame, const Scene& scene, Records& records) {
+  const auto life = [&](std::size_t i) -> const Life& { return film.records[i].life; };
+  for (const Alive& alive : alive_at(film.records.size(), life, film.info, frame))
+    if (auto record = at_frame(film.records[alive.record], alive.share, film.info, frame, scene))
+      records.push_back(std::move(*record));
 }
 
 }  // namespace
@@ -180,17 +165,26 @@ RadianceRecord changed(const FilmRadianceRecord& film, std::int64_t frame) {
   return r;
 }
 
+std::optional<IrradianceRecord> at_frame(const FilmRecord& record, float share, const FilmInfo& film,
+                                         std::int64_t frame, const Scene& scene) {
+  return shown(record, share, film, frame, scene);
+}
+std::optional<RadianceRecord> at_frame(const FilmRadianceRecord& record, float share, const FilmInfo& film,
+                                       std::int64_t frame, const Scene& scene) {
+  return shown(record, share, film, frame, scene);
+}
+
 IrradianceCache cache_at(const Film& film, std::int64_t frame, const Scene& scene) {
   IrradianceCache cache;
   cache.accuracy = film.info.accuracy, cache.scene_hash = scene.hash, cache.quantity = film.quantity;
-  take_alive(film.records, film.info, frame, scene, cache.records);
+  take_alive(film, frame, scene, cache.records);
   return cache;
 }
 
 RadianceCache cache_at(const RadianceFilm& film, std::int64_t frame, const Scene& scene) {
   RadianceCache cache;
   cache.accuracy = film.info.accuracy, cache.scene_hash = scene.hash;
-  take_alive(film.records, film.info, frame, scene, cache.records);
+  take_alive(film, frame, scene, cache.records);
   return cache;
 }
 

@@ -107,5 +107,8 @@ FilmInfo read_film_info(const Container& file);
 /// Throw Error(bad_input) for a damaged file (the first bad record named), or one of no film.
 Film read_film(const Container& file);
 RadianceFilm read_radiance_film(const Container& file);
+/// cache_at() of a film's file: its radiance records are read, and looked at, only where they are alive.
+IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Scene& scene);
+RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene);
 
 }  // namespace phos

@@ -1,6 +1,8 @@
 // The files of films.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "cache/radiance_columns.h"
 #include "core/error.h"
@@ -35,8 +37,9 @@ struct IrradianceChanges {
   }
 };
 
-void read_changes(const Container& file, Film& film) {
-  const std::size_t n = film.records.size();
+/// film.records[k] is row rows[k] of the file.
+void read_changes(const Container& file, const std::vector<std::size_t>& rows, Film& film) {
+  const std::uint64_t n = file.vectors("position").size();
   const auto irradiance = file.values<float>("irradiance_change", {n, 3}),
              rotation = file.values<float>("rotation_gradient_change", {n, 3, 3}),
              translation = file.values<float>("translation_gradient_change", {n, 3, 3}),
@@ -44,12 +47,14 @@ void read_changes(const Container& file, Film& film) {
   const auto vector = [](std::span<const float> v, std::size_t i) {
     return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
   };
-  for (std::size_t i = 0; i < n; ++i) {
-    IrradianceChange& change = film.records[i].change;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    IrradianceChange& change = film.records[k].change;
+    const std::size_t i = rows[k];
     change.irradiance = vector(irradiance, i), change.radius_m = radius_m[i];
-    for (std::size_t c = 0; c < 3; ++c)
-      change.rotation[c] = vector(rotation, 3 * i + c),
+    for (std::size_t c = 0; c < 3; ++c) {
+      change.rotation[c] = vector(rotation, 3 * i + c);
       change.translation[c] = vector(translation, 3 * i + c);
+    }
   }
 }
 
@@ -96,24 +101,23 @@ struct RadianceChanges {
                    "; the file is damaged or was made by a faulty program: make it again"));
 }
 
-void read_changes(const Container& file, RadianceFilm& film) {
-  const std::size_t n = film.records.size();
-  const Tensor& tensor = file.tensors().at("coefficients");  // read_radiance has found it
-  const std::size_t count = n > 0 ? static_cast<std::size_t>(tensor.shape[2]) : 0;
+void read_changes(const Container& file, const std::vector<std::size_t>& rows, RadianceFilm& film) {
+  const Shape& shape = file.tensors().at("coefficients").shape;  // read_radiance_rows() has found it
+  const std::uint64_t n = shape[0], count = shape[2];
   const auto radius_m = file.values<float>("radius_change", {n});
-  for (std::size_t i = 0; i < n; ++i) film.records[i].change.radius_m = radius_m[i];
+  for (std::size_t k = 0; k < rows.size(); ++k) film.records[k].change.radius_m = radius_m[rows[k]];
   const auto take = [&](const char* name, std::vector<float> RadianceRecord::*of,
                         std::vector<float> RadianceChange::*to) {
-    const auto all = file.values<float>(name, {n, 3, count});
-    for (std::size_t i = 0; i < n; ++i) {
-      const float* row = all.data() + 3 * i * count;
-      const std::size_t used = (film.records[i].record.*of).size() / 3;
-      if (!rest_is_zero(row, count, used)) refuse_record(file, i, "changes beyond its own order");
-      if (!rest_is_zero(row, count, 0)) film.records[i].change.*to = from_column(row, count, used);
+    const auto all = file.values<float>(name, shape);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const float* row = all.data() + 3 * rows[k] * count;
+      const std::size_t used = (film.records[k].record.*of).size() / 3;
+      if (!rest_is_zero(row, count, used)) refuse_record(file, rows[k], "changes beyond its own order");
+      if (!rest_is_zero(row, count, 0)) film.records[k].change.*to = from_column(row, count, used);
     }
   };
   take("coefficients_change", &RadianceRecord::light, &RadianceChange::light);
-  if (n == 0 || film.records.front().record.gradient_x.empty()) return;
+  if (!file.has("gradient_x")) return;
   take("gradient_x_change", &RadianceRecord::gradient_x, &RadianceChange::gradient_x);
   take("gradient_y_change", &RadianceRecord::gradient_y, &RadianceChange::gradient_y);
 }
@@ -126,26 +130,79 @@ bool all_finite(const IrradianceRecord& r) {
 }
 bool all_finite(const RadianceRecord& r) { return is_finite(r); }
 
-/// nullptr: nothing.
+/// nullptr: nothing. What changes is largest or least at the end of a life.
 template <class Record>
-const char* what_is_wrong(const Record& r, const Record* before, const FilmInfo& film) {
-  if (const char* wrong = what_is_wrong(r.life, before ? &before->life : nullptr, film)) return wrong;
-  // All that changes is largest or least at the end.
+const char* what_is_wrong_with_change(const Record& r) {
   return all_finite(changed(r, r.life.end - 1)) ? nullptr : "a change that is not finite";
 }
 
 // --- both kinds ---
 
+/// What of a file is to be read: all of it, or what is alive at a frame.
+struct Wanted {
+  FilmInfo info;
+  std::vector<Life> lives;  ///< all
+  std::vector<Alive> alive;
+  std::vector<std::size_t> rows;
+
+  explicit Wanted(const Container& file, std::optional<std::int64_t> frame = {})
+      : info(read_film_info(file)) {
+    file.verify();
+    const std::size_t n = file.vectors("position").size();
+    lives = read_lives(file, n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const char* wrong = what_is_wrong(lives[i], i > 0 ? &lives[i - 1] : nullptr, info))
+        refuse_record(file, i, wrong);
+    if (frame) {
+      alive = alive_at(
+          n, [&](std::size_t i) -> const Life& { return lives[i]; }, info, *frame);
+      for (const Alive& a : alive) rows.push_back(a.record);
+    } else {
+      rows.resize(n);
+      std::iota(rows.begin(), rows.end(), std::size_t{0});
+    }
+  }
+};
+
 /// Fills all but the records themselves.
 template <class AnyFilm>
-void complete(const Container& file, AnyFilm& film) {
-  film.info = read_film_info(file);
-  const std::vector<Life> lives = read_lives(file, film.records.size());
-  for (std::size_t i = 0; i < lives.size(); ++i) film.records[i].life = lives[i];
-  if (film.info.gradients != TemporalGradients::none) read_changes(file, film);
-  for (std::size_t i = 0; i < film.records.size(); ++i)
-    if (const char* wrong = what_is_wrong(film.records[i], i > 0 ? &film.records[i - 1] : nullptr, film.info))
-      refuse_record(file, i, wrong);
+void complete(const Container& file, const Wanted& wanted, AnyFilm& film) {
+  film.info = wanted.info;
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k) film.records[k].life = wanted.lives[wanted.rows[k]];
+  if (film.info.gradients != TemporalGradients::none) read_changes(file, wanted.rows, film);
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k)
+    if (const char* wrong = what_is_wrong_with_change(film.records[k]))
+      refuse_record(file, wanted.rows[k], wrong);
+}
+
+Film read(const Container& file, const Wanted& wanted) {
+  const RecordColumns columns(file, RecordsOf::film);
+  Film film;
+  film.quantity = columns.quantity();
+  film.records.resize(wanted.rows.size());
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k) film.records[k].record = columns[wanted.rows[k]];
+  complete(file, wanted, film);
+  return film;
+}
+
+RadianceFilm read_radiance(const Container& file, const Wanted& wanted) {
+  RadianceCache cache = read_radiance_rows(file, RecordsOf::film, &wanted.rows);
+  RadianceFilm film;
+  film.records.resize(cache.records.size());
+  for (std::size_t k = 0; k < film.records.size(); ++k) film.records[k].record = std::move(cache.records[k]);
+  complete(file, wanted, film);
+  return film;
+}
+
+/// `film` holds what is alive.
+template <class Cache, class AnyFilm>
+Cache shown(const AnyFilm& film, const Wanted& wanted, std::int64_t frame, const Scene& scene) {
+  Cache cache;
+  cache.accuracy = film.info.accuracy, cache.scene_hash = scene.hash;
+  for (std::size_t k = 0; k < film.records.size(); ++k)
+    if (auto record = at_frame(film.records[k], wanted.alive[k].share, film.info, frame, scene))
+      cache.records.push_back(std::move(*record));
+  return cache;
 }
 
 /// The columns that a film has more than a cache.
@@ -153,7 +210,9 @@ template <class AnyFilm>
 LifeColumns lives_of(const AnyFilm& film) {
   LifeColumns lives;
   for (std::size_t i = 0; i < film.records.size(); ++i) {
-    const char* wrong = what_is_wrong(film.records[i], i > 0 ? &film.records[i - 1] : nullptr, film.info);
+    const auto& r = film.records[i];
+    const char* wrong = what_is_wrong(r.life, i > 0 ? &film.records[i - 1].life : nullptr, film.info);
+    if (!wrong) wrong = what_is_wrong_with_change(r);
     PHOS_CHECK(wrong == nullptr, "record ", i, " has ", wrong);
     lives.append(film.records[i].life);
   }
@@ -199,23 +258,20 @@ bool is_film(const Container& file) {
   return (kind == "irradiance" || kind == "radiance") && records_of(file) == RecordsOf::film;
 }
 
-Film read_film(const Container& file) {
-  const RecordColumns columns(file, RecordsOf::film);
-  Film film;
-  film.quantity = columns.quantity();
-  film.records.resize(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) film.records[i].record = columns[i];
-  complete(file, film);
-  return film;
+Film read_film(const Container& file) { return read(file, Wanted(file)); }
+RadianceFilm read_radiance_film(const Container& file) { return read_radiance(file, Wanted(file)); }
+
+IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Scene& scene) {
+  const Wanted wanted(file, frame);
+  const Film film = read(file, wanted);
+  auto cache = shown<IrradianceCache>(film, wanted, frame, scene);
+  cache.quantity = film.quantity;
+  return cache;
 }
 
-RadianceFilm read_radiance_film(const Container& file) {
-  RadianceCache cache = read_radiance(file, RecordsOf::film);
-  RadianceFilm film;
-  film.records.resize(cache.records.size());
-  for (std::size_t i = 0; i < film.records.size(); ++i) film.records[i].record = std::move(cache.records[i]);
-  complete(file, film);
-  return film;
+RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene) {
+  const Wanted wanted(file, frame);
+  return shown<RadianceCache>(read_radiance(file, wanted), wanted, frame, scene);
 }
 
 }  // namespace phos

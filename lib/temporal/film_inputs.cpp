@@ -41,16 +41,14 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
 
 IrradianceCache read_irradiance_at(const Container& file, const Scene& scene) {
   if (!is_film(file)) return read_irradiance(file);
-  const Film film = read_film(file);
-  require_frame(file, film.info, frame_of(scene));
-  return cache_at(film, frame_of(scene), scene);
+  require_frame(file, read_film_info(file), frame_of(scene));
+  return read_film_at(file, frame_of(scene), scene);
 }
 
 RadianceCache read_radiance_at(const Container& file, const Scene& scene) {
   if (!is_film(file)) return read_radiance(file);
-  const RadianceFilm film = read_radiance_film(file);
-  require_frame(file, film.info, frame_of(scene));
-  return cache_at(film, frame_of(scene), scene);
+  require_frame(file, read_film_info(file), frame_of(scene));
+  return read_radiance_film_at(file, frame_of(scene), scene);
 }
 
 SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& scene,

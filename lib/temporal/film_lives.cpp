@@ -8,6 +8,20 @@
 
 namespace phos {
 
+namespace {
+
+/// The share of a place that has records from frame `begin` to before `end`.
+float fade_at(std::int64_t frame, std::int64_t begin, std::int64_t end, const FilmInfo& film) {
+  const auto share = [&](std::int64_t frames) {
+    return std::min(1.f, static_cast<float>(frames) / static_cast<float>(film.fade + 1));
+  };
+  const float in = begin > film.frames.first ? share(frame - begin + 1) : 1.f;
+  const float out = end <= film.frames.last ? share(end - frame) : 1.f;
+  return in * out;
+}
+
+}  // namespace
+
 const char* what_is_wrong(const Life& life, const Life* before, const FilmInfo& film) {
   if (!(life.birth < life.end)) return "an end that is not after its birth";
   if (life.birth < film.frames.first || life.end > film.frames.last + 1) return "a life outside of the film";
@@ -61,6 +75,25 @@ std::vector<Life> read_lives(const Container& file, std::size_t n) {
     lives[i].turn = {turn[4 * i + 3], turn[4 * i], turn[4 * i + 1], turn[4 * i + 2]};
   }
   return lives;
+}
+
+std::vector<Alive> alive_at(std::size_t n, const std::function<const Life&(std::size_t)>& life,
+                            const FilmInfo& film, std::int64_t frame) {
+  std::vector<Alive> alive;
+  const auto follows = [&](std::size_t i) {
+    return life(i).chain == life(i - 1).chain && life(i).birth == life(i - 1).end;
+  };
+  // Record by record that follow one another.
+  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+    end = begin + 1;
+    while (end < n && follows(end)) ++end;
+    const std::int64_t birth = life(begin).birth, death = life(end - 1).end;
+    if (frame < birth || frame >= death) continue;
+    std::size_t i = begin;
+    while (life(i).end <= frame) ++i;
+    alive.push_back({i, fade_at(frame, birth, death, film)});
+  }
+  return alive;
 }
 
 Json film_header(const FilmInfo& film, const LifeColumns& lives) {

@@ -1,6 +1,8 @@
-// When records live and where: what the files of irradiance and radiance films have in common.
+// When records live and where: what irradiance and radiance films have in common.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/json.h"
@@ -24,6 +26,23 @@ struct LifeColumns {
 };
 /// Of n records. Throws Error(bad_input) for columns that lack.
 std::vector<Life> read_lives(const Container& file, std::size_t n);
+
+/// A record that is alive at some frame, and the share of its place then.
+struct Alive {
+  std::size_t record;
+  float share;
+};
+/// Those of n lives (in order, `life(i)`) that are at `frame`. Where a place has no records before or after,
+/// its share grows or falls over film.fade frames, except where the film itself begins or ends.
+std::vector<Alive> alive_at(std::size_t n, const std::function<const Life&(std::size_t)>& life,
+                            const FilmInfo& film, std::int64_t frame);
+
+/// A record at a frame of its life, with its weight: changed, moved with its surface, of this share. Nothing
+/// where its surface has no area.
+std::optional<IrradianceRecord> at_frame(const FilmRecord& record, float share, const FilmInfo& film,
+                                         std::int64_t frame, const Scene& scene);
+std::optional<RadianceRecord> at_frame(const FilmRadianceRecord& record, float share, const FilmInfo& film,
+                                       std::int64_t frame, const Scene& scene);
 
 /// The `film` object of a file's header, which read_film_info() reads.
 Json film_header(const FilmInfo& film, const LifeColumns& lives);

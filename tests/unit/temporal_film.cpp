@@ -247,6 +247,39 @@ TEST(CacheAt, ExtrapolatedLightAndRadiiStayPositive) {
   }
 }
 
+/// Of a file, what is alive is read alone.
+TEST(CacheAt, OfAFileIsTheSame) {
+  const Scene scene = one_triangle();
+  for (const TemporalGradients gradients : kAllGradients) {
+    const std::string e = scratch_file("at.irradiance"), l = scratch_file("at.radiance");
+    const Film film = test::random_film(30, true, gradients);
+    write_film(e, film, test::irradiance_provenance());
+    const RadianceFilm lobes = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, gradients);
+    write_film(l, lobes, test::radiance_provenance());
+    const Container irradiance = Container::open(e), radiance = Container::open(l);
+    for (std::int64_t frame = 9; frame < 31; ++frame) {
+      const IrradianceCache a = cache_at(film, frame, scene), b = read_film_at(irradiance, frame, scene);
+      ASSERT_EQ(a.records.size(), b.records.size());
+      EXPECT_EQ(a.quantity, b.quantity);
+      EXPECT_EQ(a.accuracy, b.accuracy);
+      for (std::size_t i = 0; i < a.records.size(); ++i) {
+        EXPECT_EQ(a.records[i].irradiance, b.records[i].irradiance);
+        EXPECT_EQ(a.records[i].normal, b.records[i].normal);
+        EXPECT_EQ(a.records[i].weight, b.records[i].weight);
+      }
+      const RadianceCache c = cache_at(lobes, frame, scene),
+                          d = read_radiance_film_at(radiance, frame, scene);
+      ASSERT_EQ(c.records.size(), d.records.size());
+      for (std::size_t i = 0; i < c.records.size(); ++i) {
+        EXPECT_EQ(c.records[i].light, d.records[i].light);
+        EXPECT_EQ(c.records[i].gradient_y, d.records[i].gradient_y);
+        EXPECT_EQ(c.records[i].radius_m, d.records[i].radius_m);
+        EXPECT_EQ(c.records[i].weight, d.records[i].weight);
+      }
+    }
+  }
+}
+
 // --- on surfaces that move ---
 
 const glm::quat kTurn = glm::angleAxis(0.7f, glm::normalize(Vec3(1, -2, 3)));
