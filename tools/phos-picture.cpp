@@ -61,6 +61,8 @@ void check_usage(const Options& options, const std::string& output, const Pictur
     refuse("--false-colour", "false colours need an output that ends in .png");
   if (video && s.frames.empty()) refuse("--output", "a video is made of frames: --frames 0:47");
   if (!video && s.frames_per_s) refuse("--fps", "is of videos: -o film.mp4");
+  if (s.frames.empty() && names_frames(output))
+    refuse("--output", text("\"", output, "\" names a sequence; say which frames: --frames 0:47"));
   if (s.frames.empty()) return;
   if (const std::string option = given_plot_option(options); !option.empty() || output.ends_with(".svg"))
     refuse("--frames", "is for images, not for plots; leave it out");

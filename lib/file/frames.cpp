@@ -107,6 +107,14 @@ std::string FramePattern::path(std::int64_t frame) const {
   return before_ + digits + after_;
 }
 
+bool names_frames(const std::string& name) {
+  try {
+    return FramePattern(name, "").numbered();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 FramePattern sequence_pattern(const std::string& pattern, const FrameRange& range, const std::string& where) {
   FramePattern names(pattern, where);
   if (range.count() > 1 && !names.numbered()) {

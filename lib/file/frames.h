@@ -34,6 +34,9 @@ class FramePattern {
   bool numbered_ = false;
 };
 
+/// Is it a pattern with a number?
+bool names_frames(const std::string& name);
+
 /// The pattern of a sequence of `range`. Throws Error(usage, where), with an example, where several frames
 /// would have one name.
 FramePattern sequence_pattern(const std::string& pattern, const FrameRange& range, const std::string& where);

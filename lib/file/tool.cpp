@@ -97,6 +97,7 @@ void Tool::begin() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
   if (wants_output_ == Output::required && output_.empty())
     throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
+  require_frames_of_pattern();
   if (!stats_path_.empty()) require_writable(stats_path_);
   if (!output_.empty() && !why_ && frames_.empty()) require_writable(output_);
 }

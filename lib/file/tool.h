@@ -127,6 +127,7 @@ class Tool {
  private:
   void declare_common();
   void begin();
+  void require_frames_of_pattern() const;
   void run_frames(const std::function<void()>& body);
   void begin_frame(std::int64_t frame, const FramePattern& names);
   int report(const std::string& where, const std::string& message, ExitCode code) const;

@@ -30,6 +30,13 @@ void Tool::takes_frames(std::optional<double>& frame) {
                 Recorded::no);
 }
 
+void Tool::require_frames_of_pattern() const {
+  if (frame_ == nullptr || !frames_.empty() || !names_frames(output_)) return;
+  throw Error(
+      ExitCode::usage, "--output",
+      text("\"", output_, "\" names a sequence; say which frames: --frames 0:47, or one: --frames 12"));
+}
+
 std::optional<FrameRange> Tool::frames() const {
   if (frames_.empty()) return std::nullopt;
   return parse_frames(frames_);

@@ -167,6 +167,7 @@ TEST_F(PictureSequences, AVideoAppearsWholeOrNotAtAll) {
 TEST_F(PictureSequences, Refuses) {
   const std::string film = path("film");
   expect_refused("picture", {film + "/0001.exr", "-o", path("f.mp4")}, 2, "--frames 0:47");
+  expect_refused("picture", {film + "/0001.exr", "-o", path("f%d.png")}, 2, "names a sequence");
   expect_refused("picture", {film, "--frames", "0:3", "-o", path("f.png")}, 2, "f-%04d.png");
   expect_refused("picture", {film, "--frames", "3:0", "-o", path("f%d.png")}, 2, "--frames");
   expect_refused("picture", {film + "/0001.exr", "--frames", "0:3", "-o", path("f%d.png")}, 2, "INPUT");

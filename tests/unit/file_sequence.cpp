@@ -160,7 +160,10 @@ TEST_F(Sequence, UsageErrorsComeBeforeTheWork) {
   const Result folder_missing = run({"--frames", "1:2", "-o", at("no/%d")});
   EXPECT_EQ(folder_missing.code, 3);
   EXPECT_NE(folder_missing.err.find("make the folder first"), std::string::npos) << folder_missing.err;
-  EXPECT_EQ(run({"--frames", "1", "-o", at("%d"), "--frames", ""}).made, (std::vector<double>{-1}));
+  const Result no_frames = run({"-o", at("%04d")});
+  EXPECT_EQ(no_frames.code, 2);
+  EXPECT_NE(no_frames.err.find("--frames 0:47"), std::string::npos) << no_frames.err;
+  EXPECT_EQ(run({"--frames", "1", "-o", at("one"), "--frames", ""}).made, (std::vector<double>{-1}));
 }
 
 /// The last test here: the signal stays with the process.
