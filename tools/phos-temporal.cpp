@@ -12,18 +12,6 @@ namespace {
 
 enum class Kind { irradiance, radiance };
 
-/// View, photons or surface: places come from the scene itself.
-void resolve_places(PlacementOptions& placement, const Scene& scene) {
-  if (placement.place == Place::automatic) placement.place = Place::view;
-  if (placement.place == Place::given || placement.place == Place::every)
-    throw Error(ExitCode::usage, "--place",
-                "given and every read points, which films do not; give view, photons or surface");
-  PlacementSource own;
-  const PhotonMap traced = PhotonMap::build({}, {});
-  own.photons = &traced;  // there will be some
-  resolve(placement, scene, own);
-}
-
 /// The .brdf file among the inputs, if there is one, of these materials.
 std::vector<BrdfTable> lobes_of(const IrradianceFiles& files, const Scene& scene) {
   if (files.brdf.empty()) return {};
@@ -38,34 +26,6 @@ void refuse_inputs(const IrradianceFiles& files) {
   };
   refuse(files.photons, "holds photons of one time; phos-temporal traces its own (--photons): leave it out");
   refuse(files.source, "is an irradiance cache, which phos-temporal does not read; leave it out");
-}
-
-/// Records of a radiance film are made as phos-radiance makes them, unless options say otherwise.
-RadianceOptions radiance_options(const RecordOptions& given, const Options& options) {
-  RadianceOptions r;
-  const RecordOptions defaults = r.records;
-  r.records = given;
-  if (!options.given("rays")) r.records.rays = defaults.rays;
-  if (!options.given("accuracy")) r.records.accuracy = defaults.accuracy;
-  r.records.gradients = defaults.gradients;
-  return r;
-}
-
-IrradianceCache still_cache(const FilmJob& job, const std::vector<Key>& keys) {
-  IrradianceCache cache;
-  cache.accuracy = job.light.records.accuracy, cache.scene_hash = job.survey.scene_hash.front();
-  for (const Key& k : keys) cache.records.push_back(k.record);
-  return cache;
-}
-
-RadianceCache still_radiance(const FilmJob& job, const std::vector<Key>& keys) {
-  RadianceCache cache;
-  cache.accuracy = job.light.radiance.records.accuracy, cache.scene_hash = job.survey.scene_hash.front();
-  for (const Key& k : keys) {
-    cache.records.push_back(*k.radiance);
-    cache.records.back().radius_m = k.record.radius_m;
-  }
-  return cache;
 }
 
 }  // namespace
@@ -132,7 +92,7 @@ int main(int argc, char** argv) {
     records.resolve(first->scene.bounds.diagonal_m());
     job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());
     job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
-    resolve_places(job.placement, first->scene);
+    resolve_film_places(job.placement, first->scene);
     job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
     if (job.of_radiance || job.covered_by_radiance)
       job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), gloss, {}, tool.counters());
@@ -156,14 +116,19 @@ int main(int argc, char** argv) {
       if (job.of_radiance)
         write_radiance(tool.output(), still_radiance(job, keys), provenance());
       else
-        write_irradiance(tool.output(), still_cache(job, keys), provenance());
+        write_irradiance(tool.output(), still_irradiance(job, keys), provenance());
     } else {
+      EstimateJournal journal(tool.output() + ".journal", provenance().key, options.given("reuse"));
+      if (journal.found() > 0)
+        tool.say(text(journal.found(), " estimates of an interrupted run are kept; the film goes on"));
+      job.journal = &journal;
       const FilmChains made = make_chains(job, scenes, read, tool.counters());
       report = made.report;
       if (job.of_radiance)
         write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
       else
         write_film(tool.output(), film_of(made.chains, info_of(job)), provenance());
+      journal.finish();
     }
     tell_of_records(tool, job, report);
   });

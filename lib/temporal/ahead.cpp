@@ -18,9 +18,6 @@ namespace {
 /// Sets the random numbers of looking ahead apart from those of the records.
 constexpr std::uint64_t kOwnStreams = 0x6168656164206f66;
 
-/// With more moving things than this, it is quicker to ask the lamps again than to look who crosses.
-constexpr std::size_t kMostCrossers = 8;
-
 /// Hits that speak for their neighbours: one of each tile of about `size` cells.
 struct Tiles {
   int rows, columns;
@@ -29,40 +26,44 @@ struct Tiles {
         columns((size + rows - 1) / rows) {}
 };
 
-/// Where each thing that moves is at either time.
-std::vector<Bounds> swept(const Motion& motion) {
-  std::vector<Bounds> all;
-  for (std::size_t i = 0; i < motion.now.instance.size(); ++i) {
-    if (!motion.moved[i]) continue;
-    Bounds bounds;
-    const Instance& instance = motion.now.instance[i];
-    for (const Scene* scene : {&motion.now, &motion.next})
-      for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
-        for (const std::uint32_t v : scene->triangle[instance.first_triangle + t].v)
-          bounds.include(scene->position[v]);
-    if (!bounds.empty()) all.push_back(bounds);
-  }
-  return all;
-}
-
-bool crosses(const Ray& ray, const Bounds& box) {
-  // Most pass by even the sphere about it.
-  const Vec3 half = 0.5f * box.size(), way = box.centre() - ray.origin;
-  const Vec3 aside = way - std::clamp(glm::dot(way, ray.direction), 0.f, ray.t_max_m) * ray.direction;
-  if (glm::dot(aside, aside) > 1.001f * glm::dot(half, half)) return false;
-  float from = ray.t_min_m, to = ray.t_max_m;
-  for (int a = 0; a < 3; ++a) {
-    if (ray.direction[a] == 0) {
-      if (ray.origin[a] < box.lo[a] || ray.origin[a] > box.hi[a]) return false;
-      continue;
+/// Spheres about everything that moves, each about where it is at either time.
+class Movers {
+ public:
+  explicit Movers(const Motion& motion) {
+    for (std::size_t i = 0; i < motion.now.instance.size(); ++i) {
+      if (!motion.moved[i]) continue;
+      Bounds bounds;
+      const Instance& instance = motion.now.instance[i];
+      for (const Scene* scene : {&motion.now, &motion.next})
+        for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
+          for (const std::uint32_t v : scene->triangle[instance.first_triangle + t].v)
+            bounds.include(scene->position[v]);
+      if (bounds.empty()) continue;
+      const Vec3 c = bounds.centre();
+      // Some roundings wider.
+      const float r = 0.5f * bounds.diagonal_m() + 1e-6f * max_component(glm::abs(c));
+      x_.push_back(c.x), y_.push_back(c.y), z_.push_back(c.z), r2_.push_back(1.0001f * r * r);
     }
-    const float lo = (box.lo[a] - ray.origin[a]) / ray.direction[a];
-    const float hi = (box.hi[a] - ray.origin[a]) / ray.direction[a];
-    from = std::max(from, std::min(lo, hi)), to = std::min(to, std::max(lo, hi));
   }
-  // Some roundings wider: a thing may be flat.
-  return from <= to * (1 + 1e-5f);
-}
+  /// May any of them cross the ray? Where there are too many to look at, always.
+  bool cross(const Ray& ray) const {
+    if (x_.size() > kMost) return true;
+    const Vec3 o = ray.origin, d = ray.direction;
+    int any = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const float x = x_[i] - o.x, y = y_[i] - o.y, z = z_[i] - o.z;
+      const float along = x * d.x + y * d.y + z * d.z;
+      const float t = along < 0 ? 0 : along < ray.t_max_m ? along : ray.t_max_m;
+      const float ax = x - t * d.x, ay = y - t * d.y, az = z - t * d.z;
+      any |= ax * ax + ay * ay + az * az < r2_[i];
+    }
+    return any != 0;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 256;
+  std::vector<float> x_, y_, z_, r2_;
+};
 
 struct AheadWorker : Estimator::Worker {
   std::unique_ptr<Estimator::Worker> now, next;
@@ -92,7 +93,7 @@ struct AheadEstimator::Impl {
   std::uint64_t seed;
   AheadOptions options;
   Tiles tiles;
-  std::vector<Bounds> movers;
+  Movers movers;
   bool lamps_stay, area_lamps;
 
   Impl(const FrameEstimator& n, const FrameEstimator& m, const Changes& c, const RecordOptions& resolved,
@@ -109,8 +110,8 @@ struct AheadEstimator::Impl {
         seed(own_seed ^ kOwnStreams),
         options(o),
         tiles(static_cast<int>(std::lround(1 / o.share))),
-        movers(swept(motion)),
-        lamps_stay(!c.lights && !c.materials && movers.size() <= kMostCrossers),
+        movers(motion),
+        lamps_stay(!c.lights && !c.materials),
         area_lamps(std::any_of(motion.now.light.begin(), motion.now.light.end(),
                                [](const Light& l) { return l.kind == Light::Kind::area; })) {}
 
@@ -152,8 +153,7 @@ bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& 
     if (sight.light.certain || !known(sight.hit)) continue;
     w.ask[sight.hit] = 0;
     const Ray& way = sight.light.ray;
-    if (std::none_of(movers.begin(), movers.end(), [&](const Bounds& box) { return crosses(way, box); }))
-      continue;
+    if (!movers.cross(way)) continue;
     const bool arrives = !next.rays.occluded(way);
     if (arrives == sight.arrived) continue;
     any = true;

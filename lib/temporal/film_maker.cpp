@@ -25,6 +25,20 @@ constexpr double kWorthKeeping = 0.125;
 /// F3: relative changes count against this share of the scene's mean irradiance at least.
 constexpr double kFloorShare = 1e-3;
 
+/// An estimator, by way of the journal if there is one.
+class Kept {
+ public:
+  Kept(const Estimator& estimator, const FilmTask& task, std::int64_t frame) : estimator_(&estimator) {
+    if (task.journal)
+      estimator_ = &by_journal_.emplace(estimator, *task.journal, kMostTasks * frame + task.number);
+  }
+  const Estimator& operator*() const { return *estimator_; }
+
+ private:
+  std::optional<JournalEstimator> by_journal_;
+  const Estimator* estimator_;
+};
+
 double norm2(const Rgb& v) { return static_cast<double>(glm::dot(v, v)); }
 
 double mean_irradiance(std::span<const Chain> chains) {
@@ -54,18 +68,12 @@ FilmMaker::FilmMaker(FrameLights& lights, const FilmSurvey& survey, const FilmOp
   bounds_ = bounds_of(task_.records);
 }
 
-void FilmMaker::resume(std::vector<Chain> chains, std::int64_t done) {
-  chains_ = std::move(chains), resumed_after_ = done;
-  for (const Chain& c : chains_) next_number_ = std::max(next_number_, c.number + 1);
-}
-
-void FilmMaker::run(const std::function<void(std::int64_t)>& done) {
+void FilmMaker::run() {
   Progress progress("film", static_cast<std::uint64_t>(survey_.frames.count()), "frames");
   for (const FrameRange& shot : survey_.shots) {
     if (options_.lives == Lives::rate) {
       for (std::int64_t frame = shot.first; frame <= shot.last; ++frame, progress.advance()) {
         frame_by_rate(frame, shot);
-        if (done) done(frame);
       }
       continue;
     }
@@ -73,7 +81,6 @@ void FilmMaker::run(const std::function<void(std::int64_t)>& done) {
       const std::int64_t end = std::min(begin + options_.max_life, shot.last);
       const bool last = end == shot.last;
       block(begin, end, shot);
-      if (done) done(end);
       progress.advance(static_cast<std::uint64_t>(last ? end - begin + 1 : end - begin));
       begin = last ? shot.last + 1 : end;
     }
@@ -162,19 +169,19 @@ void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, Irradi
   made.clear();
   const std::size_t before = known.records.size();
   const bool view = task_.placement.place == Place::view;
+  const Kept kept(estimator, task_, light.frame());
   PlacementReport placed;
   if (view) {
     if (sites.empty()) return;
     const Candidates candidates{
         sites.size(), [&](std::size_t i, std::vector<RecordSite>& out) { out.push_back(sites[i]); }};
-    placed =
-        place_records(known, estimator, light.rays(), task_.records, task_.placement, candidates, counters_);
+    placed = place_records(known, *kept, light.rays(), task_.records, task_.placement, candidates, counters_);
   } else {
     PlacementSource source;
     source.wanted = task_.wanted;
     if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
     if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
-    placed = place(known, estimator, light.rays(), task_.records, task_.placement, source, counters_);
+    placed = place(known, *kept, light.rays(), task_.records, task_.placement, source, counters_);
   }
   report_.estimates += placed.made, report_.making_s += placed.making_s,
       report_.uncovered += placed.uncovered;
@@ -202,7 +209,8 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
     sites.push_back(*site), poses.push_back(pose), there.push_back(i);
   }
   if (sites.empty()) return {};
-  ParallelMaker maker(estimator);
+  const Kept kept(estimator, task_, light.frame());
+  ParallelMaker maker(*kept);
   made = maker.make(sites);
   report_.estimates += made.size(), report_.making_s += maker.seconds();
   maker.count_into(counters_);

@@ -10,6 +10,7 @@
 #include "temporal/chain.h"
 #include "temporal/film_options.h"
 #include "temporal/frame_light.h"
+#include "temporal/journal.h"
 #include "temporal/survey.h"
 
 namespace phos {
@@ -44,13 +45,17 @@ struct FilmReport {
   std::map<std::int64_t, std::uint64_t> lives;  ///< records by frames that they live
 };
 
+inline constexpr std::int64_t kMostTasks = 64;
+
 /// What is estimated, and where.
 struct FilmTask {
   RecordOptions records;  ///< resolved
   PlacementOptions placement;
   MaterialFilter wanted;  ///< empty: diffuse surfaces
   std::function<const Estimator&(FrameLight&)> estimator;
-  MaterialFilter unwanted{};  ///< of those, not these; empty: all
+  MaterialFilter unwanted{};           ///< of those, not these; empty: all
+  std::int64_t number = 0;             ///< among the tasks of a film; below kMostTasks
+  EstimateJournal* journal = nullptr;  ///< null: nothing is kept of an interrupted run
 };
 
 class FilmMaker {
@@ -59,10 +64,8 @@ class FilmMaker {
   FilmMaker(FrameLights& lights, const FilmSurvey& survey, const FilmOptions& options, FilmTask task,
             Counters& counters);
 
-  /// Continues after frames [survey.frames.first, done] with the chains of a film that ended there.
-  void resume(std::vector<Chain> chains, std::int64_t done);
-  /// All frames. After each piece that is whole, `done(frame)`: chains() are those of the film up to it.
-  void run(const std::function<void(std::int64_t frame)>& done = {});
+  /// All frames.
+  void run();
   /// For a film in which no light changes: what its frames need, at the first.
   void still();
   const std::vector<Chain>& chains() const { return chains_; }
@@ -104,7 +107,6 @@ class FilmMaker {
   RadiusBounds bounds_;
   std::uint32_t next_number_ = 0;
   double floor_ = 0;
-  std::int64_t resumed_after_ = -1;
   FilmReport report_;
 };
 

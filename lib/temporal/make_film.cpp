@@ -57,7 +57,7 @@ FilmInfo info_of(const FilmJob& job) {
 
 Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters) {
   FilmOptions options = job.options;
-  options.max_life = options.source_life, options.checks = 0;
+  options.lives = Lives::midpoint, options.max_life = options.source_life, options.checks = 0;
   PlacementOptions placement;
   placement.place = Place::photons, placement.passes = 1, placement.max_candidates = kCoarseCandidates;
   LightOptions light = job.light;
@@ -78,8 +78,10 @@ Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters) {
 FilmChains make_chains(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters) {
   FilmChains made;
   std::uint32_t first = 0;
+  std::int64_t number = 0;
   for (FilmTask& task : tasks_of(job, counters)) {
     FrameLights lights(scenes, job.light, source);
+    task.journal = job.journal, task.number = number++;
     FilmMaker maker(lights, job.survey, job.options, std::move(task), counters);
     maker.number_from(first);
     maker.run();
@@ -109,6 +111,44 @@ std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film*
   }
   report.chains = report.records = keys.size();
   return keys;
+}
+
+IrradianceCache still_irradiance(const FilmJob& job, std::span<const Key> keys) {
+  IrradianceCache cache;
+  cache.accuracy = records_of(job).accuracy, cache.scene_hash = job.survey.scene_hash.front();
+  for (const Key& k : keys) cache.records.push_back(k.record);
+  return cache;
+}
+
+RadianceCache still_radiance(const FilmJob& job, std::span<const Key> keys) {
+  RadianceCache cache;
+  cache.accuracy = records_of(job).accuracy, cache.scene_hash = job.survey.scene_hash.front();
+  for (const Key& k : keys) {
+    cache.records.push_back(*k.radiance);
+    cache.records.back().radius_m = k.record.radius_m;
+  }
+  return cache;
+}
+
+RadianceOptions radiance_options(const RecordOptions& given, const Options& options) {
+  RadianceOptions r;
+  const RecordOptions defaults = r.records;
+  r.records = given;
+  if (!options.given("rays")) r.records.rays = defaults.rays;
+  if (!options.given("accuracy")) r.records.accuracy = defaults.accuracy;
+  r.records.gradients = defaults.gradients;
+  return r;
+}
+
+void resolve_film_places(PlacementOptions& placement, const Scene& scene) {
+  if (placement.place == Place::automatic) placement.place = Place::view;
+  if (placement.place == Place::given || placement.place == Place::every)
+    throw Error(ExitCode::usage, "--place",
+                "given and every read points, which films do not; give view, photons or surface");
+  PlacementSource own;
+  const PhotonMap traced = PhotonMap::build({}, {});
+  own.photons = &traced;  // there will be some
+  resolve(placement, scene, own);
 }
 
 }  // namespace phos

@@ -19,7 +19,8 @@ struct FilmJob {
   PlacementOptions placement;
   GlossTables gloss;         ///< lobes that radiance records serve
   bool of_radiance = false;  ///< make radiance records, where gloss wants them; else irradiance records
-  bool covered_by_radiance = false;  ///< what radiance records serve gets no irradiance records
+  EstimateJournal* journal = nullptr;  ///< of FilmTask
+  bool covered_by_radiance = false;    ///< what radiance records serve gets no irradiance records
 };
 
 /// What gathered rays read where they land: coarse records from photons traced every source_life frames.
@@ -38,6 +39,15 @@ FilmChains make_chains(const FilmJob& job, FrameScenes& scenes, const Film* sour
 /// For a film in which no light changes: the records of its first frame that all of its frames need.
 std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters,
                             FilmReport& report);
+
+/// They as a cache.
+IrradianceCache still_irradiance(const FilmJob& job, std::span<const Key> keys);
+RadianceCache still_radiance(const FilmJob& job, std::span<const Key> keys);
+
+/// How a radiance film's records are made: as phos-radiance makes them, but for what is given.
+RadianceOptions radiance_options(const RecordOptions& given, const Options& options);
+/// Fills in places that come from the scene itself: view, photons or surface. Throws Error(usage) for others.
+void resolve_film_places(PlacementOptions& placement, const Scene& scene);
 
 /// What the film's file says of it.
 FilmInfo info_of(const FilmJob& job);
