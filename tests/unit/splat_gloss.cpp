@@ -191,6 +191,7 @@ TEST(GlossSplat, KernelsGiveTheSameBits) {
                            error = numbers(3 * kOrder);
   GlossSplat record{};
   record.inverse_radius = 0.7f, record.front_limit_m = -10, record.steepness_per_m = 1.3f;
+  record.weight = 0.6f;
   record.normal[2] = record.x[0] = record.y[1] = 1;
   record.light = light.data(), record.gradient_x = x.data(), record.gradient_y = y.data(),
   record.stderr_light = error.data();
