@@ -11,7 +11,8 @@ const std::string kFilm = data("moving-light.glb");  // 400 frames
 
 TEST(SenseSequences, FilesAreThoseOfSingleFrames) {
   const std::string folder = scratch("sense-sequences");
-  const std::vector<std::string> words{"sense", kFilm, "--direct-only", "--grid", "0.2", "--quiet"};
+  const std::vector<std::string> words{"sense", kFilm,      "--direct-only", "--grid",
+                                       "0.2",   "--height", "0.1",           "--quiet"};
   const auto with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all = words;
     all.insert(all.end(), more.begin(), more.end());
