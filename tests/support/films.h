@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
+#include "core/error.h"
 #include "support/indexed_file.h"
 #include "support/radiance_records.h"
 #include "temporal/film_cache.h"
