@@ -17,14 +17,8 @@ namespace {
 
 /// Sets the random numbers of looking ahead apart from those of the records.
 constexpr std::uint64_t kOwnStreams = 0x6168656164206f66;
-
-/// Hits that speak for their neighbours: one of each tile of about `size` cells.
-struct Tiles {
-  int rows, columns;
-  explicit Tiles(int size)
-      : rows(std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size))))),
-        columns((size + rows - 1) / rows) {}
-};
+/// Cells are taken together in squares of so many each way.
+constexpr int kTile = 4;
 
 /// Spheres about everything that moves, each about where it is at either time.
 class Movers {
@@ -92,9 +86,8 @@ struct AheadEstimator::Impl {
   RecordOptions records;
   std::uint64_t seed;
   AheadOptions options;
-  Tiles tiles;
   Movers movers;
-  bool lamps_stay, area_lamps;
+  bool lamps_stay;
 
   Impl(const FrameEstimator& n, const FrameEstimator& m, const Changes& c, const RecordOptions& resolved,
        std::uint64_t own_seed, const AheadOptions& o)
@@ -109,11 +102,8 @@ struct AheadEstimator::Impl {
         records(resolved),
         seed(own_seed ^ kOwnStreams),
         options(o),
-        tiles(static_cast<int>(std::lround(1 / o.share))),
         movers(motion),
-        lamps_stay(!c.lights && !c.materials),
-        area_lamps(std::any_of(motion.now.light.begin(), motion.now.light.end(),
-                               [](const Light& l) { return l.kind == Light::Kind::area; })) {}
+        lamps_stay(!c.lights && !c.materials) {}
 
   std::optional<RecordSite> moved(const RecordSite& site) const;
   bool goes(const SeenPass& seen, std::size_t i) const {
@@ -146,12 +136,12 @@ bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& 
            lamps_now.is_diffuse(motion.now.instance[motion.now.triangle_instance[hit.triangle]].material);
   };
   for (std::size_t i = 0; i < w.ask.size(); ++i)
-    w.ask[i] = std::isfinite(seen.hemisphere->distance_m[i]) && (area_lamps || !known(i));
+    w.ask[i] = std::isfinite(seen.hemisphere->distance_m[i]) && !known(i);
   bool any = false;
   for (const LampSight& sight : seen.sights) {
     // Light that a ray found (near area lamps) has no way to look along again.
-    if (sight.light.certain || !known(sight.hit)) continue;
-    w.ask[sight.hit] = 0;
+    w.ask[sight.hit] = w.ask[sight.hit] || sight.light.certain;
+    if (w.ask[sight.hit]) continue;
     const Ray& way = sight.light.ray;
     if (!movers.cross(way)) continue;
     const bool arrives = !next.rays.occluded(way);
@@ -172,27 +162,28 @@ bool AheadEstimator::Impl::change_of_lamps(const SeenPass& seen, std::uint32_t p
   bool any = lamps_stay && !seen.sights.empty() && change_of_shadows(seen, w);
   w.hits_now.clear(), w.hits_next.clear(), w.cells.clear(), w.end.clear();
   w.chosen_now.direction.clear(), w.chosen_next.direction.clear();
+  for (int ring = 0; ring < h.rings; ring += kTile)
+    for (int slice = 0; slice < h.slices; slice += kTile)
+      for (int j = ring; j < std::min(ring + kTile, h.rings); ++j)
+        for (int k = slice; k < std::min(slice + kTile, h.slices); ++k)
+          if (w.ask[h.at(j, k)] && std::isfinite(h.distance_m[h.at(j, k)])) w.cells.push_back(h.at(j, k));
+  // Few of them can all be asked at the price of a share of all.
+  const double budget = std::max(1.0, options.share * static_cast<double>(h.size()));
+  const auto group = static_cast<std::size_t>(std::ceil(static_cast<double>(w.cells.size()) / budget));
   RandomStream random(seed, Stage::record, from.item);
   random.start_bounce(pass);
   const Vec3 shift = to.position - from.position;
-  for (int ring = 0; ring < h.rings; ring += tiles.rows) {
-    for (int slice = 0; slice < h.slices; slice += tiles.columns) {
-      const std::size_t first = w.cells.size();
-      for (int j = ring; j < std::min(ring + tiles.rows, h.rings); ++j)
-        for (int k = slice; k < std::min(slice + tiles.columns, h.slices); ++k)
-          if (w.ask[h.at(j, k)] && std::isfinite(h.distance_m[h.at(j, k)])) w.cells.push_back(h.at(j, k));
-      const std::size_t count = w.cells.size() - first;
-      if (count == 0) continue;
-      const std::size_t i =
-          w.cells[first + static_cast<std::size_t>(random.uniform() * static_cast<float>(count))];
-      const Hit& hit = seen.hits[i];
-      const Vec3 way = h.distance_m[i] * h.direction[i] + (motion.of(hit) - shift);
-      w.chosen_now.direction.push_back(h.direction[i]);
-      w.chosen_next.direction.push_back(glm::normalize(way));
-      w.hits_now.push_back(hit);
-      w.hits_next.push_back({glm::length(way), hit.triangle, hit.u, hit.v});
-      w.end.push_back(w.cells.size());
-    }
+  for (std::size_t first = 0; first < w.cells.size(); first += group) {
+    const std::size_t count = std::min(group, w.cells.size() - first);
+    const std::size_t i =
+        w.cells[first + static_cast<std::size_t>(random.uniform() * static_cast<float>(count))];
+    const Hit& hit = seen.hits[i];
+    const Vec3 way = h.distance_m[i] * h.direction[i] + (motion.of(hit) - shift);
+    w.chosen_now.direction.push_back(h.direction[i]);
+    w.chosen_next.direction.push_back(glm::normalize(way));
+    w.hits_now.push_back(hit);
+    w.hits_next.push_back({glm::length(way), hit.triangle, hit.u, hit.v});
+    w.end.push_back(first + count);
   }
   if (w.hits_now.empty()) return any;
   const auto shade = [&](const RayScene& rays, const HitLight& lamps, const RecordSite& site,

@@ -17,7 +17,7 @@ namespace phos {
 /// make the next frame's record in full.
 struct AheadOptions {
   LookAhead look = LookAhead::reproject;
-  double share = 0.125;      ///< of what rays hit, where the lamps are asked again; in (0, 1]
+  double share = 0.125;      ///< of what rays hit, where the lamps are asked again at most; in (0, 1]
   double most_holes = 0.03;  ///< of the hemisphere; where more came to light, the next frame is traced (F6)
   /// The record ahead has gradients and a radius of its own. Else, by reprojection, it is the record as it
   /// is, at its place one frame on, but for its irradiance: a third of the cost. (Of radiance records all is
