@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     const IrradianceFiles files = sort_inputs(paths);
     add_inputs(tool, files, scene_options);
     refuse_inputs(files);
-    job.options.resolve(options);
+    job.options.resolve(options, records.estimate);
     if (tool.up_to_date()) return;
 
     {

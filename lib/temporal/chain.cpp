@@ -98,8 +98,12 @@ std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& 
 }
 
 Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std::int64_t frame,
-           const Pose& pose) {
+           const RecordSite& site, const Pose& pose) {
   Key key{frame, frame, made.record, made.radiance, pose};
+  if (!made.radiance && key.record.position != site.position) {
+    key.record.irradiance = extrapolate(made.record, site.position, made.record.normal);
+    key.record.position = site.position;
+  }
   const float raw = made.record.radius_m * chain.share;
   const float radius = std::clamp(std::max(raw, made.least_radius_m), made.site_least_m,
                                   std::max(made.site_least_m, made.site_most_m));

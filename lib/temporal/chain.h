@@ -47,9 +47,10 @@ inline constexpr std::uint64_t kFilmItems = std::uint64_t{1} << 43;
 /// Where the chain is at a frame: nothing if its surface has no area then.
 std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& pose);
 
-/// The key that an estimate gives (the radius within the chain's share and bounds).
+/// The key that an estimate at `site` gives, the radius within the chain's share and bounds. A record that
+/// photons drew aside is taken back to the site along its gradient.
 Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std::int64_t frame,
-           const Pose& pose);
+           const RecordSite& site, const Pose& pose);
 
 /// A new chain from a record that placement has settled. Its surface's triangle is remembered if that moves
 /// at any frame of the film.

@@ -157,6 +157,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std
   } else {
     wanted = known;
     add_chains(light, task_.estimator(light), cache, {}, made);
+    if (task_.placement.place == Place::photons) estimate_anew(first_new, light);
   }
   for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
   return wanted;
@@ -194,6 +195,16 @@ void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, Irradi
   }
 }
 
+/// The first keys of chains from `first` on once more. A record placed at a photon leaves that out, and those
+/// that follow it at the same place do not: they would differ where nothing changes.
+void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
+  std::vector<std::size_t> chains(chains_.size() - first), there;
+  std::iota(chains.begin(), chains.end(), first);
+  std::vector<Made> made;
+  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+  for (std::size_t i = 0; i < keys.size(); ++i) chains_[there[i]].keys.back() = std::move(keys[i]);
+}
+
 /// Keys of chains at a frame, where their surfaces are there then: `there` are those chains, `made` what
 /// their keys are made from.
 std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameLight& light,
@@ -216,7 +227,7 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
   maker.count_into(counters_);
   std::vector<Key> keys;
   for (std::size_t i = 0; i < made.size(); ++i)
-    keys.push_back(key_of(chains_[there[i]], made[i], bounds_, light.frame(), poses[i]));
+    keys.push_back(key_of(chains_[there[i]], made[i], bounds_, light.frame(), sites[i], poses[i]));
   return keys;
 }
 

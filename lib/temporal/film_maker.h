@@ -93,6 +93,7 @@ class FilmMaker {
   std::vector<Key> estimate(std::span<const std::size_t> chains, FrameLight& light,
                             const Estimator& estimator, std::vector<std::size_t>& there,
                             std::vector<Made>& made);
+  void estimate_anew(std::size_t first, FrameLight& light);
   void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);
   void refine(std::vector<Segment> segments);

@@ -44,10 +44,12 @@ void declare_options(Options& options, FilmOptions& f) {
                   {1, 1 << 20});
 }
 
-void FilmOptions::resolve(const Options& given) {
+void FilmOptions::resolve(const Options& given, Estimate estimate) const {
   const auto refuse = [](const char* option, const std::string& message) {
     throw Error(ExitCode::usage, option, message);
   };
+  if (estimate == Estimate::raster)
+    refuse("--estimate", "raster makes no films; use gather, which sees the same, or hull");
   if (lives == Lives::midpoint) {
     if (gradients == TemporalGradients::extrapolated)
       refuse("--temporal-gradients",

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "cache/record_options.h"
 #include "core/options.h"
 #include "temporal/film_cache.h"
 
@@ -35,7 +36,7 @@ struct FilmOptions {
       100'000;  ///< paths traced at each of those, or at each frame with estimates from photons
 
   /// Throws Error(usage) for what does not go together.
-  void resolve(const Options& given);
+  void resolve(const Options& given, Estimate estimate) const;
 };
 void declare_options(Options& options, FilmOptions& film);
 

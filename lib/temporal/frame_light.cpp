@@ -69,8 +69,7 @@ const Estimator& FrameLight::irradiance(Counters& counters) {
           std::make_unique<GatherEstimator>(rays(), lights_, coarse(r, counters).source(), r, options_.seed);
       break;
     case Estimate::raster:
-      throw Error(ExitCode::usage, "--estimate",
-                  "raster makes no films; use gather, which sees the same, or hull");
+      PHOS_CHECK(false, "FilmOptions::resolve() refuses it");
   }
   return *irradiance_;
 }

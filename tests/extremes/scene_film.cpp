@@ -6,6 +6,7 @@
 #include "scene/lint.h"
 #include "scene/luminaires.h"
 #include "support/animated.h"
+#include "support/jumps.h"
 
 namespace phos {
 namespace {

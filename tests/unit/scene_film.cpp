@@ -7,6 +7,7 @@
 #include "scene/animation.h"
 #include "scene/rays.h"
 #include "support/animated.h"
+#include "support/jumps.h"
 
 namespace phos {
 namespace {
