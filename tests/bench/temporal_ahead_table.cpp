@@ -7,9 +7,9 @@
 //   traced                    places that were traced since too much came to light, %
 //   cost                      in parts of the time that records take, %
 //   temporal_ahead_table [PLACES of each scene [SHARE [BOUNCES [HOLES]]]]
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 #include <optional>
 
@@ -28,9 +28,8 @@ namespace {
 constexpr std::int64_t kRays = 512, kManyRays = 16384, kFrames = 40;
 constexpr double kFloorLx = 1e-6;
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+/// Of this process, all in one thread: others may be at work.
+double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Frame {
   Frame(const std::string& path, std::int64_t at, const RecordOptions* options)
