@@ -57,7 +57,7 @@ std::vector<Record> records_of(std::span<const Chain> chains, const FilmInfo& in
       record.life.rate = static_cast<float>(next && !key.ahead ? rate_between(key, *next) : key.rate);
       if (info.gradients == TemporalGradients::interpolated && next && !key.jumps) {
         record.change = change_between(record, with_life(*next));
-      } else if (info.gradients != TemporalGradients::none) {
+      } else if (info.gradients == TemporalGradients::extrapolated) {
         if (const std::optional<Key> then = expected(key)) {
           Record to = with_life(*then);
           to.record.radius_m =

@@ -57,8 +57,8 @@ Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std
 Chain chain_of(const Made& made, const IrradianceRecord& settled, const RadianceRecord* radiance,
                const RayScene& rays, std::int64_t frame, const FilmSurvey& survey);
 
-/// The records that chains stand for: each key until the next, changed as info.gradients says (where nothing
-/// follows, as was expected). What ends at the last frame of a shot lives for that frame.
+/// The records that chains stand for: each key until the next, changed as info.gradients says (where
+/// nothing follows, not at all). What ends at the last frame of a shot lives for that frame.
 Film film_of(std::span<const Chain> chains, const FilmInfo& info);
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info);
 

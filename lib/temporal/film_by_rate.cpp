@@ -37,7 +37,8 @@ void FilmMaker::frame_by_rate(std::int64_t frame, const FrameRange& shot) {
     ahead.emplace(FrameEstimator{task_.estimator(light), light.rays(), light.lights()},
                   FrameEstimator{task_.estimator(coming), coming.rays(), coming.lights()},
                   changes(light.scene(), coming.scene()), task_.records, light.seed(),
-                  AheadOptions{.look = options_.look_ahead});
+                  AheadOptions{.look = options_.look_ahead,
+                               .whole = options_.gradients == TemporalGradients::extrapolated});
   }
   const Estimator& estimator = ahead ? *ahead : task_.estimator(light);
 

@@ -42,7 +42,8 @@ void VisiblePlaces::look(const FrameScene& at) {
   const View view{camera, size.width, size.height, placement_.min_radius_pixels,
                   placement_.max_radius_pixels};
   const Candidates candidates = view_candidates(at.rays, view, wanted_);
-  const std::size_t pixels = candidates.count / kViewSamples;  // one sample of each
+  // One sample of each pixel, another one at each look.
+  const std::size_t pixels = candidates.count / kViewSamples, first = looks_++ % kViewSamples * pixels;
   const auto accuracy = static_cast<float>(known_.accuracy);
   Seen seen = parallel_reduce<Seen>(
       pixels, kTaskPixels, {},
@@ -50,7 +51,7 @@ void VisiblePlaces::look(const FrameScene& at) {
         Seen part;
         std::vector<RecordSite> sites;
         std::vector<const IrradianceRecord*> found;
-        for (std::size_t i = begin; i < end; ++i) candidates.sites(i, sites);
+        for (std::size_t i = begin; i < end; ++i) candidates.sites(first + i, sites);
         part.sites = sites.size();
         for (RecordSite& site : sites) {
           if (!still || unwanted_) {

@@ -33,6 +33,7 @@ class VisiblePlaces {
   std::vector<RecordSite> open_;
   std::vector<bool> in_sight_;
   std::uint64_t sites_ = 0;
+  std::size_t looks_ = 0;
 };
 
 }  // namespace phos

@@ -227,6 +227,53 @@ TEST(Temporal, RecordsMoveWithTheirSurfaces) {
   }
 }
 
+// What appears, teleports, or goes through where records lie: every frame is drawn, and nothing is lit by
+// what is not there.
+TEST(Temporal, ThingsAppearTeleportAndPassThrough) {
+  Slabs slabs;
+  slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});
+  const int grows = slabs.slab("grows", 1, 0.8f, 0.5f, 0), jumps = slabs.slab("jumps", 0.5f, -1, 0.3f, 0),
+            sinks = slabs.slab("sinks", 0.5f, 0, 0.3f, -0.8f);
+  slabs.animate(grows, "scale", {3, 9}, {0, 0, 0, 1, 1, 1});
+  slabs.animate(jumps, "translation", {0, 6}, {-1, 0.3f, 0, 1, 0.3f, 0.5f}, "STEP");
+  slabs.animate(sinks, "translation", {0, 16}, {0, 0.3f, -0.8f, 0, -0.3f, -0.8f});
+  const std::string scene = slabs.write("temporal-things", 17), folder = scratch("temporal-things-out");
+  const std::string film = folder + "/f.irradiance";
+  for (const char* lives : {"midpoint", "rate"}) {
+    const test::Run run = temporal(quick({scene, "--frames", "0:16", "--lives", lives, "-o", film}));
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("jumps at frame 6"), std::string::npos) << run.err;
+    const test::Run splat = run_tool(
+        {"splat", scene, film, "--frames", "0:16", "--width", "24", "--quiet", "-o", folder + "/%02d.exr"});
+    EXPECT_EQ(splat.code, 0) << splat.err;
+    for (const int frame : {0, 3, 5, 6, 12, 16}) {
+      const double light = lux(scene, film, frame);
+      EXPECT_GT(light, 1) << lives << " " << frame;
+      EXPECT_LT(light, 100) << lives << " " << frame;
+    }
+  }
+}
+
+// A camera that is elsewhere at once: what it sees after the cut has records too.
+TEST(Temporal, CameraCutLosesNoRecords) {
+  Slabs slabs;
+  slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});
+  slabs.slab("shelf", 1, 0, 1, 20);
+  slabs.animate(slabs.eye, "translation", {0, 8}, {0, 1, 3, 0, 1.3f, 22}, "STEP");
+  const std::string scene = slabs.write("temporal-cut", 17), folder = scratch("temporal-cut-out");
+  const std::string film = folder + "/f.irradiance";
+  ASSERT_EQ(temporal(quick({scene, "--frames", "0:16", "-o", film})).code, 0);
+  for (const char* frame : {"7", "8", "15"}) {
+    const std::string stats = folder + "/s.json";
+    ASSERT_EQ(run_tool({"splat", scene, film, "--frame", frame, "--width", "24", "--stats", stats, "--quiet",
+                        "-o", folder + "/p.exr"})
+                  .code,
+              0);
+    const Json s = parse_json(slurp(stats), "stats");
+    EXPECT_LT(s.find("cache misses")->as_number(), 0.03 * s.find("cache lookups")->as_number()) << frame;
+  }
+}
+
 TEST(Temporal, RadianceFilmOfWhatIsGlossy) {
   Slabs slabs;
   slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});

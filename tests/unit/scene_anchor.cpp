@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "scene/anchor.h"
+#include "scene/film.h"
 #include "support/animated.h"
 #include "support/scenes.h"
 
