@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/radiance_gather.h"
+#include "cache/radiance_report.h"
 #include "support/gathered.h"
 #include "support/glossy_room.h"
 
@@ -81,7 +82,7 @@ TEST(RadiancePlacement, NoGloss) {
   const Placed placed = placed_in(test::cornell(), {.place = Place::surface});
   EXPECT_TRUE(placed.runs.empty());
   EXPECT_TRUE(placed.cache.records.empty());
-  EXPECT_EQ(summarize(placed.cache).error, 0);
+  EXPECT_EQ(report_of(placed.cache, placed.runs).figures.find("relative_error")->as_number(), 0);
 }
 
 }  // namespace
