@@ -17,7 +17,7 @@ namespace phos {
 namespace {
 
 /// Frames of a piece, besides its first, whose view is looked at for places.
-constexpr std::int64_t kLooks = 4;
+constexpr std::int64_t kLooks = 8;
 constexpr std::int64_t kStillLooks = 100;  // of a film without change
 /// A middle estimate that misses what is interpolated by less than this share of the accuracy is not kept: it
 /// would tell of noise.

@@ -24,7 +24,7 @@ enum class LookAhead {
 
 struct FilmOptions {
   double temporal_accuracy = 0.05;  ///< a_t: relative change of light that may be missed
-  std::int64_t max_life = 16;       ///< frames
+  std::int64_t max_life = 32;       ///< frames
   Lives lives = Lives::midpoint;
   TemporalGradients gradients = TemporalGradients::interpolated;
   LookAhead look_ahead = LookAhead::reproject;  ///< with Lives::rate
