@@ -18,7 +18,9 @@ namespace {
 /// What one declaration holds; help, manual and record are all made from it.
 struct Declaration {
   std::string section, name, short_name, unit, help, limits;
+  const char* kind = "text";
   std::vector<std::string> choices;
+  Range range;
   Recorded recorded = Recorded::yes;
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
@@ -106,7 +108,7 @@ struct Options::Impl {
   CLI::App app;
   std::vector<Declaration> declarations;
   std::vector<Example> examples;
-  bool help = false, version = false, manual = false;
+  bool help = false, version = false, manual = false, options_json = false;
 
   Declaration& declare(const std::string& names, const std::string& unit, const std::string& help_text,
                        Recorded recorded) {
@@ -117,6 +119,12 @@ struct Options::Impl {
     d.section = section, d.unit = unit, d.help = help_text, d.recorded = recorded;
     declarations.push_back(std::move(d));
     return declarations.back();
+  }
+  Declaration& declare_number(const std::string& names, const std::string& unit, const std::string& help_text,
+                              const char* kind, const Range& range, Recorded recorded) {
+    Declaration& d = declare(names, unit, help_text, recorded);
+    d.kind = kind, d.range = range, d.limits = limits_text(range);
+    return d;
   }
   static std::string flags_of(const Declaration& d) {
     return (d.short_name.empty() ? "" : "-" + d.short_name + ",") + "--" + d.name;
@@ -156,6 +164,26 @@ struct Options::Impl {
         s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
     return s;
   }
+  /// For programs: what --help says to people.
+  Json described() const {
+    Json::Array all;
+    for (const Declaration& d : declarations) {
+      Json o;
+      o["name"] = d.name, o["kind"] = d.kind, o["unit"] = d.unit, o["help"] = d.help;
+      o["default"] = d.is_input ? Json() : d.value();
+      o["required"] = d.required, o["recorded"] = d.recorded == Recorded::yes;
+      if (!d.is_input) o["section"] = d.section;
+      if (!d.short_name.empty()) o["short"] = d.short_name;
+      if (!d.choices.empty()) o["choices"] = Json::Array(d.choices.begin(), d.choices.end());
+      if (std::isfinite(d.range.lo)) o["min"] = d.range.lo, o["min_excluded"] = d.range.lo_open;
+      if (std::isfinite(d.range.hi)) o["max"] = d.range.hi;
+      all.push_back(std::move(o));
+    }
+    Json whole;
+    whole["tool"] = tool, whole["version"] = phos::version(), whole["summary"] = summary;
+    whole["options"] = std::move(all);
+    return whole;
+  }
   std::vector<std::string> sections() const {
     std::vector<std::string> names;
     for (const Declaration& d : declarations)
@@ -173,6 +201,7 @@ Options::Options(std::string tool, std::string summary, std::string description)
   impl_->app.add_flag("--help,-h", impl_->help);
   impl_->app.add_flag("--version", impl_->version);
   impl_->app.add_flag("--man", impl_->manual);
+  impl_->app.add_flag("--options-json", impl_->options_json);
 }
 
 Options::~Options() = default;
@@ -185,15 +214,15 @@ void Options::example(const std::string& command, const std::string& what) {
 
 void Options::flag(const std::string& name, bool& value, const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, "", help, recorded);
-  d.is_flag = true;
+  d.is_flag = true, d.kind = "flag";
   d.value = [&value] { return Json(value); };
   d.parsed = impl_->app.add_flag(Impl::flags_of(d), value);
 }
 
 void Options::number(const std::string& name, double& value, const std::string& unit, const std::string& help,
                      Range range, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
-  d.limits = limits_text(range), d.default_text = shortest(value);
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded);
+  d.default_text = shortest(value);
   d.value = [&value] { return Json(value); };
   impl_->add(
       d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
@@ -201,8 +230,8 @@ void Options::number(const std::string& name, double& value, const std::string& 
 
 void Options::number(const std::string& name, std::optional<double>& value, const std::string& unit,
                      const std::string& help, Range range, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
-  d.limits = limits_text(range), d.default_text = value ? shortest(*value) : "";
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded);
+  d.default_text = value ? shortest(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
   impl_->add(
       d, [&value, range, n = d.name](const std::string& s) { value = parse_number<double>(n, s, range); });
@@ -210,8 +239,8 @@ void Options::number(const std::string& name, std::optional<double>& value, cons
 
 void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit,
                       const std::string& help, Range range, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
-  d.limits = limits_text(range), d.default_text = std::to_string(value);
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded);
+  d.default_text = std::to_string(value);
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value, range, n = d.name](const std::string& s) {
     value = parse_number<std::int64_t>(n, s, range);
@@ -229,6 +258,7 @@ void Options::text(const std::string& name, std::string& value, const std::strin
 void Options::list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
                    const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, unit, help, recorded);
+  d.kind = "list";
   d.value = [&value] {
     Json items = Json::Array{};
     for (const std::string& s : value) items.push_back(s);
@@ -243,7 +273,7 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
 
 void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {
   Declaration& d = impl_->declare(name, "FILE", help, Recorded::no);
-  d.required = required;
+  d.required = required, d.kind = "file";
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value](const std::string& s) { value = s; });
 }
@@ -252,7 +282,7 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
                               std::size_t index, std::function<void(std::size_t)> set,
                               const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, "WHICH", help, recorded);
-  d.choices = names, d.default_text = names[index];
+  d.choices = names, d.default_text = names[index], d.kind = "choice";
   const auto chosen = std::make_shared<std::size_t>(index);
   d.value = [chosen, names] { return Json(names[*chosen]); };
   impl_->add(d, [chosen, names, set, n = d.name](const std::string& s) {
@@ -270,7 +300,7 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
 void Options::input(const std::string& placeholder, std::string& value, const std::string& help,
                     bool required) {
   Declaration& d = impl_->declare(placeholder, placeholder, help, Recorded::no);
-  d.is_input = true, d.required = required;
+  d.is_input = true, d.required = required, d.kind = "input";
   d.value = [&value] { return Json(value); };
   d.parsed = impl_->app.add_option(placeholder, value);
 }
@@ -278,7 +308,7 @@ void Options::input(const std::string& placeholder, std::string& value, const st
 void Options::inputs(const std::string& placeholder, std::vector<std::string>& values,
                      const std::string& help, bool required) {
   Declaration& d = impl_->declare(placeholder, placeholder + "...", help, Recorded::no);
-  d.is_input = true, d.required = required;
+  d.is_input = true, d.required = required, d.kind = "inputs";
   d.value = [] { return Json(); };
   d.parsed = impl_->app.add_option(placeholder, values)->expected(-1);
 }
@@ -326,10 +356,11 @@ bool Options::parse(int argc, const char* const* argv) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     throw Error(ExitCode::usage, "", message + see);
   }
-  if (impl_->help || impl_->version || impl_->manual) {
+  if (impl_->help || impl_->version || impl_->manual || impl_->options_json) {
     const std::string out = impl_->help      ? help()
                             : impl_->version ? impl_->tool + " " + phos::version() + "\n"
-                                             : manual();
+                            : impl_->manual  ? manual()
+                                             : impl_->described().dump(2) + "\n";
     std::fputs(out.c_str(), stdout);
     return false;
   }
@@ -401,6 +432,7 @@ std::string Options::help() const {
   line("-h, --help", "this text");
   line("--version", "version");
   line("--man", "the manual page, for man -l -");
+  line("--options-json", "every option with its kind, unit, range, choices and default, for other programs");
   line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!impl_->examples.empty()) out += "\nExamples:\n";
   for (const Example& e : impl_->examples)

@@ -74,9 +74,9 @@ class Options {
   /// A line under "Examples" in the help.
   void example(const std::string& command, const std::string& what);
 
-  /// Reads a command line. False if --help, --version or --man was asked for and has been printed to stdout.
-  /// Throws Error(usage) with one line otherwise. `@file` reads options from a file (one per line, name=value
-  /// or a flag).
+  /// Reads a command line. False if --help, --version, --man or --options-json was asked for and has been
+  /// printed to stdout. Throws Error(usage) with one line otherwise. `@file` reads options from a file (one
+  /// per line, name=value or a flag).
   bool parse(int argc, const char* const* argv);
 
   /// Was the option given on the command line?

@@ -108,8 +108,8 @@ std::string shell_word(const std::string& word) {
 
 std::string shell_line(const Command& command) {
   std::string line = shell_word(command.tool);
-  for (const std::string& w : command.arguments) line += " " + shell_word(w);
-  if (!command.output.empty()) line += " -o " + shell_word(command.output);
+  for (const std::string& w : command.arguments) line.append(" ").append(shell_word(w));
+  if (!command.output.empty()) line.append(" -o ").append(shell_word(command.output));
   return line;
 }
 

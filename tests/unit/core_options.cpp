@@ -106,6 +106,26 @@ TEST(Options, ReadsAFileOfOptions) {
   EXPECT_EQ(e.word, "hello there");
 }
 
+TEST(Options, AreDescribedForPrograms) {
+  Everything e;
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(e.parse({"--options-json"}));
+  std::string out = testing::internal::GetCapturedStdout();
+  std::erase(out, '\n'), std::erase(out, ' ');
+  const auto said = [&](const std::string& words) { return out.find(words) != std::string::npos; };
+  EXPECT_TRUE(said(R"("tool":"phos-x")"));
+  // Members are sorted by name.
+  EXPECT_TRUE(
+      said(R"({"default":0.2,"help":"anumber","kind":"number","min":0,"min_excluded":true,)"
+           R"("name":"number","recorded":true,"required":false,"section":"Options","unit":"METRES"})"));
+  EXPECT_TRUE(said(R"("kind":"integer","max":100,"min":0,"min_excluded":false,"name":"count")"));
+  EXPECT_TRUE(said(R"("choices":["hull","disc"],"default":"hull","help":"ashape","kind":"choice")"));
+  EXPECT_TRUE(said(R"("kind":"file","name":"output","recorded":false)"));
+  EXPECT_TRUE(said(R"("default":null,"help":"anumberthatmaybeabsent","kind":"number","name":"maybe")"));
+  for (const char* kind : {"flag", "text", "list", "input", "inputs"})
+    EXPECT_TRUE(said(std::string(R"("kind":")") + kind + '"')) << kind;
+}
+
 TEST(Options, HelpAndManualHoldEveryOption) {
   const Everything e;
   const std::string help = e.options.help();

@@ -105,7 +105,7 @@ TEST(Tool, AnswerNoIsAnExitCode) {
 }
 
 TEST(Tool, HelpAndVersionAreDataOnStdout) {
-  for (const char* option : {"--help", "--version", "--man"}) {
+  for (const char* option : {"--help", "--version", "--man", "--options-json"}) {
     const Result r = Program().run({option});
     EXPECT_EQ(r.code, 0) << option;
     EXPECT_FALSE(r.worked);

@@ -1,0 +1,207 @@
+#include "study/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "file/atomic_file.h"
+#include "file/csv.h"
+#include "image/metrics.h"
+#include "study/noise_free.h"
+
+namespace phos {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::string channel_of(const std::string& layer, const std::string& component) {
+  return component.empty() ? layer : channel_name(layer, component);
+}
+
+/// The layer of standard errors of a layer.
+std::string stderr_of(const std::string& layer) { return layer.empty() ? "stderr" : layer + "_stderr"; }
+
+bool has(const Image& image, const std::string& layer, const Names& components) {
+  return !components.empty() && std::all_of(components.begin(), components.end(), [&](const std::string& c) {
+    return image.has(channel_of(layer, c));
+  });
+}
+
+/// The mean of two references: one layer, and the lamps.
+Image mean_of(const Image& a, const Image& b, const std::string& layer, const Names& components) {
+  Image mean(a.width(), a.height());
+  if (a.has_layer("emission")) mean.set_rgb("emission", a.rgb("emission"));
+  for (const std::string& c : components) {
+    const std::span<const float> one = a.channel(channel_of(layer, c)), two = b.channel(channel_of(layer, c));
+    const std::span<float> out = mean.channel(channel_of(layer, c));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(0.5 * (double{one[i]} + two[i]));
+  }
+  return mean;
+}
+
+void require_alike(const Image& second, const Image& reference, const std::string& layer,
+                   const Names& components) {
+  if (second.width() != reference.width() || second.height() != reference.height())
+    throw Error(ExitCode::mismatch, "second reference",
+                text("is ", second.width(), " x ", second.height(), " pixels and the first ",
+                     reference.width(), " x ", reference.height(), "; make both at one size"));
+  if (!has(second, layer, components))
+    throw Error(
+        ExitCode::mismatch, "second reference",
+        text("has no layer ", layer_label(layer), " like the first's; make it with the same options"));
+}
+
+/// What is asked of one layer, at each pixel.
+class Pixels {
+ public:
+  Pixels(const Image& image, const Image& reference, const Image* second, std::string layer, Names components)
+      : image_(image),
+        reference_(reference),
+        second_(second),
+        layer_(std::move(layer)),
+        components_(std::move(components)) {}
+
+  NoiseFrom from() const {
+    if (second_) return NoiseFrom::second;
+    return has(reference_, stderr_of(layer_), components_) ? NoiseFrom::stated : NoiseFrom::unknown;
+  }
+  bool stated() const { return has(image_, stderr_of(layer_), components_); }
+
+  NoiseFree sums(const std::vector<char>& mask) const {
+    const std::string error = stderr_of(layer_);
+    const NoiseFrom noise = from();
+    const bool own = stated();
+    std::vector<std::span<const float>> result, first, second, said, spread;
+    for (const std::string& c : components_) {
+      result.push_back(image_.channel(channel_of(layer_, c)));
+      first.push_back(reference_.channel(channel_of(layer_, c)));
+      second.push_back(second_ ? second_->channel(channel_of(layer_, c)) : first.back());
+      if (own) said.push_back(image_.channel(channel_of(error, c)));
+      if (noise == NoiseFrom::stated) spread.push_back(reference_.channel(channel_of(error, c)));
+    }
+    NoiseFree sums(noise, own);
+    std::vector<NoiseFree::Value> place(components_.size());
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (!mask[i]) continue;
+      for (std::size_t c = 0; c < place.size(); ++c) {
+        const double half = 0.5 * (double{first[c][i]} - second[c][i]);
+        const double s = noise == NoiseFrom::stated ? double{spread[c][i]} : half;
+        place[c] = {result[c][i], second[c][i] + half, s * s, own ? double{said[c][i]} : 0};
+      }
+      sums.add(place);
+    }
+    return sums;
+  }
+
+ private:
+  const Image &image_, &reference_;
+  const Image* second_;
+  std::string layer_;
+  Names components_;
+};
+
+}  // namespace
+
+MeasuredError measure_picture(const Image& image, const Image& reference, const Image* second,
+                              const MeasureOptions& options) {
+  const std::string layer = layer_from_label(options.layer);
+  const bool lamps = options.ignore_lamps && (reference.has_layer("emission") || image.has_layer("emission"));
+  const CompareOptions compare{{options.layer}, lamps};
+  common_layers(image, reference, compare);  // or it says what is wrong
+  const Names components = components_of(reference, layer);
+  if (second) require_alike(*second, reference, layer, components);
+  const Image mean = second ? mean_of(reference, *second, layer, components) : Image();
+  const LayerMetrics metrics = compare_images(image, second ? mean : reference, compare).at(0);
+
+  MeasuredError error;
+  error.quantity = metrics.layer, error.unit = metrics.unit;
+  error.left_out = metrics.ignored, error.non_finite = metrics.non_finite;
+  error.bias = metrics.bias, error.relative_bias = metrics.relative_bias;
+  error.p99 = metrics.p99, error.max = metrics.max;
+  if (metrics.visual) error.psnr_db = metrics.visual->psnr_db, error.ssim = metrics.visual->ssim;
+  const std::vector<char> mask = emission_mask(image, reference, lamps);
+  Pixels(image, reference, second, layer, components).sums(mask).finish(error);
+  return error;
+}
+
+LuxTable read_lux(const std::string& path) {
+  const CsvTable csv = parse_csv(read_text(path), path);
+  const auto find = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      for (std::size_t i = 0; i < csv.columns.size(); ++i)
+        if (csv.columns[i] == name) return i;
+    return csv.columns.size();
+  };
+  const std::size_t x = find({"x"}), y = find({"y"}), z = find({"z"}), lux = find({"E_lx", "illuminance_lx"}),
+                    spread = find({"stderr_lx"}), none = csv.columns.size();
+  if (x == none || y == none || z == none || lux == none)
+    throw Error(ExitCode::bad_input, path,
+                text("is no table of lux: it has the columns ", csv.names(),
+                     "; give one of phos-sense or phos-reference --points"));
+  if (csv.rows.empty()) throw Error(ExitCode::bad_input, path, "has no sensor; give points");
+  LuxTable table;
+  table.where = path;
+  const auto cell = [&](std::size_t row, std::size_t column) {
+    return static_cast<float>(csv.number(row, column));
+  };
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    table.position.push_back({cell(i, x), cell(i, y), cell(i, z)});
+    table.lux.push_back(cell(i, lux));
+    if (spread != none) table.stderr_lx.push_back(cell(i, spread));
+  }
+  return table;
+}
+
+namespace {
+
+void require_same_sensors(const LuxTable& table, const LuxTable& reference) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::mismatch, table.where,
+                text(why, " in ", reference.where, "; measure both at the same points"));
+  };
+  if (table.position.size() != reference.position.size())
+    refuse(text("has ", table.position.size(), " sensors, and there are ", reference.position.size()));
+  for (std::size_t i = 0; i < table.position.size(); ++i)
+    if (table.position[i] != reference.position[i])
+      refuse(text("its sensor ", i, " is not where that sensor is"));
+}
+
+/// A row of pixels.
+Image as_image(const LuxTable& table) {
+  Image image(static_cast<int>(table.lux.size()), 1);
+  std::copy(table.lux.begin(), table.lux.end(), image.channel("illuminance.Y").begin());
+  if (!table.stderr_lx.empty())
+    std::copy(table.stderr_lx.begin(), table.stderr_lx.end(), image.channel("illuminance_stderr.Y").begin());
+  return image;
+}
+
+}  // namespace
+
+MeasuredError measure_lux(const LuxTable& table, const LuxTable& reference, const LuxTable* second) {
+  require_same_sensors(table, reference);
+  if (second) require_same_sensors(*second, reference);
+  const Image other = second ? as_image(*second) : Image();
+  MeasuredError error = measure_picture(as_image(table), as_image(reference), second ? &other : nullptr,
+                                        {"illuminance", false});
+  error.quantity = "lux";
+  return error;
+}
+
+Json to_json(const MeasuredError& e) {
+  Json j;
+  j["quantity"] = e.quantity, j["unit"] = e.unit;
+  j["places"] = e.places, j["left_out"] = e.left_out, j["non_finite"] = e.non_finite;
+  j["magnitude"] = e.magnitude, j["rmse"] = e.rmse, j["relative_rmse"] = e.relative_rmse;
+  j["bias"] = e.bias, j["relative_bias"] = e.relative_bias;
+  j["p99"] = e.p99, j["relative_p99"] = e.relative_p99, j["max"] = e.max, j["resolved"] = e.resolved();
+  const auto add = [&](const char* name, const std::optional<double>& v) {
+    if (v) j[name] = *v;
+  };
+  add("psnr_db", e.psnr_db), add("ssim", e.ssim), add("reference_noise", e.noise);
+  add("resolution", e.resolution), add("rmse_stderr", e.rmse_stderr), add("bias_stderr", e.bias_stderr);
+  add("stated", e.stated), add("inside", e.inside);
+  return j;
+}
+
+}  // namespace phos
