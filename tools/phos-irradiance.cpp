@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
       "it and the .brdf file that they were made with");
   declare_options(options, scene_options);
   declare_options(options, records);
+  declare_raster_options(options, records);
   declare_options(options, placement);
   declare_isa(options, isa);
   options.file("at", at,
@@ -102,7 +103,7 @@ int main(int argc, char** argv) {
     records.resolve(scene.bounds.diagonal_m());
     cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
-    cache.quantity = records.paths == Quantity::all ? "all" : "indirect";
+    cache.quantity = name_of(records.paths);
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at);

@@ -3,6 +3,7 @@
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/irradiance_inputs.h"
+#include "temporal/film_inputs.h"
 #include "temporal/film_report.h"
 #include "temporal/make_film.h"
 
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
   options.choice<Kind>("kind", kind, {{"irradiance", Kind::irradiance}, {"radiance", Kind::radiance}},
                        "of records: irradiance for diffuse surfaces, radiance for glossy ones");
   declare_options(options, job.options);
-  declare_options(options, scene_options);
+  declare_environment_options(options, scene_options);
   declare_options(options, gloss);
   declare_options(options, records);
   declare_place_options(options, job.placement);
@@ -94,6 +95,8 @@ int main(int argc, char** argv) {
     job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
     resolve_film_places(job.placement, first->scene);
     job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
+    if (!files.radiance.empty())
+      require_same_film(Container::open(files.radiance, "radiance"), job.survey);
     if (job.of_radiance || job.covered_by_radiance)
       job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), gloss, {}, tool.counters());
     tell_of_film(tool, job);
@@ -122,12 +125,13 @@ int main(int argc, char** argv) {
       if (journal.found() > 0)
         tool.say(text(journal.found(), " estimates of an interrupted run are kept; the film goes on"));
       job.journal = &journal;
-      const FilmChains made = make_chains(job, scenes, read, tool.counters());
+      const FilmChains made =
+          journal.keeping([&] { return make_chains(job, scenes, read, tool.counters()); });
       report = made.report;
       if (job.of_radiance)
         write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
       else
-        write_film(tool.output(), film_of(made.chains, info_of(job)), provenance());
+        write_film(tool.output(), film_of(made.chains, info_of(job), name_of(records.paths)), provenance());
       journal.finish();
     }
     tell_of_records(tool, job, report);

@@ -107,6 +107,8 @@ void declare_gather_options(Options& options, RecordOptions& r) {
                              "radius from the harmonic mean or the least distance");
 }
 
+const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
+
 void declare_options(Options& options, RecordOptions& r) {
   options.section("Records");
   options.choice<Estimate>(
@@ -132,6 +134,9 @@ void declare_options(Options& options, RecordOptions& r) {
                  kPositive);
   options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
                   {1, 65536});
+}
+
+void declare_raster_options(Options& options, RecordOptions& r) {
   options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
                   {8, 1024});
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,

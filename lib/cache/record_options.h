@@ -15,6 +15,8 @@ enum class Quantity {
   indirect,  ///< all light but that straight from a lamp
   all,
 };
+/// As a file names it (IrradianceCache::quantity).
+const char* name_of(Quantity quantity);
 enum class Estimate {
   hull,    ///< photons over the area of their convex hull (thesis chapter 6, FORMULAS C1, C2)
   kernel,  ///< photons over a disc, or weighted by a kernel: the classical comparison (C4)
@@ -69,7 +71,9 @@ struct RecordOptions {
   void resolve(float diagonal_m);
 };
 
+/// All but those of --estimate raster.
 void declare_options(Options& options, RecordOptions& records);
+void declare_raster_options(Options& options, RecordOptions& records);
 // Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays
 // with what they read where they land.
 void declare_reach_options(Options& options, RecordOptions& records);

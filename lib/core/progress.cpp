@@ -11,6 +11,7 @@ namespace phos {
 namespace {
 
 std::atomic<ProgressMode> mode{ProgressMode::automatic};
+std::atomic<int> running{0};
 
 bool shown_on_terminal() { return isatty(STDERR_FILENO) != 0; }
 
@@ -40,9 +41,13 @@ void set_progress_mode(ProgressMode m) { mode = m; }
 Progress::Progress(std::string label, std::uint64_t total, std::string unit)
     : label_(std::move(label)), unit_(std::move(unit)), total_(total) {
   start_ = shown_ = std::chrono::steady_clock::now();
+  inner_ = running++ > 0;
 }
 
-Progress::~Progress() { show(true); }
+Progress::~Progress() {
+  if (!inner_ || seen_) show(true);
+  --running;
+}
 
 void Progress::advance(std::uint64_t steps) {
   done_.fetch_add(steps, std::memory_order_relaxed);
@@ -51,9 +56,9 @@ void Progress::advance(std::uint64_t steps) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
   const auto now = std::chrono::steady_clock::now();
-  const bool redraws = mode == ProgressMode::automatic;
-  if (std::chrono::duration<double>(now - shown_).count() < (redraws ? 0.2 : 2.0)) return;
-  shown_ = now;
+  const bool often = mode == ProgressMode::automatic && !inner_;
+  if (std::chrono::duration<double>(now - shown_).count() < (often ? 0.2 : 2.0)) return;
+  shown_ = now, seen_ = true;
   show(false);
 }
 

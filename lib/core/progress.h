@@ -18,7 +18,8 @@ enum class ProgressMode {
 
 void set_progress_mode(ProgressMode mode);
 
-/// One running piece of work. advance() may be called from any thread.
+/// One running piece of work. advance() may be called from any thread. Work within other work is shown only
+/// where it takes seconds.
 class Progress {
  public:
   Progress(std::string label, std::uint64_t total, std::string unit);
@@ -34,6 +35,7 @@ class Progress {
   std::atomic<std::uint64_t> done_{0};
   std::chrono::steady_clock::time_point start_, shown_;
   std::mutex mutex_;
+  bool inner_, seen_ = false;  ///< within other work; shown at least once
 };
 
 }  // namespace phos

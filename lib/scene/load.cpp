@@ -28,6 +28,10 @@ void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS", "when animations are evaluated (default: 0)");
   options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
+  declare_environment_options(options, scene);
+}
+
+void declare_environment_options(Options& options, SceneOptions& scene) {
   options.file(
       "environment", scene.environment,
       "light from all around: an equirectangular map, twice as wide as high, +Y up, its middle towards "

@@ -18,6 +18,8 @@ struct SceneOptions {
   std::optional<double> environment_rotation_deg, environment_scale;
 };
 void declare_options(Options& options, SceneOptions& scene);
+/// Those that hold at every time.
+void declare_environment_options(Options& options, SceneOptions& scene);
 
 /// Loads and finalizes, with the environment map that the options name. The format is told from the content.
 /// Throws Error(bad_input): missing, not a scene, truncated, unknown required extension (named), glTF 1.0,

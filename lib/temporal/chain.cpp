@@ -129,8 +129,8 @@ Chain chain_of(const Made& made, const IrradianceRecord& settled, const Radiance
   return chain;
 }
 
-Film film_of(std::span<const Chain> chains, const FilmInfo& info) {
-  return {info, "indirect", records_of<FilmRecord>(chains, info, record_of)};
+Film film_of(std::span<const Chain> chains, const FilmInfo& info, const std::string& quantity) {
+  return {info, quantity, records_of<FilmRecord>(chains, info, record_of)};
 }
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info) {
   return {info, records_of<FilmRadianceRecord>(chains, info, radiance_record_of)};

@@ -61,10 +61,8 @@ void FilmMaker::frame_by_rate(std::int64_t frame, const FrameRange& shot) {
   if (task_.placement.place == Place::view) {
     VisiblePlaces places(light, known, task_.placement, task_.wanted, task_.unwanted,
                          kFilmItems + next_number_);
-    places.look(light.at());
-    next_number_ += static_cast<std::uint32_t>(places.open().size());
-    report_.sites += places.sites();
-    open = places.open(), seen = places.in_sight();
+    open = places.look(light.at()).now, seen = places.in_sight();
+    next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
   }
   for (std::size_t i = 0; i < chain_of_record.size(); ++i) {
     if (chains_[chain_of_record[i]].keys.back().until > frame) continue;
@@ -81,7 +79,7 @@ void FilmMaker::frame_by_rate(std::int64_t frame, const FrameRange& shot) {
     chains_[there[i]].keys.push_back(std::move(keys[i]));
   }
   const std::size_t first_new = chains_.size();
-  add_chains(light, estimator, std::move(known), open, made);
+  add_chains(light, estimator, known, open, made);
   if (floor_ == 0) set_floor();
   for (std::size_t i = first_new; i < chains_.size(); ++i)
     live(chains_[i].keys.back(), chains_[i], made[i - first_new], next, most);

@@ -39,6 +39,25 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
     require_same_scene(file, scene_path, scene.hash, scene.parts);
 }
 
+void require_same_film(const Container& file, const FilmSurvey& survey) {
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ExitCode::mismatch, file.path(), message + "; make it with phos-temporal --kind radiance");
+  };
+  if (!is_film(file)) {
+    if (survey.light_changes) refuse("holds the light of one time, and light changes in these frames");
+    if (file.provenance().scene_hash != survey.scene_hash.front()) refuse("was made from another scene");
+    return;
+  }
+  const FilmInfo film = read_film_info(file);
+  const FrameRange& frames = survey.frames;
+  if (!film.frames.contains(frames.first) || !film.frames.contains(frames.last))
+    refuse(text("is a film of frames ", film.frames.first, " to ", film.frames.last, ", and frames ",
+                frames.first, " to ", frames.last, " are asked for"));
+  for (std::int64_t f = frames.first; f <= frames.last; ++f)
+    if (film.scene_hash[static_cast<std::size_t>(f - film.frames.first)] != survey.hash_of(f))
+      refuse(text("was made from another scene than this one is at frame ", f));
+}
+
 IrradianceCache read_irradiance_at(const Container& file, const Scene& scene) {
   if (!is_film(file)) return read_irradiance(file);
   require_frame(file, read_film_info(file), frame_of(scene));

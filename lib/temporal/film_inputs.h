@@ -11,6 +11,7 @@
 #include "file/container.h"
 #include "scene/scene.h"
 #include "temporal/film_cache.h"
+#include "temporal/survey.h"
 
 namespace phos {
 
@@ -20,6 +21,10 @@ std::int64_t frame_of(const Scene& scene);
 /// Throws Error(mismatch) where a file was made from another scene; of a film, where it does not have the
 /// scene's frame or that was another.
 void require_same_scene(const Container& file, const std::string& scene_path, const Scene& scene);
+
+/// Throws Error(mismatch) where a file does not hold the frames of a film: another scene's, too few of them,
+/// or those of one time where light changes.
+void require_same_film(const Container& file, const FilmSurvey& survey);
 
 /// Of a film, the records of the scene's frame; throws Error(mismatch) where it has no such frame.
 IrradianceCache read_irradiance_at(const Container& file, const Scene& scene);

@@ -4,14 +4,10 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numeric>
 
 #include "cache/placer.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/progress.h"
-#include "scene/picture.h"
-#include "temporal/visible_places.h"
 
 namespace phos {
 namespace {
@@ -24,20 +20,6 @@ constexpr std::int64_t kStillLooks = 100;  // of a film without change
 constexpr double kWorthKeeping = 0.125;
 /// F3: relative changes count against this share of the scene's mean irradiance at least.
 constexpr double kFloorShare = 1e-3;
-
-/// An estimator, by way of the journal if there is one.
-class Kept {
- public:
-  Kept(const Estimator& estimator, const FilmTask& task, std::int64_t frame) : estimator_(&estimator) {
-    if (task.journal)
-      estimator_ = &by_journal_.emplace(estimator, *task.journal, kMostTasks * frame + task.number);
-  }
-  const Estimator& operator*() const { return *estimator_; }
-
- private:
-  std::optional<JournalEstimator> by_journal_;
-  const Estimator* estimator_;
-};
 
 double norm2(const Rgb& v) { return static_cast<double>(glm::dot(v, v)); }
 
@@ -58,7 +40,7 @@ FrameLight& FrameLights::at(std::int64_t frame) {
   }
   if (recent_.size() == kKept) recent_.erase(recent_.begin());
   recent_.push_back(std::make_unique<FrameLight>(scenes_.at(frame), options_, source_));
-  ++made_;
+  frames_.insert(frame);
   return *recent_.back();
 }
 
@@ -69,7 +51,7 @@ FilmMaker::FilmMaker(FrameLights& lights, const FilmSurvey& survey, const FilmOp
 }
 
 void FilmMaker::run() {
-  Progress progress("film", static_cast<std::uint64_t>(survey_.frames.count()), "frames");
+  Progress progress(task_.label, static_cast<std::uint64_t>(survey_.frames.count()), "frames");
   for (const FrameRange& shot : survey_.shots) {
     if (options_.lives == Lives::rate) {
       for (std::int64_t frame = shot.first; frame <= shot.last; ++frame, progress.advance()) {
@@ -79,10 +61,8 @@ void FilmMaker::run() {
     }
     for (std::int64_t begin = shot.first; begin <= shot.last;) {
       const std::int64_t end = std::min(begin + options_.max_life, shot.last);
-      const bool last = end == shot.last;
-      block(begin, end, shot);
-      progress.advance(static_cast<std::uint64_t>(last ? end - begin + 1 : end - begin));
-      begin = last ? shot.last + 1 : end;
+      block(begin, end, shot, progress);
+      begin = end == shot.last ? shot.last + 1 : end;
     }
   }
 }
@@ -96,113 +76,31 @@ void FilmMaker::still() {
 
 /// Frames [begin, end] of a shot; the frame `end` belongs to the next piece too, unless it is the shot's
 /// last.
-void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& shot) {
+void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& shot, Progress& progress) {
+  const auto frames = static_cast<std::uint64_t>(end - begin + (end == shot.last));
   std::vector<std::int64_t> looks;
   const std::int64_t step = std::max<std::int64_t>(1, (end - begin) / kLooks);
   for (std::int64_t f = begin; f < end; f += step) looks.push_back(f);
   if (end == shot.last && (looks.empty() || looks.back() != end)) looks.push_back(end);
   const std::vector<std::size_t> wanted = place_at(begin, looks);
+  std::uint64_t shown = frames / 3;
+  progress.advance(shown);
   if (floor_ == 0) set_floor();
   if (begin < end) {
+    end_vanished(wanted, begin, end);
+    progress.advance(frames / 3), shown += frames / 3;
     std::vector<Segment> segments;
-    end_at(wanted, end);
     for (const std::size_t i : wanted) {
-      if (chains_[i].at(begin) && chains_[i].at(end)) segments.push_back({i, begin, end, 0});
+      const std::vector<Key>& keys = chains_[i].keys;
+      for (std::size_t k = 1; k < keys.size(); ++k)
+        if (keys[k - 1].frame >= begin) segments.push_back({i, keys[k - 1].frame, keys[k].frame, 0});
     }
     if (options_.checks > 0) refine(std::move(segments));
   }
+  progress.advance(frames - shown);
   if (end == shot.last)
     for (const std::size_t i : wanted)
       if (Key& last = chains_[i].keys.back(); last.frame == end) last.until = end + 1;
-}
-
-/// Which chains the coming frames want, with new ones where the views `looks` lack them.
-std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::vector<std::int64_t> looks) {
-  FrameLight& light = lights_.at(frame);
-  std::vector<std::size_t> known;  // chains that are there at this frame
-  for (std::size_t i = 0; i < chains_.size(); ++i)
-    if (!chains_[i].keys.empty() && chains_[i].keys.back().frame == frame) known.push_back(i);
-  // A jump: all that were there before it may be wanted after it.
-  std::vector<std::size_t> before;
-  for (std::size_t i = 0; i < chains_.size(); ++i)
-    if (!chains_[i].keys.empty() && chains_[i].keys.back().until == frame &&
-        chains_[i].keys.back().frame != frame)
-      before.push_back(i);
-  end_at(before, frame);
-  for (const std::size_t i : before)
-    if (chains_[i].keys.back().frame == frame) known.push_back(i);
-  std::sort(known.begin(), known.end());
-
-  IrradianceCache cache;
-  cache.accuracy = task_.records.accuracy;
-  for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
-
-  std::vector<std::size_t> wanted;
-  std::vector<Made> made;
-  const std::size_t first_new = chains_.size();
-  if (task_.placement.place == Place::view) {
-    VisiblePlaces places(light, cache, task_.placement, task_.wanted, task_.unwanted,
-                         kFilmItems + next_number_);
-    for (const std::int64_t f : looks) places.look(lights_.scene_at(f));
-    report_.sites += places.sites();
-    next_number_ += static_cast<std::uint32_t>(places.open().size());
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      if (places.in_sight()[i])
-        wanted.push_back(known[i]);
-      else
-        ++report_.deleted;
-    }
-    report_.kept_alive += wanted.size();
-    add_chains(light, task_.estimator(light), cache, places.open(), made);
-  } else {
-    wanted = known;
-    add_chains(light, task_.estimator(light), cache, {}, made);
-    if (task_.placement.place == Place::photons) estimate_anew(first_new, light);
-  }
-  for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
-  return wanted;
-}
-
-/// New chains where the known records leave sites (or, of other placements than views, surfaces) uncovered;
-/// `made` is what each was made from.
-void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache known,
-                           std::span<const RecordSite> sites, std::vector<Made>& made) {
-  made.clear();
-  const std::size_t before = known.records.size();
-  const bool view = task_.placement.place == Place::view;
-  const Kept kept(estimator, task_, light.frame());
-  PlacementReport placed;
-  if (view) {
-    if (sites.empty()) return;
-    const Candidates candidates{
-        sites.size(), [&](std::size_t i, std::vector<RecordSite>& out) { out.push_back(sites[i]); }};
-    placed = place_records(known, *kept, light.rays(), task_.records, task_.placement, candidates, counters_);
-  } else {
-    PlacementSource source;
-    source.wanted = task_.wanted;
-    if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
-    if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
-    placed = place(known, *kept, light.rays(), task_.records, task_.placement, source, counters_);
-  }
-  report_.estimates += placed.made, report_.making_s += placed.making_s,
-      report_.uncovered += placed.uncovered;
-  made = std::move(placed.made_records);
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    if (!view) made[i].item = kFilmItems + next_number_++;
-    const RadianceRecord* radiance = placed.radiance.empty() ? nullptr : &placed.radiance[i];
-    chains_.push_back(
-        chain_of(made[i], known.records[before + i], radiance, light.rays(), light.frame(), survey_));
-  }
-}
-
-/// The first keys of chains from `first` on once more. A record placed at a photon leaves that out, and those
-/// that follow it at the same place do not: they would differ where nothing changes.
-void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
-  std::vector<std::size_t> chains(chains_.size() - first), there;
-  std::iota(chains.begin(), chains.end(), first);
-  std::vector<Made> made;
-  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
-  for (std::size_t i = 0; i < keys.size(); ++i) chains_[there[i]].keys.back() = std::move(keys[i]);
 }
 
 /// Keys of chains at a frame, where their surfaces are there then: `there` are those chains, `made` what
@@ -216,7 +114,10 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
   for (const std::size_t i : chains) {
     Pose pose;
     const std::optional<RecordSite> site = site_of(chains_[i], light.scene(), pose);
-    if (!site) continue;
+    if (!site) {
+      counters_.count("record without a surface");
+      continue;
+    }
     sites.push_back(*site), poses.push_back(pose), there.push_back(i);
   }
   if (sites.empty()) return {};
@@ -245,6 +146,25 @@ void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) 
     if (last.until == last.frame) last.until = frame;
   }
   for (std::size_t i = 0; i < there.size(); ++i) chains_[there[i]].keys.push_back(std::move(keys[i]));
+}
+
+/// Ends chains at the frame `end` of a piece; those whose surface has no area then, where it last had one.
+void FilmMaker::end_vanished(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end) {
+  std::vector<std::size_t> open;
+  for (const std::size_t i : chains)
+    if (chains_[i].keys.back().frame < end) open.push_back(i);
+  for (std::int64_t f = end; f > begin && !open.empty(); --f) {
+    const Scene& scene = lights_.scene_at(f).scene;
+    std::vector<std::size_t> there;
+    std::erase_if(open, [&](std::size_t i) {
+      Pose pose;
+      if (!site_of(chains_[i], scene, pose) || chains_[i].keys.back().frame >= f) return false;
+      there.push_back(i);
+      return true;
+    });
+    end_at(there, f);
+  }
+  for (const std::size_t i : open) chains_[i].keys.back().until = chains_[i].keys.back().frame + 1;
 }
 
 /// Halves segments where the light in their middle is not what lies between their ends.
@@ -313,7 +233,7 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
 
 FilmReport FilmMaker::report() const {
   FilmReport report = report_;
-  report.frames_with_light = lights_.made();
+  report.frames_with_light = lights_.frames();
   return report;
 }
 

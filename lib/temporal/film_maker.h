@@ -4,9 +4,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "cache/placement.h"
+#include "core/progress.h"
 #include "temporal/chain.h"
 #include "temporal/film_options.h"
 #include "temporal/frame_light.h"
@@ -23,7 +28,8 @@ class FrameLights {
       : scenes_(scenes), options_(options), source_(source) {}
   FrameLight& at(std::int64_t frame);
   const FrameScene& scene_at(std::int64_t frame) { return *(last_ = scenes_.at(frame)); }
-  std::uint64_t made() const { return made_; }
+  /// Those that were asked for.
+  const std::set<std::int64_t>& frames() const { return frames_; }
 
  private:
   static constexpr std::size_t kKept = 3;
@@ -32,14 +38,14 @@ class FrameLights {
   const Film* source_;
   std::vector<std::unique_ptr<FrameLight>> recent_;
   std::shared_ptr<const FrameScene> last_;
-  std::uint64_t made_ = 0;
+  std::set<std::int64_t> frames_;
 };
 
 struct FilmReport {
   std::uint64_t chains = 0, records = 0;
-  std::uint64_t estimates = 0;          ///< records made, those that were not kept among them
-  std::uint64_t frames_with_light = 0;  ///< at which any was made
-  std::uint64_t sites = 0, uncovered = 0;
+  std::uint64_t estimates = 0;               ///< records made, those that were not kept among them
+  std::set<std::int64_t> frames_with_light;  ///< at which any was made
+  std::uint64_t uncovered = 0;
   std::uint64_t kept_alive = 0, deleted = 0;  ///< places at the end of a life: replaced, or out of sight
   double making_s = 0;
   std::map<std::int64_t, std::uint64_t> lives;  ///< records by frames that they live
@@ -56,6 +62,21 @@ struct FilmTask {
   MaterialFilter unwanted{};           ///< of those, not these; empty: all
   std::int64_t number = 0;             ///< among the tasks of a film; below kMostTasks
   EstimateJournal* journal = nullptr;  ///< null: nothing is kept of an interrupted run
+  std::string label = "film";          ///< of its progress
+};
+
+/// An estimator, by way of the journal if there is one.
+class Kept {
+ public:
+  Kept(const Estimator& estimator, const FilmTask& task, std::int64_t frame) : estimator_(&estimator) {
+    if (task.journal)
+      estimator_ = &by_journal_.emplace(estimator, *task.journal, kMostTasks * frame + task.number);
+  }
+  const Estimator& operator*() const { return *estimator_; }
+
+ private:
+  std::optional<JournalEstimator> by_journal_;
+  const Estimator* estimator_;
 };
 
 class FilmMaker {
@@ -73,8 +94,6 @@ class FilmMaker {
   /// Chains are numbered from here on.
   void number_from(std::uint32_t first) { next_number_ = first; }
   std::uint32_t next_number() const { return next_number_; }
-  /// Relative changes count against at least this, lx (F3).
-  double floor_lx() const { return floor_; }
   /// All but what chains tell themselves (chains, records, lives).
   FilmReport report() const;
 
@@ -84,11 +103,14 @@ class FilmMaker {
     std::int64_t begin, end;
     std::int64_t depth;  ///< halvings before it
   };
-  void block(std::int64_t begin, std::int64_t end, const FrameRange& shot);
+  void block(std::int64_t begin, std::int64_t end, const FrameRange& shot, Progress& progress);
   void frame_by_rate(std::int64_t frame, const FrameRange& shot);
   void live(Key& key, const Chain& chain, const Made& made, const FrameScene* next, std::int64_t most) const;
-  std::vector<std::size_t> place_at(std::int64_t frame, std::vector<std::int64_t> looks);
-  void add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache known,
+  std::vector<std::size_t> there_at(std::int64_t frame);
+  std::vector<std::size_t> place_at(std::int64_t frame, std::span<const std::int64_t> looks);
+  void add_late(std::int64_t frame, std::int64_t looked, std::span<const RecordSite> sites,
+                std::int64_t begin);
+  void add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache& known,
                   std::span<const RecordSite> sites, std::vector<Made>& made);
   std::vector<Key> estimate(std::span<const std::size_t> chains, FrameLight& light,
                             const Estimator& estimator, std::vector<std::size_t>& there,
@@ -96,6 +118,7 @@ class FilmMaker {
   void estimate_anew(std::size_t first, FrameLight& light);
   void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);
+  void end_vanished(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end);
   void refine(std::vector<Segment> segments);
   bool is_straight(const Key& from, const Key& middle, const Key& to, double& share) const;
 

@@ -54,6 +54,9 @@ void FilmOptions::resolve(const Options& given, Estimate estimate) const {
     if (gradients == TemporalGradients::extrapolated)
       refuse("--temporal-gradients",
              "extrapolated goes with --lives rate, which looks one frame ahead; add that");
+    if (gradients == TemporalGradients::none)
+      refuse("--temporal-gradients",
+             "none goes with --lives rate: midpoints are judged by what is interpolated; add that");
     if (given.given("look-ahead"))
       refuse("--look-ahead", "goes with --lives rate alone; add that, or leave it out");
   } else if (given.given("checks")) {

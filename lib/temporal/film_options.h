@@ -30,8 +30,7 @@ struct FilmOptions {
   LookAhead look_ahead = LookAhead::reproject;  ///< with Lives::rate
   std::int64_t checks = 1;  ///< halvings of max_life that are made whatever they show; with Lives::midpoint
   std::int64_t fade = 4;    ///< frames: of a place's first record in, of its last one out
-  std::int64_t source_life =
-      4;  ///< frames between those at which photons are traced for gathered rays to read
+  std::int64_t source_life = 8;  ///< frames between those at which photons are traced for gathered rays
   std::int64_t photons =
       100'000;  ///< paths traced at each of those, or at each frame with estimates from photons
 

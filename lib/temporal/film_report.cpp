@@ -36,7 +36,7 @@ void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& r) {
   tool.stat("chains", r.chains);
   tool.stat("records", r.records);
   tool.stat("estimates", r.estimates);
-  tool.stat("frames_with_light", r.frames_with_light);
+  tool.stat("frames_with_light", r.frames_with_light.size());
   tool.stat("places_given_up", r.deleted);
   double frames = 0;
   Json lives = Json::Object{};
@@ -50,11 +50,11 @@ void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& r) {
   if (!job.survey.light_changes) {
     tool.say(text(r.records, " records"));
   } else {
-    tool.say(text(r.records, " records at ", r.chains, " places, living ", rounded(mean),
-                  " frames on the mean; ", r.estimates, " estimates at ", r.frames_with_light, " frames",
-                  r.estimates > 0
-                      ? text(", ", rounded(1e3 * r.making_s / static_cast<double>(r.estimates)), " ms each")
-                      : ""));
+    tool.say(text(
+        r.records, " records at ", r.chains, " places, living ", rounded(mean), " frames on the mean; ",
+        r.estimates, " estimates at ", r.frames_with_light.size(), " frames",
+        r.estimates > 0 ? text(", ", rounded(1e3 * r.making_s / static_cast<double>(r.estimates)), " ms each")
+                        : ""));
   }
   if (r.records == 0)
     tool.warn("no place wants a record (see --place, --camera): the file is empty");

@@ -78,13 +78,13 @@ class Reader {
 template <class Way, class Record>
 void irradiance(Way& way, Record& r) {
   way.value(r.position), way.value(r.normal), way.value(r.irradiance), way.value(r.stderr_lx);
-  way.value(r.distance_m), way.value(r.radius_m), way.value(r.weight);
+  way.value(r.distance_m), way.value(r.radius_m), way.value(r.weight), way.value(r.shared);
   for (int c = 0; c < 3; ++c) way.value(r.rotation_gradient[c]), way.value(r.translation_gradient[c]);
 }
 template <class Way, class Record>
 void radiance(Way& way, Record& r) {
   way.value(r.position), way.value(r.frame), way.value(r.distance_m), way.value(r.radius_m),
-      way.value(r.weight);
+      way.value(r.weight), way.value(r.shared);
   way.numbers(r.light), way.numbers(r.gradient_x), way.numbers(r.gradient_y), way.numbers(r.stderr_light);
 }
 
@@ -203,6 +203,16 @@ void EstimateJournal::add(const Id& id, const Made& made, const Counters& events
   file_.write(reinterpret_cast<const char*>(&sum), sizeof sum);
   file_.write(out.bytes().data(), static_cast<std::streamsize>(size));
   if (!file_) throw Error(ExitCode::bad_input, path_, "cannot be written (is the disk full?)");
+  ++added_;
+}
+
+/// Throws the same error with more words, if it is an interruption.
+void EstimateJournal::tell_kept(const Error& e) {
+  if (e.code() != ExitCode::interrupted) return;
+  file_.flush();
+  throw Error(e.code(), path_,
+              text("interrupted; ", found() + added_,
+                   " estimates are kept here: the same command with --reuse goes on"));
 }
 
 void EstimateJournal::finish() {

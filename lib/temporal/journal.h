@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cache/estimator.h"
+#include "core/error.h"
 
 namespace phos {
 
@@ -24,6 +25,16 @@ class EstimateJournal {
   EstimateJournal(const std::string& path, const std::string& key, bool go_on);
   ~EstimateJournal();
   std::size_t found() const { return entries_.size(); }  ///< left by an earlier run
+  /// Work that adds to it. Where that is interrupted, the error says what is kept and how to go on.
+  template <class Work>
+  auto keeping(const Work& work) {
+    try {
+      return work();
+    } catch (const Error& e) {
+      tell_kept(e);
+      throw;
+    }
+  }
   /// Removes the file: the film is whole.
   void finish();
 
@@ -34,6 +45,7 @@ class EstimateJournal {
     Made made;
     std::map<std::string, std::uint64_t> events;
   };
+  void tell_kept(const Error& e);
   const Entry* find(const Id& id) const;
   void add(const Id& id, const Made& made, const Counters& events);
   std::size_t read(const std::string& bytes);
@@ -41,6 +53,7 @@ class EstimateJournal {
   std::string path_, key_;
   std::map<Id, Entry> entries_;
   std::mutex mutex_;
+  std::size_t added_ = 0;
   std::ofstream file_;
 };
 

@@ -31,8 +31,8 @@ std::vector<FilmTask> tasks_of(const FilmJob& job, Counters& counters) {
 }
 
 void add(FilmReport& all, const FilmReport& part) {
-  all.estimates += part.estimates, all.frames_with_light += part.frames_with_light;
-  all.sites += part.sites, all.uncovered += part.uncovered;
+  all.estimates += part.estimates, all.uncovered += part.uncovered;
+  all.frames_with_light.insert(part.frames_with_light.begin(), part.frames_with_light.end());
   all.kept_alive += part.kept_alive, all.deleted += part.deleted, all.making_s += part.making_s;
 }
 
@@ -64,15 +64,18 @@ Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters) {
   light.records = records_of(job);
   FrameLights lights(scenes, light, nullptr);
   const RecordOptions coarse = coarse_options(light.records);
-  FilmMaker maker(
-      lights, job.survey, options,
-      {coarse, placement, {}, [&](FrameLight& l) -> const Estimator& { return l.source_records(counters); }},
-      counters);
+  FilmMaker maker(lights, job.survey, options,
+                  {.records = coarse,
+                   .placement = placement,
+                   .wanted = {},
+                   .estimator = [&](FrameLight& l) -> const Estimator& { return l.source_records(counters); },
+                   .label = "light that rays read"},
+                  counters);
   maker.run();
   FilmInfo info = info_of(job);
   info.accuracy = coarse.accuracy, info.gradients = TemporalGradients::interpolated, info.fade = 0;
   info.max_life = options.max_life;
-  return film_of(maker.chains(), info);
+  return film_of(maker.chains(), info, name_of(coarse.paths));
 }
 
 FilmChains make_chains(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters) {
@@ -116,6 +119,7 @@ std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film*
 IrradianceCache still_irradiance(const FilmJob& job, std::span<const Key> keys) {
   IrradianceCache cache;
   cache.accuracy = records_of(job).accuracy, cache.scene_hash = job.survey.scene_hash.front();
+  cache.quantity = name_of(records_of(job).paths);
   for (const Key& k : keys) cache.records.push_back(k.record);
   return cache;
 }

@@ -12,28 +12,35 @@ namespace phos {
 /// of `light`.
 class VisiblePlaces {
  public:
-  /// `known`: records there; sites that none of them covers are open, and those that pictures read (see
-  /// reading_accuracy) are in sight. Open sites are numbered from `first_item`. `wanted` empty: diffuse
-  /// surfaces; but not `unwanted` ones. Holds references.
+  /// `known`: records there; those that pictures read (see reading_accuracy) are in sight. Open sites are
+  /// numbered from `first_item`. `wanted` empty: diffuse surfaces; but not `unwanted` ones. Holds references.
   VisiblePlaces(const FrameLight& light, const IrradianceCache& known, const PlacementOptions& placement,
                 const MaterialFilter& wanted, const MaterialFilter& unwanted, std::uint64_t first_item);
-  void look(const FrameScene& at);
 
-  const std::vector<RecordSite>& open() const { return open_; }
-  const std::vector<bool>& in_sight() const { return in_sight_; }  ///< by record
-  std::uint64_t sites() const { return sites_; }
+  /// Sites that no record covers.
+  struct Open {
+    std::vector<RecordSite> now;  ///< where they are at the frame of `light`
+    std::vector<RecordSite>
+        then;  ///< where they are at the frame looked at: their surface has no area before
+  };
+  Open look(const FrameScene& at);
+  /// Records that were added to the known ones since.
+  void add(const IrradianceRecord& record) { tree_.insert(record); }
+
+  const std::vector<bool>& in_sight() const { return in_sight_; }  ///< by record known at first
+  std::uint64_t lost() const { return lost_; }            ///< sites whose surface was not found again
+  std::uint64_t next_item() const { return next_item_; }  ///< sites have had those before it
 
  private:
   const FrameLight& light_;
-  const IrradianceCache& known_;
   const PlacementOptions& placement_;
   const MaterialFilter &wanted_, &unwanted_;
   std::uint64_t next_item_;
+  float accuracy_;
   RecordTree tree_;
-  std::vector<RecordSite> open_;
   std::vector<bool> in_sight_;
-  std::uint64_t sites_ = 0;
   std::size_t looks_ = 0;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace phos

@@ -1,0 +1,155 @@
+// Where a film's records are placed.
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+
+#include "temporal/film_maker.h"
+#include "temporal/visible_places.h"
+
+namespace phos {
+
+/// Chains whose last key lies at `frame`, in order. After a jump, all those that were there before it may be
+/// wanted: they get one.
+std::vector<std::size_t> FilmMaker::there_at(std::int64_t frame) {
+  std::vector<std::size_t> before, there;
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const Key& last = chains_[i].keys.back();
+    if (last.until == frame && last.frame != frame) before.push_back(i);
+  }
+  end_at(before, frame);
+  for (std::size_t i = 0; i < chains_.size(); ++i)
+    if (chains_[i].keys.back().frame == frame) there.push_back(i);
+  return there;
+}
+
+/// Which chains the frames from `frame` on want, with new ones where the views `looks` lack them.
+std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const std::int64_t> looks) {
+  FrameLight& light = lights_.at(frame);
+  const std::vector<std::size_t> known = there_at(frame);
+  IrradianceCache cache;
+  cache.accuracy = task_.records.accuracy;
+  for (const std::size_t i : known) cache.records.push_back(chains_[i].keys.back().record);
+
+  std::vector<std::size_t> wanted;
+  std::vector<Made> made;
+  const std::size_t first_new = chains_.size();
+  if (task_.placement.place == Place::view) {
+    VisiblePlaces places(light, cache, task_.placement, task_.wanted, task_.unwanted,
+                         kFilmItems + next_number_);
+    std::int64_t looked = frame;
+    for (const std::int64_t f : looks) {
+      const VisiblePlaces::Open open = places.look(lights_.scene_at(f));
+      const std::size_t before = cache.records.size();
+      add_chains(light, task_.estimator(light), cache, open.now, made);
+      for (std::size_t i = before; i < cache.records.size(); ++i) places.add(cache.records[i]);
+      add_late(f, looked, open.then, frame);
+      looked = f;
+    }
+    next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
+    if (places.lost() > 0) counters_.count("place without a surface", places.lost());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (places.in_sight()[i])
+        wanted.push_back(known[i]);
+      else
+        ++report_.deleted;
+    }
+    report_.kept_alive += wanted.size();
+  } else {
+    wanted = known;
+    add_chains(light, task_.estimator(light), cache, {}, made);
+    if (task_.placement.place == Place::photons) estimate_anew(first_new, light);
+  }
+  for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
+  return wanted;
+}
+
+/// New chains where the known records leave sites (or, of other placements than views, surfaces) uncovered;
+/// `made` is what each was made from. The new records are added to `known`.
+void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache& known,
+                           std::span<const RecordSite> sites, std::vector<Made>& made) {
+  made.clear();
+  const std::size_t before = known.records.size();
+  const bool view = task_.placement.place == Place::view;
+  const Kept kept(estimator, task_, light.frame());
+  PlacementReport placed;
+  if (view) {
+    if (sites.empty()) return;
+    const Candidates candidates{
+        sites.size(), [&](std::size_t i, std::vector<RecordSite>& out) { out.push_back(sites[i]); }};
+    placed = place_records(known, *kept, light.rays(), task_.records, task_.placement, candidates, counters_);
+  } else {
+    PlacementSource source;
+    source.wanted = task_.wanted;
+    if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
+    if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
+    placed = place(known, *kept, light.rays(), task_.records, task_.placement, source, counters_);
+  }
+  report_.estimates += placed.made, report_.making_s += placed.making_s,
+      report_.uncovered += placed.uncovered;
+  made = std::move(placed.made_records);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!view) made[i].item = kFilmItems + next_number_++;
+    const RadianceRecord* radiance = placed.radiance.empty() ? nullptr : &placed.radiance[i];
+    chains_.push_back(
+        chain_of(made[i], known.records[before + i], radiance, light.rays(), light.frame(), survey_));
+  }
+}
+
+/// Chains on what has no area at the frame `begin` that the others start from, and is seen at `frame`. Their
+/// first keys lie where their surface first has one, after `looked`, the frame looked at before.
+void FilmMaker::add_late(std::int64_t frame, std::int64_t looked, std::span<const RecordSite> sites,
+                         std::int64_t begin) {
+  if (sites.empty()) return;
+  const std::size_t first_new = chains_.size();
+  std::vector<Made> made;
+  FrameLight& light = lights_.at(frame);
+  IrradianceCache known;
+  known.accuracy = task_.records.accuracy;
+  for (const Chain& chain : chains_) {
+    Pose pose;
+    if (chain.keys.back().frame < begin) continue;
+    const std::optional<RecordSite> site = site_of(chain, light.scene(), pose);
+    if (!site) continue;
+    known.records.push_back(chain.keys.back().record);
+    known.records.back().position = site->position, known.records.back().normal = site->normal;
+  }
+  add_chains(light, task_.estimator(light), known, sites, made);
+
+  std::map<std::int64_t, std::vector<std::size_t>> from;
+  std::vector<std::size_t> there(chains_.size() - first_new);
+  std::iota(there.begin(), there.end(), first_new);
+  for (std::int64_t f = frame - 1; f > looked && !there.empty(); --f) {
+    const Scene& scene = lights_.scene_at(f).scene;
+    std::erase_if(there, [&](std::size_t i) {
+      Pose pose;
+      if (site_of(chains_[i], scene, pose)) return false;
+      if (f + 1 < frame) from[f + 1].push_back(i);
+      return true;
+    });
+  }
+  if (looked + 1 < frame) from[looked + 1].insert(from[looked + 1].end(), there.begin(), there.end());
+  for (const auto& [f, chains] : from) {
+    lights_.at(begin);  // stays in work
+    FrameLight& then = lights_.at(f);
+    std::vector<Key> keys = estimate(chains, then, task_.estimator(then), there, made);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      keys[i].until = frame;
+      std::vector<Key>& all = chains_[there[i]].keys;
+      all.insert(all.begin(), std::move(keys[i]));
+    }
+  }
+  lights_.at(begin);
+}
+
+/// The first keys of chains from `first` on once more. A record placed at a photon leaves that out, and those
+/// that follow it at the same place do not: they would differ where nothing changes.
+void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
+  std::vector<std::size_t> chains(chains_.size() - first), there;
+  std::iota(chains.begin(), chains.end(), first);
+  std::vector<Made> made;
+  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+  for (std::size_t i = 0; i < keys.size(); ++i) chains_[there[i]].keys.back() = std::move(keys[i]);
+}
+
+}  // namespace phos
