@@ -33,6 +33,10 @@ FalseColourRange range_of(const Plot& plot, const PlotAxis& axis, double PlotPoi
   for (const PlotLine& line : plot.lines)
     for (const PlotPoint& p : line.points)
       if (shows(plot, p)) lo = std::min(lo, p.*which), hi = std::max(hi, p.*which);
+  for (const PlotLine& line : plot.lines)
+    for (const PlotLine::Bar& bar : line.bars)
+      for (const PlotPoint& p : {PlotPoint{bar.x, bar.lo}, PlotPoint{bar.x, bar.hi}})
+        if (shows(plot, p)) lo = std::min(lo, p.*which), hi = std::max(hi, p.*which);
   if (!(lo <= hi)) throw Error(ExitCode::bad_input, "", "no point of the plot can be shown");
   const std::string name = axis.label.empty() ? "axis" : text("axis \"", axis.label, "\"");
   if (axis.scale == Scale::logarithmic) {
@@ -163,12 +167,27 @@ class Drawing {
            p.y <= box_.bottom + kSlack;
   }
 
+  /// A bar with short ends. One whose lower end has no place on the axis begins at the axis.
+  void upright(const PlotLine::Bar& bar, const Colour8& colour) {
+    if (!shows(plot_, {bar.x, bar.hi}) || std::isnan(bar.lo)) return;
+    const double x = right_of(bar.x), half = 3;
+    const double low = shows(plot_.y, bar.lo) ? down_to(bar.lo) : box_.bottom;
+    const std::vector<PlotPoint> part = clipped({x, down_to(bar.hi)}, {x, low});
+    if (part.empty()) return;
+    pen_.stroke(part, colour, 1, false);
+    for (const PlotPoint& end : part)
+      if (inside({end.x - half, end.y}) && inside({end.x + half, end.y}) && end.y < box_.bottom - 1e-6)
+        pen_.stroke({{end.x - half, end.y}, {end.x + half, end.y}}, colour, 1, false);
+  }
+
   void line(std::size_t index) {
     const std::vector<PlotPoint>& points = plot_.lines[index].points;
     const Colour8 colour = colour_of(index);
+    const bool joined = plot_.lines[index].joined;
+    for (const PlotLine::Bar& bar : plot_.lines[index].bars) upright(bar, colour);
     std::vector<PlotPoint> path;
     const auto finish = [&] {
-      if (path.size() > 1) pen_.stroke(path, colour, 2, dashed(index));
+      if (path.size() > 1 && joined) pen_.stroke(path, colour, 2, dashed(index));
       path.clear();
     };
     const PlotPoint* before = nullptr;
@@ -190,7 +209,7 @@ class Drawing {
         }
       }
       before = &p, last = at;
-      if ((points.size() <= kMostMarks || points.size() == 1) && inside(at)) pen_.dot(at, 3, colour);
+      if ((points.size() <= kMostMarks || !joined) && inside(at)) pen_.dot(at, 3, colour);
     }
     finish();
   }
@@ -200,7 +219,10 @@ class Drawing {
     for (std::size_t i = 0; i < plot_.lines.size(); ++i) {
       if (plot_.lines[i].name.empty()) continue;
       const double x = box_.right + 2 * kGap;
-      pen_.stroke({{x, y}, {x + kSample, y}}, colour_of(i), 2, dashed(i));
+      if (plot_.lines[i].joined)
+        pen_.stroke({{x, y}, {x + kSample, y}}, colour_of(i), 2, dashed(i));
+      else
+        pen_.dot({x + kSample / 2, y}, 3, colour_of(i));
       pen_.write({x + kSample + kGap / 2, y}, plot_.lines[i].name, Align::left);
       y += kLetter + kGap / 2;
     }

@@ -19,6 +19,12 @@ struct PlotPoint {
 struct PlotLine {
   std::string name;  ///< in the legend; "" is not listed
   std::vector<PlotPoint> points;
+  bool joined = true;  ///< else marks alone
+  /// Upright, from lo to hi at x: how far a point is known. Shown as points are; none where it is not.
+  struct Bar {
+    double x = 0, lo = 0, hi = 0;
+  };
+  std::vector<Bar> bars{};
 };
 
 struct PlotAxis {

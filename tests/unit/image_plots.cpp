@@ -76,6 +76,26 @@ TEST(Plots, PointsThatCannotBeShownBreakTheLine) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+TEST(Plots, MarksAloneWithBars) {
+  const std::string line = "stroke=\"#0072b2\"";  // of the first colour
+  Plot plot = simple();
+  plot.lines[0].name.clear();
+  EXPECT_EQ(count(plot_svg(plot), line), 1u);
+  plot.lines[0].joined = false;
+  EXPECT_EQ(count(plot_svg(plot), line), 0u);
+  EXPECT_EQ(dots(plot_svg(plot)).size(), 2u);
+  // A bar and its two ends; the axis has room for it.
+  plot.lines[0].bars = {{5, 40, 180}};
+  const std::string svg = plot_svg(plot);
+  EXPECT_EQ(count(svg, line), 3u);
+  EXPECT_NE(svg.find(">180<"), std::string::npos);
+  // On a logarithmic axis one that reaches for 0 begins at the frame, without an end there.
+  plot.y.scale = Scale::logarithmic, plot.lines[0].points = {{5, 50}}, plot.lines[0].bars = {{5, 0, 80}};
+  EXPECT_EQ(count(plot_svg(plot), line), 2u);
+  plot.lines[0].bars = {{5, NAN, 80}};
+  EXPECT_EQ(count(plot_svg(plot), line), 0u);
+}
+
 TEST(Plots, LinesEndAtTheFrame) {
   Plot plot = simple();
   plot.y.min = 20, plot.y.max = 40;

@@ -1,0 +1,29 @@
+// A study from its file to its folder of results.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace phos {
+
+struct StudyOptions {
+  std::string file, folder;
+  std::optional<std::int64_t> threads;  ///< in place of the study's own
+  std::int64_t pictures = 24;           ///< points of each scene and camera whose pictures the page shows
+  bool list = false;                    ///< say what would be run, and do nothing
+};
+
+struct StudyOutcome {
+  std::size_t settings = 0, commands = 0, failed = 0;
+  std::string listing;  ///< with `list`: the commands that are left, as they are typed
+};
+
+/// Runs what has not been run yet and writes results.csv, results.json, plots and index.html into the folder;
+/// files of the stages lie in its folder cache, and journal.jsonl says which commands are finished. `say` and
+/// `warn` get lines for people. Throws as read_study(), plan_work() and run_work() do.
+StudyOutcome run_study(const StudyOptions& options, const std::function<void(const std::string&)>& say,
+                       const std::function<void(const std::string&)>& warn);
+
+}  // namespace phos

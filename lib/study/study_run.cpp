@@ -1,0 +1,96 @@
+#include "study/study_run.h"
+
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+#include "core/progress.h"
+
+namespace phos {
+
+namespace {
+
+std::uint64_t size_of(const std::string& path) {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path, none);
+  return none ? 0 : bytes;
+}
+
+/// Do the options or the inputs need mending, so that going on is idle?
+bool is_users(int code) {
+  return code == static_cast<int>(ExitCode::usage) || code == static_cast<int>(ExitCode::mismatch) ||
+         code == static_cast<int>(ExitCode::interrupted);
+}
+
+/// Its message, without its name.
+std::string words_of(const CommandRun& run, const Command& command) {
+  if (run.message.empty()) return text("ended with code ", run.code);
+  const std::string name = command.tool + ": ";
+  return run.message.starts_with(name) ? run.message.substr(name.size()) : run.message;
+}
+
+}  // namespace
+
+bool is_done(const StageRun& stage, const StudyJournal& journal) {
+  const CommandCost* cost = journal.find(stage.id);
+  return cost && std::filesystem::exists(stage.command.output) &&
+         size_of(stage.command.output) == cost->file_bytes;
+}
+
+// Commands that are not finished, or whose results the study itself reads and which are gone; and what these
+// read, as far as that is gone.
+std::vector<std::size_t> work_left(const StudyWork& work, const StudyJournal& journal) {
+  const std::vector<std::size_t> order = work.order();
+  std::set<std::size_t> read_by_us, run;
+  for (const auto* references : {&work.pictures, &work.lux})
+    for (const ReferenceWork& r : *references) read_by_us.insert(r.stages.begin(), r.stages.end());
+  for (const Job& job : work.jobs) {
+    if (job.picture) read_by_us.insert(*job.picture);
+    if (job.lux) read_by_us.insert(*job.lux);
+  }
+  for (const std::size_t i : order) {
+    const bool there = is_done(work.stages[i], journal);
+    if (!journal.find(work.stages[i].id) || (read_by_us.contains(i) && !there)) run.insert(i);
+  }
+  for (auto i = order.rbegin(); i != order.rend(); ++i)  // readers come after what they read
+    if (run.contains(*i))
+      for (const std::size_t input : work.stages[*i].inputs)
+        if (!is_done(work.stages[input], journal)) run.insert(input);
+  std::vector<std::size_t> left;
+  for (const std::size_t i : order)
+    if (run.contains(i)) left.push_back(i);
+  return left;
+}
+
+Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJournal& journal,
+                  const std::function<void(const std::string&)>& warn) {
+  const std::vector<std::size_t> left = work_left(work, journal);
+  Failures failures;
+  std::set<std::string> said_before;
+  Progress progress("study", left.size(), "commands");
+  for (const std::size_t i : left) {
+    const StageRun& stage = work.stages[i];
+    progress.advance();
+    for (const std::size_t input : stage.inputs)
+      if (failures.contains(input)) failures.emplace(i, failures.at(input));
+    if (failures.contains(i)) continue;
+    const CommandRun run = runner.run(stage.command);
+    if (run.code == 0) {
+      // Programs are quiet: what they say is a warning.
+      if (!run.message.empty() && said_before.insert(run.message).second) warn(run.message);
+      if (!journal.find(stage.id))
+        journal.add(stage.id, stage.command,
+                    {run.wall_s, run.cpu_s, run.peak_bytes, size_of(stage.command.output)});
+      continue;
+    }
+    const std::string said = words_of(run, stage.command);
+    if (is_users(run.code) || stage.section == "reference")
+      throw Error(run.code <= 5 || run.code == 130 ? static_cast<ExitCode>(run.code) : ExitCode::bad_input,
+                  shell_line(stage.command), said);
+    warn(text(shell_line(stage.command), ": ", said));
+    failures.emplace(i, said);
+  }
+  return failures;
+}
+
+}  // namespace phos

@@ -1,0 +1,69 @@
+#include "study/study_toml.h"
+
+#include <toml++/toml.h>
+
+#include "core/error.h"
+
+namespace phos {
+
+namespace {
+
+Json to_json(const toml::node& node, const std::string& path);
+
+Json to_json(const toml::array& array, const std::string& path) {
+  Json all = Json::Array{};
+  for (const toml::node& item : array) all.push_back(to_json(item, path));
+  return all;
+}
+
+Json to_json(const toml::table& table, const std::string& path) {
+  Json all = Json::Object{};
+  for (const auto& [key, value] : table) all[std::string(key.str())] = to_json(value, path);
+  return all;
+}
+
+Json to_json(const toml::node& node, const std::string& path) {
+  if (const toml::table* table = node.as_table()) return to_json(*table, path);
+  if (const toml::array* array = node.as_array()) return to_json(*array, path);
+  if (const auto* v = node.as_string()) return v->get();
+  if (const auto* v = node.as_integer()) return v->get();
+  if (const auto* v = node.as_floating_point()) return v->get();
+  if (const auto* v = node.as_boolean()) return v->get();
+  throw Error(ExitCode::bad_input, text(path, ":", node.source().begin.line),
+              "is a date or a time, which nothing here takes; put it in quotes if it is a word");
+}
+
+std::string one_line(std::string s) {
+  for (char& c : s)
+    if (c == '\n') c = ' ';
+  return s;
+}
+
+}  // namespace
+
+std::string TomlFile::where(const std::string& name) const {
+  const auto found = line.find(name);
+  return found == line.end() ? path : text(path, ":", found->second);
+}
+
+TomlFile parse_toml(std::string_view text_of_file, const std::string& path) {
+  TomlFile file;
+  file.path = path;
+  try {
+    const toml::table table = toml::parse(text_of_file, path);
+    file.root = to_json(table, path);
+    for (const auto& [key, value] : table) {
+      const std::string section(key.str());
+      file.line[section] = key.source().begin.line;
+      if (const toml::table* inner = value.as_table())
+        for (const auto& [name, unused] : *inner)
+          file.line[section + "." + std::string(name.str())] = name.source().begin.line;
+    }
+  } catch (const toml::parse_error& e) {
+    throw Error(ExitCode::bad_input, phos::text(path, ":", e.source().begin.line),
+                phos::text("is no TOML: ", one_line(std::string(e.description()))));
+  }
+  return file;
+}
+
+}  // namespace phos

@@ -1,0 +1,53 @@
+// phos-study: what settings cost and what they buy, measured.
+#include <cstdio>
+
+#include "core/parallel.h"
+#include "file/tool.h"
+#include "study/study.h"
+
+int main(int argc, char** argv) {
+  using namespace phos;
+  Tool tool(
+      "phos-study", "measures what settings cost and what error they leave",
+      "Runs the stages that a study file (TOML) names, with every combination of the values that it lists, "
+      "and judges "
+      "pictures and lux against a reference. Sections [photons], [brdf], [radiance], [irradiance], "
+      "[temporal], [splat] "
+      "and [sense] hold options of the programs of these names: a value, a list of values, or a range { from "
+      "= 0.05, to "
+      "= 0.4, steps = 4, scale = \"log\" }; [common] holds options of all. [study] has scenes, cameras, "
+      "seeds (or "
+      "repeats), sensors, layer, ignore_lamps, width, height, threads and confidence; [reference] has "
+      "options of "
+      "phos-reference, seeds (two, so that its noise can be taken out) and sensor_samples, or files and lux "
+      "made before. "
+      "Stages that settings share run once; finished ones are not run again, and an interrupted study goes "
+      "on where it "
+      "was. The folder gets results.csv, results.json, plots and index.html, a page that needs nothing else.",
+      1, Tool::Output::none);
+  StudyOptions study;
+  Options& options = tool.options();
+  options.input("STUDY", study.file, "study file (TOML)");
+  options.file("output,o", study.folder, "folder for results and for what is kept to go on from", true);
+  options.integer("pictures", study.pictures, "N",
+                  "settings of each scene and camera whose pictures the page shows", kNotNegative,
+                  Recorded::no);
+  options.flag("list", study.list, "print the commands that are still to be run, and run none", Recorded::no);
+  options.example("phos-study room.toml -o room-study", "run it, or go on with it");
+  options.example("phos-study room.toml -o room-study --list", "what would it do?");
+
+  return tool.run(argc, argv, [&] {
+    if (options.given("seed"))
+      throw Error(ExitCode::usage, "--seed", "seeds are the study's own: [study] seeds = [0, 1, 2]");
+    if (options.given("threads")) study.threads = thread_count();
+    const StudyOutcome outcome = run_study(
+        study, [&](const std::string& line) { tool.say(line); },
+        [&](const std::string& line) { tool.warn(line); });
+    std::fwrite(outcome.listing.data(), 1, outcome.listing.size(), stdout);
+    tool.stat("settings", outcome.settings), tool.stat("commands", outcome.commands);
+    tool.stat("failed", outcome.failed);
+    if (outcome.failed == 0) return;
+    tool.warn(text(outcome.failed, " of ", outcome.settings, " settings failed; results hold the rest"));
+    tool.set_exit(ExitCode::check_failed);
+  });
+}
