@@ -32,6 +32,8 @@ int main(int argc, char** argv) {
   options.integer("pictures", study.pictures, "N",
                   "settings of each scene and camera whose pictures the page shows", kNotNegative,
                   Recorded::no);
+  options.flag("discard", study.discard, "remove photons and caches once no setting is left that reads them",
+               Recorded::no);
   options.flag("list", study.list, "print the commands that are still to be run, and run none", Recorded::no);
   options.example("phos-study room.toml -o room-study", "run it, or go on with it");
   options.example("phos-study room.toml -o room-study --list", "what would it do?");

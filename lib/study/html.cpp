@@ -85,7 +85,7 @@ std::string row(const PageInput& in, const PointResult& p, const Summary& s,
 std::string table(const PageInput& in, Kind kind, std::optional<std::size_t> Job::*last) {
   std::string rows, unit, failed;
   for (const PointResult& p : in.results.points) {
-    if (p.*kind) unit = (p.*kind)->unit, rows += row(in, p, *(p.*kind), last);
+    if (const Summary* s = p.own(kind)) unit = s->unit, rows += row(in, p, *s, last);
     if (!(p.*kind) && !p.failed.empty())
       failed += text("<p class=\"doubt\">point ", p.setting, " (",
                      html_text(describe(in.study, in.work.settings[p.setting])),

@@ -22,7 +22,7 @@ std::vector<std::size_t> chosen(const PageInput& in, std::size_t view) {
   for (const bool best : {true, false})
     for (const PointResult& p : in.results.points) {
       const Setting& s = in.work.settings[p.setting];
-      if (s.scene * in.study.cameras.size() + s.camera == view && p.picture &&
+      if (s.scene * in.study.cameras.size() + s.camera == view && p.own(&PointResult::picture) &&
           p.picture->best_in_time == best)
         points.push_back(p.setting);
     }

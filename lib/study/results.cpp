@@ -30,6 +30,7 @@ std::vector<double> values_of(const std::vector<const Judgement*>& runs, const G
 
 Summary summary_of(const std::vector<const Judgement*>& runs, double confidence) {
   Summary s;
+  s.owner = runs[0]->owner;
   s.unit = runs[0]->error.unit;
   s.noise = mean_of(runs, &MeasuredError::noise), s.resolution = mean_of(runs, &MeasuredError::resolution);
   s.stated = mean_of(runs, &MeasuredError::stated), s.inside = mean_of(runs, &MeasuredError::inside);
@@ -59,11 +60,11 @@ void mark_fronts(const StudyWork& work, std::vector<PointResult>& points,
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Summary*>> views;
   for (PointResult& p : points) {
     const Setting& s = work.settings[p.setting];
-    if (p.*kind) views[{s.scene, s.camera}].push_back(&*(p.*kind));
+    if (p.own(kind)) views[{s.scene, s.camera}].push_back(&*(p.*kind));
   }
   const auto mark = [](const std::vector<Summary*>& all, const auto& cost, bool Summary::*best) {
     std::vector<CostAndError> points_of_view;
-    for (const Summary* s : all) points_of_view.push_back({cost(*s), s->error.mean});
+    for (const Summary* s : all) points_of_view.push_back({cost(*s), s->told_error()});
     for (const std::size_t i : pareto_front(points_of_view)) all[i]->*best = true;
   };
   for (const auto& [view, all] : views) {
@@ -80,7 +81,7 @@ std::vector<FactorEffect> effects_of(const StudyFile& study, const StudyWork& wo
                                      const std::vector<RunResult>& runs, Result kind) {
   std::vector<Trial> trials;
   for (const RunResult& run : runs) {
-    if (!(run.*kind)) continue;
+    if (!(run.*kind) || (run.*kind)->owner != run.setting) continue;
     const Judgement& j = *(run.*kind);
     Trial trial{work.settings[run.setting].level, run.seed, j.error.relative_rmse, j.cost.wall_s,
                 j.error.resolution.value_or(0)};
@@ -90,8 +91,12 @@ std::vector<FactorEffect> effects_of(const StudyFile& study, const StudyWork& wo
   }
   std::vector<FactorEffect> effects;
   if (trials.empty()) return effects;
-  for (std::size_t f = 0; f < study.factors.size(); ++f)
-    effects.push_back({f, main_effect(trials, f, study.factors[f].words.size(), study.confidence)});
+  for (std::size_t f = 0; f < study.factors.size(); ++f) {
+    FactorEffect effect{f, main_effect(trials, f, study.factors[f].words.size(), study.confidence)};
+    std::size_t pairs = 0;  // but for the first level, which pairs with itself
+    for (std::size_t i = 1; i < effect.levels.size(); ++i) pairs += effect.levels[i].pairs;
+    if (pairs > 0) effects.push_back(std::move(effect));
+  }
   return effects;
 }
 
@@ -100,8 +105,8 @@ void doubt(const StudyResults& results, std::optional<Summary> PointResult::*kin
   std::size_t faint = 0, all = 0, unknown = 0;
   double worst = 1;
   for (const PointResult& p : results.points) {
-    if (!(p.*kind)) continue;
-    const Summary& s = *(p.*kind);
+    if (!p.own(kind)) continue;
+    const Summary& s = *p.own(kind);
     ++all;
     if (!s.resolution) ++unknown;
     if (s.resolved) continue;

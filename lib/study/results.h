@@ -23,6 +23,9 @@ struct ChainCost {
 struct Judgement {
   MeasuredError error;
   ChainCost cost;
+  /// The first setting that ends in this very file (lux does not depend on the camera, nor a picture on
+  /// options of phos-sense). Fronts, effects, plots and tables for people have a result once, as that one's.
+  std::size_t owner = 0;
 };
 struct RunResult {
   std::size_t setting = 0, seed = 0;
@@ -33,6 +36,7 @@ struct RunResult {
 /// One kind of result of one setting, over its seeds. Intervals are of StudyFile::confidence, for errors with
 /// the noise of the reference in them.
 struct Summary {
+  std::size_t owner = 0;      ///< see Judgement
   Interval error, bias, p99;  ///< relative (see MeasuredError)
   double rmse = 0;            ///< mean
   std::string unit;
@@ -45,12 +49,18 @@ struct Summary {
   double peak_bytes = 0, file_bytes = 0;
   /// On the front of its scene and camera: does nothing there beat it in error and that?
   bool best_in_time = false, best_in_memory = false, best_in_bytes = false;
+  /// The error that fronts and plots show: one that cannot be told from none counts as the resolution.
+  double told_error() const { return resolved ? error.mean : *resolution; }
 };
 
 struct PointResult {
   std::size_t setting = 0;
   std::optional<Summary> picture, lux;  ///< absent where every seed failed
   std::string failed;
+  /// Null where another setting owns the result.
+  const Summary* own(std::optional<Summary> PointResult::*kind) const {
+    return this->*kind && (this->*kind)->owner == setting ? &*(this->*kind) : nullptr;
+  }
 };
 
 /// Effects of one factor's levels.

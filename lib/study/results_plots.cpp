@@ -84,15 +84,15 @@ Plot trade_of(const StudyFile& study, const StudyWork& work, const View& view, K
     lines[i].joined = false;
   }
   for (const PointResult* p : view.points) {
-    if (!(p->*kind)) continue;
-    const Summary& s = *(p->*kind);
+    if (!p->own(kind)) continue;
+    const Summary& s = *p->own(kind);
     PlotLine& line = lines[series ? work.settings[p->setting].level[*series] : 0];
-    line.points.push_back({axis.cost(s), s.error.mean});
+    line.points.push_back({axis.cost(s), s.told_error()});
     // A bar that reaches for 0 begins at the axis, instead of stretching it.
     constexpr double kFar = 10;
     if (s.error.bounded())
-      line.bars.push_back({axis.cost(s), s.error.lo * kFar < s.error.mean ? 0 : s.error.lo, s.error.hi});
-    if (s.*axis.best) front.points.push_back({axis.cost(s), s.error.mean});
+      line.bars.push_back({axis.cost(s), s.error.lo * kFar < s.told_error() ? 0 : s.error.lo, s.error.hi});
+    if (s.*axis.best) front.points.push_back({axis.cost(s), s.told_error()});
   }
   std::sort(front.points.begin(), front.points.end(),
             [](const PlotPoint& a, const PlotPoint& b) { return a.x != b.x ? a.x < b.x : a.y > b.y; });

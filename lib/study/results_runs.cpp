@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/interrupt.h"
 #include "core/progress.h"
 #include "image/image.h"
 #include "study/results.h"
@@ -48,14 +49,27 @@ std::vector<RunResult> measure_runs(const StudyFile& study, const StudyWork& wor
   const auto measure = [&](const std::vector<ReferenceWork>& references,
                            std::optional<std::size_t> Job::*last, std::optional<Judgement> RunResult::*result,
                            const auto& index, const auto& judge_by) {
+    std::map<std::size_t, std::size_t> owner;
+    for (const Job& job : work.jobs)
+      if (job.*last) {
+        const auto known = owner.emplace(*(job.*last), job.setting).first;
+        known->second = std::min(known->second, job.setting);
+      }
+    std::map<std::size_t, MeasuredError> measured;
+    Progress progress("measure", owner.size(), "results");
     for (std::size_t r = 0; r < references.size(); ++r) {
       const auto judge = judge_by(references[r].files);
       for (std::size_t j = 0; j < work.jobs.size(); ++j) {
         const Job& job = work.jobs[j];
         if (!(job.*last) || index(work.settings[job.setting]) != r || failures.contains(*(job.*last)))
           continue;
-        runs[j].*result =
-            Judgement{judge(work.stages[*(job.*last)].command.output), cost_of(work, journal, *(job.*last))};
+        const std::size_t stage = *(job.*last);
+        if (!measured.contains(stage)) {
+          throw_if_interrupted();
+          measured.emplace(stage, judge(work.stages[stage].command.output));
+          progress.advance();
+        }
+        runs[j].*result = Judgement{measured.at(stage), cost_of(work, journal, stage), owner.at(stage)};
       }
     }
   };
@@ -68,17 +82,11 @@ std::vector<RunResult> measure_runs(const StudyFile& study, const StudyWork& wor
                                  {study.layer, study.ignore_lamps});
         };
       });
-  // Sensors do not depend on the camera: tables are measured once.
-  std::map<std::string, MeasuredError> known;
   measure(
       work.lux, &Job::lux, &RunResult::lux, [](const Setting& s) { return s.scene; },
       [&](const std::vector<std::string>& files) {
-        return [&known, pair = read_pair<LuxTable>(files, read_lux)](const std::string& path) {
-          const auto found = known.find(path);
-          return found != known.end()
-                     ? found->second
-                     : known.emplace(path, measure_lux(read_lux(path), pair.first, pair.other()))
-                           .first->second;
+        return [pair = read_pair<LuxTable>(files, read_lux)](const std::string& path) {
+          return measure_lux(read_lux(path), pair.first, pair.other());
         };
       });
   std::stable_sort(runs.begin(), runs.end(), [](const RunResult& a, const RunResult& b) {

@@ -37,15 +37,15 @@ std::string front_of(const StudyFile& study, const StudyWork& work, const StudyR
   std::size_t all = 0, front = 0;
   const PointResult* least = nullptr;
   for (const PointResult& p : results.points) {
-    if (!(p.*kind)) continue;
+    if (!p.own(kind)) continue;
     ++all;
     if ((p.*kind)->best_in_time) ++front;
-    if (!least || (p.*kind)->error.mean < (least->*kind)->error.mean) least = &p;
+    if (!least || (p.*kind)->told_error() < (least->*kind)->told_error()) least = &p;
   }
   if (!least) return "";
   const Summary& s = *(least->*kind);
   return text(name, ": ", front, " of ", all, " settings are on the front; the least error is ",
-              shortest(static_cast<float>(100 * s.error.mean)), " % in ",
+              s.resolved ? "" : "at most ", shortest(static_cast<float>(100 * s.told_error())), " % in ",
               shortest(static_cast<float>(s.seconds.mean)), " s (",
               describe(study, work.settings[least->setting]), ")");
 }
@@ -70,7 +70,7 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
       outcome.listing.append(shell_line(work.stages[i].command)).append("\n");
     return outcome;
   }
-  const Failures failures = run_work(work, runner, journal, warn);
+  const Failures failures = run_work(work, runner, journal, options.discard, warn);
   const StudyResults results = summarise(study, work, measure_runs(study, work, journal, failures));
   for (const PointResult& p : results.points)
     if (!p.failed.empty()) ++outcome.failed;

@@ -1,6 +1,7 @@
 #include "study/study_run.h"
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "core/error.h"
@@ -20,6 +21,12 @@ std::uint64_t size_of(const std::string& path) {
 bool is_users(int code) {
   return code == static_cast<int>(ExitCode::usage) || code == static_cast<int>(ExitCode::mismatch) ||
          code == static_cast<int>(ExitCode::interrupted);
+}
+
+/// Messages that differ in numbers alone are one.
+std::string without_digits(std::string s) {
+  std::erase_if(s, [](char c) { return c >= '0' && c <= '9'; });
+  return s;
 }
 
 /// Its message, without its name.
@@ -62,33 +69,68 @@ std::vector<std::size_t> work_left(const StudyWork& work, const StudyJournal& jo
   return left;
 }
 
-Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJournal& journal,
+namespace {
+
+/// How many commands that are left read each file.
+class Readers {
+ public:
+  Readers(const StudyWork& work, const std::vector<std::size_t>& left) : work_(work) {
+    for (const std::size_t i : left)
+      for (const std::size_t input : work.stages[i].inputs) ++left_[input];
+  }
+  /// One reader has run: removes what nobody reads any more.
+  void discard_inputs(const StageRun& reader) {
+    for (const std::size_t input : reader.inputs) {
+      std::error_code none;
+      if (--left_[input] == 0) std::filesystem::remove(work_.stages[input].command.output, none);
+    }
+  }
+
+ private:
+  const StudyWork& work_;
+  std::map<std::size_t, std::size_t> left_;
+};
+
+/// Says what it failed with; "" if it did not.
+std::string run_stage(const StageRun& stage, const CommandRunner& runner, StudyJournal& journal,
+                      const std::function<void(const std::string&)>& warn) {
+  const CommandRun run = runner.run(stage.command);
+  if (run.code == 0) {
+    if (!run.message.empty()) warn(run.message);  // programs are quiet: what they say is a warning
+    if (!journal.find(stage.id))
+      journal.add(stage.id, stage.command,
+                  {run.wall_s, run.cpu_s, run.peak_bytes, size_of(stage.command.output)});
+    return "";
+  }
+  std::string said = words_of(run, stage.command);
+  if (is_users(run.code) || stage.section == "reference")
+    throw Error(run.code <= 5 || run.code == 130 ? static_cast<ExitCode>(run.code) : ExitCode::bad_input,
+                shell_line(stage.command), said);
+  warn(text(shell_line(stage.command), ": ", said));
+  return said;
+}
+
+}  // namespace
+
+Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJournal& journal, bool discard,
                   const std::function<void(const std::string&)>& warn) {
   const std::vector<std::size_t> left = work_left(work, journal);
   Failures failures;
-  std::set<std::string> said_before;
+  Readers readers(work, left);
+  std::set<std::string> said;
+  const auto warn_once = [&](const std::string& line) {
+    if (said.insert(without_digits(line)).second) warn(line);
+  };
   Progress progress("study", left.size(), "commands");
   for (const std::size_t i : left) {
     const StageRun& stage = work.stages[i];
-    progress.advance();
+    std::string failure;
     for (const std::size_t input : stage.inputs)
-      if (failures.contains(input)) failures.emplace(i, failures.at(input));
-    if (failures.contains(i)) continue;
-    const CommandRun run = runner.run(stage.command);
-    if (run.code == 0) {
-      // Programs are quiet: what they say is a warning.
-      if (!run.message.empty() && said_before.insert(run.message).second) warn(run.message);
-      if (!journal.find(stage.id))
-        journal.add(stage.id, stage.command,
-                    {run.wall_s, run.cpu_s, run.peak_bytes, size_of(stage.command.output)});
-      continue;
-    }
-    const std::string said = words_of(run, stage.command);
-    if (is_users(run.code) || stage.section == "reference")
-      throw Error(run.code <= 5 || run.code == 130 ? static_cast<ExitCode>(run.code) : ExitCode::bad_input,
-                  shell_line(stage.command), said);
-    warn(text(shell_line(stage.command), ": ", said));
-    failures.emplace(i, said);
+      if (failures.contains(input)) failure = failures.at(input);
+    if (failure.empty()) failure = run_stage(stage, runner, journal, warn_once);
+    if (!failure.empty()) failures.emplace(i, failure);
+    if (discard) readers.discard_inputs(stage);
+    progress.advance();
   }
   return failures;
 }

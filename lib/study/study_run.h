@@ -21,7 +21,8 @@ bool is_done(const StageRun& stage, const StudyJournal& journal);
 /// finished is made again only if another command is to read it. A program that fails for reasons of its own
 /// (a numerical guard, no memory) fails the settings that need it, which are made known through `warn`;
 /// one that calls its options or inputs wrong throws its Error, as does a failing reference.
-Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJournal& journal,
+/// `discard` removes the file of a stage once no command that is left reads it, but for pictures and tables.
+Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJournal& journal, bool discard,
                   const std::function<void(const std::string&)>& warn);
 
 /// The commands that run_work() would run, in order.

@@ -264,6 +264,17 @@ TEST(StudyTool, OnlyWhatIsMissingIsMadeAgain) {
   EXPECT_EQ(left(), 2 + 2 + 2) << "photons again; caches and pictures of accuracy 0.4";
 }
 
+TEST(StudyTool, DiscardsWhatNobodyReads) {
+  const std::string folder = toy("discard");
+  const auto run = study(folder, {"--discard"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::map<std::string, int> kinds;
+  for (const auto& entry : fs::directory_iterator(folder + "/out/cache"))
+    ++kinds[entry.path().extension().string()];
+  EXPECT_EQ(kinds, (std::map<std::string, int>{{".exr", 2 + 8}}));
+  EXPECT_EQ(study(folder, {"--list"}).out, "");
+}
+
 TEST(StudyTool, GoesOnWhereItWasInterrupted) {
   const std::string whole = toy("whole"), cut = toy("cut");
   ASSERT_EQ(study(whole).code, 0);
