@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "core/sequence_error.h"
 
 namespace phos {
 
@@ -42,25 +43,24 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
       if (!(max_component(irradiance) > 0) || !in_sight(rays, receiver, light)) continue;
       const bool area = lights[i].kind == Light::Kind::area;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
-                     static_cast<std::uint32_t>(i)});
+                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
     }
   }
 }
 
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights) {
   LampSum sum;
-  const double n = std::max(samples, 1);
+  std::vector<DVec3> part;
   for (std::size_t i = 0; i < lamps.size();) {
-    // The samples of one light follow each other; those that are dark or hidden count as zeros.
+    // The samples of one light follow each other; those that are dark or hidden are zeros.
     const std::uint32_t light = lamps[i].light;
-    DVec3 mean(0), squares(0);
+    const bool extended = lights[light].extended();
+    part.assign(extended ? static_cast<std::size_t>(std::max(samples, 1)) : 1, DVec3(0));
     for (; i < lamps.size() && lamps[i].light == light; ++i) {
-      const DVec3 part(lamps[i].irradiance);
-      mean += part, squares += part * part;
+      part[lamps[i].number] = DVec3(lamps[i].irradiance);
+      sum.irradiance += part[lamps[i].number];
     }
-    sum.irradiance += mean;
-    if (n > 1 && lights[light].extended())
-      sum.variance += glm::max(n * squares - mean * mean, DVec3(0)) / (n - 1);
+    if (extended) sum.variance += sequence_variance(part, lights.by_u_alone(light));
   }
   return sum;
 }

@@ -17,6 +17,7 @@ struct LampSample {
   Vec3 normal{0};     ///< of the lamp's surface, on the side that shines; minus direction for lamps without
   Rgb irradiance{0};  ///< what it adds: cosine, density and number of samples included; they sum to E, lx
   std::uint32_t light = 0;
+  std::uint32_t number = 0;  ///< of this sample among the light's, from 0
 };
 
 /// The point at p that faces n (unit), lifted off surfaces by the rounding of positions in this scene.
@@ -27,8 +28,8 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
 
-/// Sum of such samples of one point, and its variance by channel: that of the samples of lights of an extent,
-/// as if they were independent (it errs on the high side).
+/// Sum of such samples of one point, and its variance by channel (sequence_variance): that of the samples of
+/// lights of an extent.
 struct LampSum {
   DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
 };

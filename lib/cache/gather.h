@@ -28,6 +28,10 @@ struct GatherSource {
   /// Radiance records: what glossy lobes that they serve show but for the lamps; null: none. Where no record
   /// is near enough (counted), gloss is followed as elsewhere.
   const GlossCache* gloss = nullptr;
+  // The noise of that light (SourceNoise).
+  double photon_lm = 0;     ///< luminance that one photon of it carries, lm; 0: it is taken as exact
+  double zone_photons = 0;  ///< that its zones hold
+  double common = 0;        ///< relative variance of all of it together
 };
 
 /// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.
@@ -50,6 +54,11 @@ class HitLight {
     Counters counters;
     std::vector<LampSight> sights;  ///< of the last shade(): the first `sight_count`
     std::size_t sight_count = 0;
+    /// Of the last ray: light read from the source, f E, the part f^2 E of its noise, and E (luminance).
+    struct Read {
+      Rgb radiance{0}, noise{0};
+      float lux = 0;
+    } read;
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
@@ -61,9 +70,10 @@ class HitLight {
   /// Has this material no other lobe than a diffuse one? Only its points leave sights.
   bool is_diffuse(std::uint32_t material) const;
 
-  /// Sets radiance, distance_m and hit_normal of h from what its rays hit (distance_m infinite: nothing), by
-  /// one sample of the lamps at each hit (low-discrepancy over the hits) and `source`. Lamps' own emission is
-  /// left out: a record's direct light is computed apart. Random numbers depend on (seed, item, pass, ray).
+  /// Sets radiance, distance_m, hit_normal and source of h from what its rays hit (distance_m infinite:
+  /// nothing), by one sample of the lamps at each hit (low-discrepancy over the hits) and `source`. Lamps'
+  /// own emission is left out: a record's direct light is computed apart. Random numbers depend on (seed,
+  /// item, pass, ray).
   void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
              Hemisphere& h, Worker& worker) const;
 
@@ -82,7 +92,9 @@ Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const
 /// direct light at the record is added from samples of the lamps. A record whose rays found no light at all
 /// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
 /// what the rays hit tell; 0 where none was.
-/// The error stated is that of the rays: the noise of the photons behind the source is not in it.
+/// The error stated is that of the rays (standard_error_of) and of the source (SourceNoise); the latter is
+/// what records about each other share. options.error is asked of the rays alone. What is not in it: how the
+/// source is smoothed over its zones, and the noise of its gloss.
 class GatherEstimator : public HemisphereEstimator {
  public:
   GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

@@ -76,6 +76,15 @@ Vec3 translation_term(const Vec3& w, const Vec3& source_normal, float inverse_di
   return (term - glm::dot(term, normal) * normal) * inverse_distance;
 }
 
+float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal) {
+  constexpr float kNoSurface = 0.9999f;  // cosine, rounding of stored directions allowed for
+  const Vec3 across = w - glm::dot(w, normal) * normal;
+  const float across2 = glm::dot(across, across), cos_source = -glm::dot(source_normal, w);
+  const float near2 = inverse_distance * inverse_distance;
+  if (cos_source > kNoSurface) return near2 * (15 * across2 - 6);
+  return near2 * (8 * glm::dot(source_normal, across) / std::max(0.1f, cos_source) + 24 * across2 - 8);
+}
+
 Vec3 rotation_term(const Vec3& w, const Vec3& normal) {
   static const std::array<float, kRotationRings> tangent = [] {
     std::array<float, kRotationRings> t;

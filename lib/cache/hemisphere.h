@@ -15,6 +15,21 @@ enum class Measure {
   solid,      ///< solid angle: radiance; 1 - cos(theta) in [j, j+1) / rings
 };
 
+/// Noise of what rays read where they land, which more rays do not take away: neighbouring rays, and
+/// neighbouring places, read the same. Sums over the rays of a hemisphere. The light that comes from a source
+/// made of photons is white noise over its surfaces: of radiance f E towards the place (f reflectance over
+/// pi), the part of variance f^2 E phi cos / (d^2 + z^2) per solid angle, where phi is what one photon
+/// carries, cos and d are those of the surface and z^2 is half of what a zone of the source has of radius^2.
+struct SourceNoise {
+  DVec3 irradiance{0};       ///< lx, of the light that was read
+  DVec3 variance{0};         ///< of that, lx^2
+  DVec3 per_coefficient{0};  ///< of a coefficient of radiance, in orthonormal harmonics, (cd/m2)^2 sr
+  double common = 0;         ///< relative variance that all of the source has in common (PhotonNoise::common)
+
+  /// Of irradiance, all of it: lx^2, never below 0.
+  DVec3 total() const { return glm::max(variance + common * irradiance * irradiance, DVec3(0)); }
+};
+
 /// Rays of one hemisphere, as columns. Stratified: rings x slices cells of equal measure, one ray in each,
 /// ray(j, k) = j * slices + k, theta by the measure, phi in [k, k+1) 2 pi/slices about frame.z from frame.x.
 /// Unstructured (a raster): rings = slices = 0, any directions.
@@ -27,7 +42,8 @@ struct Hemisphere {
   std::vector<float> distance_m;  ///< infinity: it escaped
   std::vector<Vec3> hit_normal;   ///< unit, on the side it hit; minus direction where there is none
   std::vector<float>
-      projected_sr;  ///< projected solid angle that it stands for (cosine included); all sum to pi
+      projected_sr;    ///< projected solid angle that it stands for (cosine included); all sum to pi
+  SourceNoise source;  ///< none, unless HitLight::shade() has set it
   std::size_t size() const { return direction.size(); }
   bool stratified() const { return rings > 0; }
   /// Solid angle that a ray stands for; all sum to 2 pi.

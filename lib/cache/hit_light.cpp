@@ -54,6 +54,20 @@ class LampSequence {
   std::uint32_t shift_[3];
 };
 
+/// What the light read along one ray adds to the noise of the hemisphere.
+void add_noise(const HitLight::Worker::Read& read, const GatherSource& source, float distance_m,
+               float cos_hit, float solid_sr, float cosine, SourceNoise& noise) {
+  const auto lux = static_cast<double>(read.lux), d = static_cast<double>(distance_m);
+  if (!(lux > 0)) return;
+  const double sr = static_cast<double>(solid_sr), c = static_cast<double>(cosine);
+  const double zone2_m2 = source.zone_photons * source.photon_lm / (std::numbers::pi * lux);
+  const double share = source.photon_lm * static_cast<double>(cos_hit) / (d * d + zone2_m2 / 2);
+  const DVec3 white = share * sr * DVec3(read.noise);
+  noise.irradiance += c * sr * DVec3(read.radiance);
+  noise.variance += c * c * white;
+  noise.per_coefficient += white / (2 * std::numbers::pi);
+}
+
 bool positive(const Rgb& c) { return c.x > 0 || c.y > 0 || c.z > 0; }
 
 }  // namespace
@@ -96,6 +110,7 @@ struct HitLight::Impl {
   void ask_ahead(std::span<const Hit> hits, std::size_t i) const;
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
+  static void note(const Rgb& f, const Rgb& lux, Worker& worker);
   Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
                    Worker& worker) const;
   Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
@@ -137,6 +152,12 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   return source.fallback->make(site, *worker.fallback).record.irradiance;
 }
 
+/// Light f E that has been read from the source.
+void HitLight::Impl::note(const Rgb& f, const Rgb& lux, Worker& worker) {
+  worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
+  worker.read.lux = luminance(lux);
+}
+
 /// Of a material that is diffuse alone.
 Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
   const Surface& own = surface[point.material];
@@ -160,7 +181,11 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<flo
       ++worker.sight_count;
     }
   }
-  if (cached) sum += f * cached_lx(point, ray.key(), worker);
+  if (cached) {
+    const Rgb lux = cached_lx(point, ray.key(), worker);
+    note(f, lux, worker);
+    sum += f * lux;
+  }
   return sum;
 }
 
@@ -260,7 +285,11 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
     if (bsdf.has_diffuse()) {
       const Rgb f = throughput * bsdf.diffuse_reflectance() / kPi;
       const bool cached = reads_cache(left);
-      if (cached) sum += f * cached_lx(point, item + reflection, worker);
+      if (cached) {
+        const Rgb lux = cached_lx(point, item + reflection, worker);
+        note(f, lux, worker);
+        sum += f * lux;
+      }
       if (!(cached && source.holds_direct)) {
         ArrivingLight light;
         lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
@@ -323,6 +352,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   const LampSequence lamp_points(random);
   if (worker.sights.size() < hits.size()) worker.sights.resize(hits.size());
   worker.sight_count = 0;
+  h.source = {};
+  h.source.common = impl_->source.common;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     impl_->ask_ahead(hits, i);
     h.distance_m[i] = hits[i].distance_m;
@@ -333,9 +364,14 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     h.hit_normal[i] = point.geometric_normal;
     if (impl_->bounces == 0) continue;
     const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
+    worker.read = {};
     h.radiance[i] = impl_->surface[point.material].diffuse
                         ? impl_->from_diffuse(point, lamp_points[i], ray, worker)
                         : impl_->from_any(point, -h.direction[i], ray, worker);
+    if (impl_->source.photon_lm > 0 && worker.read.lux > 0)
+      add_noise(worker.read, impl_->source, hits[i].distance_m,
+                std::fabs(glm::dot(point.geometric_normal, h.direction[i])), h.solid_sr(i),
+                glm::dot(h.direction[i], h.frame.z), h.source);
   }
   for (LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
     const Rgb radiance = sight.brdf * sight.light.lux;

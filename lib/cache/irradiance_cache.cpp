@@ -15,8 +15,8 @@ std::span<const float> flat(const std::vector<Vec3>& v) {
 }
 
 bool row_is_finite(const IrradianceRecord& r) {
-  bool finite =
-      is_finite(r.position) && is_finite(r.normal) && is_finite(r.irradiance) && is_finite(r.stderr_lx);
+  bool finite = is_finite(r.position) && is_finite(r.normal) && is_finite(r.irradiance) &&
+                is_finite(r.stderr_lx) && std::isfinite(r.shared);
   for (int c = 0; c < 3; ++c) {
     finite = finite && is_finite(r.rotation_gradient[c]) && is_finite(r.translation_gradient[c]);
   }
@@ -29,6 +29,7 @@ const char* what_is_wrong(const IrradianceRecord& r) {
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
   if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) return "a normal that is not of unit length";
   if (glm::any(glm::lessThan(r.irradiance, Vec3(0)))) return "negative irradiance";
+  if (!(r.shared >= 0 && r.shared <= 1)) return "a shared part of the variance outside of 0 .. 1";
   return nullptr;
 }
 
@@ -115,12 +116,12 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
                       std::span<const float> least_radius_m, ContainerWriter file) {
   const std::size_t n = cache.records.size();
   std::vector<Vec3> position(n), normal(n), irradiance(n), error(n), rotation(3 * n), translation(3 * n);
-  std::vector<float> distance(n), radius(n);
+  std::vector<float> distance(n), radius(n), shared(n);
   for (std::size_t i = 0; i < n; ++i) {
     const IrradianceRecord& r = cache.records[i];
     PHOS_CHECK(row_is_finite(r) && r.radius_m > 0, "record ", i, " radius ", r.radius_m);
     position[i] = r.position, normal[i] = r.normal, irradiance[i] = r.irradiance, error[i] = r.stderr_lx;
-    distance[i] = r.distance_m, radius[i] = r.radius_m;
+    distance[i] = r.distance_m, radius[i] = r.radius_m, shared[i] = r.shared;
     for (std::size_t c = 0; c < 3; ++c) {
       rotation[3 * i + c] = r.rotation_gradient[c], translation[3 * i + c] = r.translation_gradient[c];
     }
@@ -133,6 +134,8 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   file.add<float>("radius", radius, {n}, "m");
   file.add<float>("rotation_gradient", flat(rotation), {n, 3, 3}, "lx/rad");
   file.add<float>("translation_gradient", flat(translation), {n, 3, 3}, "lx/m");
+  if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
+    file.add<float>("shared", shared, {n}, "1");
   RecordIndex index;
   if (provenance.extra.find("part")) {
     file.add<float>("least_radius", least_radius_m, {n}, "m");
@@ -170,6 +173,7 @@ RecordColumns::RecordColumns(const Container& file, RecordsOf of) : file_(file) 
   radius_ = column("radius", {n});
   rotation_ = column("rotation_gradient", {n, 3, 3});
   translation_ = column("translation_gradient", {n, 3, 3});
+  if (file.has("shared")) shared_ = column("shared", {n});
   const Json *accuracy = file.provenance().extra.find("accuracy"),
              *quantity = file.provenance().extra.find("quantity");
   if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !quantity ||
@@ -199,6 +203,7 @@ IrradianceRecord RecordColumns::operator[](std::size_t i) const {
   r.position = position(i), r.normal = normal(i);
   r.irradiance = vector(irradiance_, i), r.stderr_lx = vector(stderr_, i);
   r.distance_m = distance_[i], r.radius_m = radius_[i];
+  if (shared_) r.shared = shared_[i];
   for (std::size_t c = 0; c < 3; ++c) {
     r.rotation_gradient[c] = vector(rotation_, 3 * i + c);
     r.translation_gradient[c] = vector(translation_, 3 * i + c);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/blend.h"
 #include "core/vector.h"
 #include "file/container.h"
 #include "scene/rays.h"
@@ -20,6 +21,8 @@ struct IrradianceRecord {
   Vec3 normal{0, 0, 1};  ///< unit, on the side it lights
   Rgb irradiance{0};     ///< lx
   Rgb stderr_lx{0};      ///< standard error of irradiance
+  /// Part of its variance that records about it have too (0 to 1), so that it does not average out.
+  float shared = kSharedByZones;
   float distance_m = 0;  ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
   float radius_m = 0;    ///< R of the weight; the zone of influence is accuracy * radius
   Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
@@ -57,6 +60,7 @@ RecordsOf records_of(const Container& file);
 void require_records_of(RecordsOf of, const Container& file);
 
 /// The file also holds an index (record_index.h) where there are many records of a cache.
+/// The part of their variance that records share is in it where it is not kSharedByZones for all.
 /// Of a part of a run it holds the least radii that neighbours leave instead; of a film, `more` columns.
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
                       std::span<const float> least_radius_m = {}, ContainerWriter more = {});
@@ -87,6 +91,7 @@ class RecordColumns {
   double accuracy_ = 0;
   std::string quantity_;
   const float *position_, *normal_, *irradiance_, *stderr_, *distance_, *radius_, *rotation_, *translation_;
+  const float* shared_ = nullptr;  // not in every file
 };
 
 /// The least weight that counts: below it a record is not valid, and a point without others is a miss.
@@ -133,17 +138,24 @@ struct RecordIndex;
 
 struct Interpolated {
   Rgb irradiance{0};  ///< lx
-  Rgb stderr_lx{0};
-  float weight = 0;  ///< sum of weights; 0: a miss
+  Rgb stderr_lx{0};   ///< of the mean of records (blended_error)
+  float weight = 0;   ///< sum of weights; 0: a miss
+  BlendSums sums;
 
-  /// Adds what a valid record says of the point p that faces n; until finish(), the sums are not divided.
+  /// Adds what a valid record says of the point p that faces n; until finish(), irradiance and the records'
+  /// own errors are sums.
   void add(const IrradianceRecord& r, float w, const Vec3& p, const Vec3& n) {
-    irradiance += w * extrapolate(r, p, n);
+    const Rgb e = extrapolate(r, p, n);
+    irradiance += w * e;
     stderr_lx += w * r.stderr_lx;
     weight += w;
+    sums.add(w, r.shared, static_cast<double>(luminance(e)));
   }
   void finish() {
-    if (weight > 0) irradiance /= weight, stderr_lx /= weight;
+    if (!(weight > 0)) return;
+    irradiance /= weight, stderr_lx /= weight;
+    stderr_lx =
+        blended_error(sums, weight, irradiance, stderr_lx, static_cast<double>(luminance(irradiance)));
   }
 };
 
@@ -166,6 +178,8 @@ class RecordTree {
   /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// Adds the records valid at p, n; finish() is the caller's.
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;
   /// The same records, each of which reaches `factor` times as far.
   RecordTree widened(double factor) const;
   /// The same cells as columns.

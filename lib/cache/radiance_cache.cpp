@@ -29,6 +29,7 @@ const char* what_is_wrong(const RadianceRecord& r) {
   if (std::fabs(glm::length(r.frame.x) - 1) > kSlack || std::fabs(glm::length(r.frame.z) - 1) > kSlack ||
       std::fabs(glm::dot(r.frame.x, r.frame.z)) > kSlack)
     return "a frame that is not of unit length and rectangular";
+  if (!(r.shared >= 0 && r.shared <= 1)) return "a shared part of the variance outside of 0 .. 1";
   if (std::any_of(r.stderr_light.begin(), r.stderr_light.end(), [](float x) { return x < 0; }))
     return "a negative standard error";
   return nullptr;
@@ -64,6 +65,7 @@ IrradianceRecord irradiance_of(const RadianceRecord& r) {
   e.position = r.position, e.normal = r.frame.z;
   e.distance_m = r.distance_m, e.radius_m = r.radius_m, e.weight = r.weight;
   e.irradiance = glm::max(irradiance_of(r.light), Rgb(0));
+  e.shared = r.shared;
   for (int c = 0; c < 3; ++c) {
     const auto at = static_cast<std::size_t>(c);
     const float second = r.order() > 1 ? r.stderr_light[3 + at] : 0;
@@ -96,7 +98,7 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
                     count = count_of(cache.order());
   const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
   std::vector<Vec3> position(n), frame(2 * n);
-  std::vector<float> distance(n), radius(n), light(3 * n * count), error(3 * n * bands);
+  std::vector<float> distance(n), radius(n), shared(n), light(3 * n * count), error(3 * n * bands);
   std::vector<float> along[2];
   for (auto& g : along) g.resize(gradients ? light.size() : 0);
   std::vector<std::uint8_t> order(n);
@@ -108,7 +110,7 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
                "record ", i, " is of another shape");
     PHOS_CHECK(what_is_wrong(r) == nullptr, "record ", i, " has ", what_is_wrong(r));
     position[i] = r.position, frame[2 * i] = r.frame.x, frame[2 * i + 1] = r.frame.z;
-    distance[i] = r.distance_m, radius[i] = r.radius_m;
+    distance[i] = r.distance_m, radius[i] = r.radius_m, shared[i] = r.shared;
     order[i] = static_cast<std::uint8_t>(r.order());
     to_column(r.light, &light[3 * i * count], count);
     to_column(r.stderr_light, &error[3 * i * bands], bands);
@@ -128,6 +130,8 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
     file.add<std::uint8_t>("order", order, {n}, "1");
   file.add<float>("distance", distance, {n}, "m");
   file.add<float>("radius", radius, {n}, "m");
+  if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
+    file.add<float>("shared", shared, {n}, "1");
   provenance.kind = "radiance";
   provenance.scene_hash = cache.scene_hash;
   provenance.extra["accuracy"] = cache.accuracy;
@@ -167,6 +171,7 @@ RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std:
   const float *frame = column("frame", {n, 2, 3}), *light = column("coefficients", {n, 3, count}),
               *error = column("stderr", {n, 3, bands}), *distance = column("distance", {n}),
               *radius = column("radius", {n});
+  const float* shared = file.has("shared") ? column("shared", {n}) : nullptr;
   const bool gradients = file.has("gradient_x") || file.has("gradient_y");
   const float* along[2] = {gradients ? column("gradient_x", {n, 3, count}) : nullptr,
                            gradients ? column("gradient_y", {n, 3, count}) : nullptr};
@@ -196,6 +201,7 @@ RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std:
     r.frame.x = {f[0], f[1], f[2]}, r.frame.z = {f[3], f[4], f[5]};
     r.frame.y = glm::cross(r.frame.z, r.frame.x);
     r.distance_m = distance[i], r.radius_m = radius[i];
+    if (shared) r.shared = shared[i];
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
     if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);

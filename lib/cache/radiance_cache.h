@@ -29,6 +29,7 @@ struct RadianceRecord {
   /// [order][3] standard error of one coefficient of each band (root mean square over the band, which turns
   /// about the normal do not change). Errors of different coefficients are about independent.
   std::vector<float> stderr_light;
+  float shared = kSharedByZones;  ///< as IrradianceRecord::shared
 
   int order() const { return static_cast<int>(stderr_light.size() / 3); }
 };
@@ -63,9 +64,9 @@ inline double reading_accuracy(const RadianceCache& cache) { return reading_accu
 
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
-/// none), stderr f32[n,3,N] by band, distance and radius f32[n] m. Where orders differ, order u8[n] holds
-/// them, and numbers beyond a record's own are 0. Its header names the basis. Of a film there are `more`
-/// columns.
+/// none), stderr f32[n,3,N] by band, shared f32[n] (unless kSharedByZones for all), distance and radius
+/// f32[n] m. Where orders differ, order u8[n] holds them, and numbers beyond a record's own are 0. Its header
+/// names the basis. Of a film there are `more` columns.
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
                     ContainerWriter more = {});
 /// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named), one of
@@ -75,7 +76,7 @@ RadianceCache read_radiance(const Container& file, RecordsOf of = RecordsOf::cac
 /// Light that leaves a point by its glossy lobe.
 struct GlossyLight {
   Rgb radiance{0};   ///< cd/m2; what harmonics ring below the least is cut off
-  Rgb stderr_cd{0};  ///< cd/m2, of the records' own error
+  Rgb stderr_cd{0};  ///< cd/m2, of the mean of records (blended_error)
   float weight = 0;  ///< sum of weights; 0: a miss
 };
 
@@ -100,8 +101,9 @@ class RadianceTree {
   struct Worker {
     std::vector<const IrradianceRecord*> found;
     std::vector<float> sum, turned;
-    std::vector<float> light;         ///< interpolate(): [order^2][3] of the order and in the frame asked for
-    std::vector<float> stderr_light;  ///< [order][3]
+    std::vector<float> light;  ///< interpolate(): [order^2][3] of the order and in the frame asked for
+    std::vector<float>
+        stderr_light;  ///< [order][3], as far as it does not average out (disagreement left out)
   };
   /// Sets worker.light to the light that arrives at p in `frame` (z its normal, unit), to `order` bands (at
   /// most those of the records; bands above are cut off before records are turned, which is exact between

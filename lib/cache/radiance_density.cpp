@@ -157,6 +157,7 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
   auto record = std::make_shared<RadianceRecord>(
       w.projector.project(w.zone.gathered.zone, used, zone.area_m2, zone.area_error, -zone.centroid_m,
                           w.zone.frame, without ? RadianceGradient::analytic : impl_->gradient));
+  for (float& error : record->stderr_light) error *= impl_->zones.path_error(w.zone.gathered.zone.size());
   if (dark) {  // known no better than by what one photon would have shown
     for (std::size_t i = 0; i < record->stderr_light.size(); ++i)
       record->stderr_light[i] =

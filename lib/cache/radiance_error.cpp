@@ -61,10 +61,15 @@ std::vector<float> RadianceError::of(const Hemisphere& hemisphere) {
     for (std::size_t l = 0; l < order; ++l)
       squares[l] += variation_[static_cast<std::size_t>(ring)][l] * energy;
   }
+  // What all of the source has in common is as if even light were brighter: of the first band alone.
+  const SourceNoise& source = hemisphere.source;
+  const DVec3 common = 2 / std::numbers::pi * source.common * source.irradiance * source.irradiance;
   std::vector<float> error;
-  for (const DVec3& s : squares)
-    for (int c = 0; c < 3; ++c)
-      error.push_back(static_cast<float>(cell_sr * std::sqrt(std::max(0., s[c]) / (2 * std::numbers::pi))));
+  for (std::size_t l = 0; l < order; ++l) {
+    const DVec3 read = glm::max(source.per_coefficient + (l == 0 ? common : DVec3(0)), DVec3(0));
+    const DVec3 rays = cell_sr * cell_sr / (2 * std::numbers::pi) * glm::max(squares[l], DVec3(0));
+    for (int c = 0; c < 3; ++c) error.push_back(static_cast<float>(std::sqrt(rays[c] + read[c])));
+  }
   return error;
 }
 

@@ -123,7 +123,14 @@ RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient 
   if (mode != RadianceGradient::none)
     record.gradient_x = narrowed(sums.slope[0]), record.gradient_y = narrowed(sums.slope[1]);
   record.stderr_light = impl_->error.of(h);
+  record.shared = shared_part(h, irradiance_of(record).stderr_lx);
   return record;
+}
+
+float shared_part(const Hemisphere& h, const Rgb& stderr_lx) {
+  const double all = static_cast<double>(luminance(stderr_lx)),
+               shared = static_cast<double>(luminance(Rgb(glm::sqrt(h.source.total()))));
+  return all > 0 ? static_cast<float>(std::min(1.0, shared * shared / (all * all))) : 0;
 }
 
 void require_finite(const RadianceRecord& r) {

@@ -40,6 +40,9 @@ class RadianceProjector {
 /// Throws Error(numerical) unless all its numbers are finite.
 void require_finite(const RadianceRecord& record);
 
+/// Of the variance of a record's luminance of irradiance, what Hemisphere::source makes of it.
+float shared_part(const Hemisphere& h, const Rgb& stderr_lx);
+
 /// How much of radius_m the gradient leaves, m: to where that of a colour would change the coefficients by
 /// their own norm (as within_gradient_m of irradiance).
 float within_gradient_m(const RadianceRecord& record, float radius_m);

@@ -156,6 +156,7 @@ float RadianceTree::interpolate(const Vec3& p, const Frame& frame, int order, Wo
     std::fill(worker.sum.begin(), worker.sum.end(), 0.f);
   };
   float weight = 0;
+  BlendSums sums;
   for (const IrradianceRecord* found : worker.found) {
     const auto record = static_cast<std::size_t>(found - first);
     const RadianceRecord& r = impl_->records[record];
@@ -164,13 +165,14 @@ float RadianceTree::interpolate(const Vec3& p, const Frame& frame, int order, Wo
     impl_->add(record, w, p, worker.sum);
     for (std::size_t i = 0; i < worker.stderr_light.size(); ++i)
       worker.stderr_light[i] += w * r.stderr_light[i];
-    weight += w;
+    weight += w, sums.add(w, r.shared, 0);
   }
   turn();
   if (!(weight > 0)) return 0;
   const float share = 1 / weight;
   for (float& x : worker.light) x *= share;
-  for (float& x : worker.stderr_light) x *= share;
+  const float left = blended_error(sums, weight, Rgb(0), Rgb(1), 0).x;  // of errors
+  for (float& x : worker.stderr_light) x *= share * left;
   return weight;
 }
 
@@ -180,6 +182,7 @@ GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<
   PHOS_CHECK(lobe.order >= 1 && lobe.order <= impl_->order && coefficients.size() == numbers(lobe.order),
              coefficients.size(), " numbers of a lobe, records of order ", impl_->order);
   GlossyLight light;
+  BlendSums sums;
   Rgb irradiance(0);
   worker.stderr_light.assign(3 * static_cast<std::size_t>(lobe.order), 0);
   impl_->tree.valid(p, frame.z, worker.found);
@@ -192,7 +195,9 @@ GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<
     own = &r.frame;
     const float w = impl_->weight(*found, p, frame.z);
     const Vec2 step = impl_->step_m(record, p);
-    light.radiance += w * impl_->through(worker.turned, record, step);
+    const Rgb through = impl_->through(worker.turned, record, step);
+    light.radiance += w * through;
+    sums.add(w, r.shared, static_cast<double>(luminance(through)));
     if (least != Rgb(0)) irradiance += w * impl_->irradiance(record, step);
     for (std::size_t i = 0; i < worker.stderr_light.size(); ++i)
       worker.stderr_light[i] += w * r.stderr_light[i];
@@ -210,8 +215,10 @@ GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<
                     worker.stderr_light[3 * l + 2]);
     variance += energy * error * error;
   }
+  const double mean = static_cast<double>(luminance(light.radiance)) / static_cast<double>(light.weight);
   light.radiance = glm::max(light.radiance, least * irradiance) / light.weight;
-  light.stderr_cd = glm::sqrt(variance) / light.weight;
+  light.stderr_cd =
+      blended_error(sums, light.weight, light.radiance, glm::sqrt(variance) / light.weight, mean);
   return light;
 }
 

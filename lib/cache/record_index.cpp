@@ -119,12 +119,16 @@ bool RecordLookup::covered(const Vec3& p, const Vec3& n) const {
   return found;
 }
 
-Interpolated RecordLookup::interpolate(const Vec3& p, const Vec3& n) const {
-  Interpolated sum;
+void RecordLookup::add(const Vec3& p, const Vec3& n, Interpolated& sum) const {
   visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
     sum.add(r, w, p, n);
     return true;
   });
+}
+
+Interpolated RecordLookup::interpolate(const Vec3& p, const Vec3& n) const {
+  Interpolated sum;
+  add(p, n, sum);
   sum.finish();
   return sum;
 }

@@ -56,6 +56,7 @@ class RecordLookup {
   bool stored() const { return made_.children.empty(); }
   bool covered(const Vec3& p, const Vec3& n) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;  ///< as RecordTree's
 
  private:
   template <class Visit>

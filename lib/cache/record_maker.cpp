@@ -20,6 +20,13 @@ constexpr std::size_t kLeastCompared = 64;  // photons that can tell an occlusio
 // Points at the very border of a surface often lie outside of the hull: one in a thousand may be called dark.
 constexpr double kDarkPhotons = 6.9;
 
+/// Mean of |x|^2 under a kernel, over that of the disc (C4).
+float kernel_spread(Kernel kernel) {
+  if (kernel == Kernel::epanechnikov) return 2 / 3.f;
+  if (kernel == Kernel::cone) return 3 / 5.f;
+  return 1;
+}
+
 float scale_of(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 }  // namespace
@@ -30,7 +37,8 @@ RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const R
       rays_(rays),
       options_(resolved),
       gatherer_(photons, rays, resolved.paths, static_cast<float>(resolved.min_radius_m.value_or(0))),
-      surroundings_(photons, rays, resolved, seed) {
+      surroundings_(photons, rays, resolved, seed),
+      noise_(photon_noise(photons, resolved.paths == Quantity::all)) {
   PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");
   const PhotonTotals& totals = photons.totals;
   if (totals.stored > 0) {
@@ -91,22 +99,51 @@ ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, std::uint3
   return kernel_irradiance(photons.offset_m, photons.flux_lm, radius_m, options_.kernel, s.density);
 }
 
-/// Irradiance moved from the area's centroid to p along the gradient, photon by photon (C3).
-void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, const Scratch& s,
+/// Irradiance at p from the mean over the area, photon by photon: moved along the gradient from the area's
+/// centroid (C3), and without what the curvature of irradiance adds to the mean, its Laplacian x (mean of
+/// |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of this area. The curvature is taken away as far
+/// as it exceeds its own noise (by the factor 1 - 3 / z2, as D4), so that even light stays as it is; what may
+/// be left of it is in the error. A kernel, for comparison, keeps it, and says so in its error.
+void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, Scratch& s,
                                  IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
   const Vec3 step = place.frame.to_world(Vec3(-zone.centroid_m, 0));
+  const bool kernel = zone.kind == ZoneKind::kernel;
+  const float flat_m2 = static_cast<float>(zone.area_m2 / (8 * std::numbers::pi)) *
+                            (kernel ? kernel_spread(options_.kernel) : 1) -
+                        glm::dot(zone.centroid_m, zone.centroid_m) / 4;
+  DVec3 bend(0), bend2(0);
+  double noise = 0;
+  s.bend.assign(photons.size(), 0);
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    if (!s.density.used[i]) continue;
+    s.bend[i] = flat_m2 * curvature_term(photons.direction[i], photons.source_normal[i],
+                                         photons.inverse_distance[i], place.frame.z);
+    const DVec3 f = DVec3(photons.flux_lm[i]) * static_cast<double>(s.bend[i]);
+    const double grey = static_cast<double>(luminance(Rgb(f)));
+    bend += f, bend2 += f * f, noise += grey * grey;
+  }
+  const double grey = static_cast<double>(luminance(Rgb(bend)));
+  if (kernel) {
+    const DVec3 left = glm::max(bend * bend - bend2, DVec3(0)) / (zone.area_m2 * zone.area_m2);
+    record.stderr_lx = Rgb(glm::sqrt(DVec3(zone.stderr_lx) * DVec3(zone.stderr_lx) + left));
+    return;
+  }
+  const double share = !(grey * grey > 0) ? 0 : std::max(0.0, 1 - 3 * noise / (grey * grey));
   DVec3 sum(0), squares(0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
     const double change =
-        static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step));
+        static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step)) -
+        share * static_cast<double>(s.bend[i]);
     const DVec3 f = DVec3(photons.flux_lm[i]) * (1 + change);
     sum += f, squares += f * f;
   }
   const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
+  const DVec3 left = (1 - share) * (1 - share) * glm::max(bend * bend - bend2, DVec3(0));
+  const DVec3 variance = (squares + left) / (zone.area_m2 * zone.area_m2) + geometric * geometric;
   record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
-  record.stderr_lx = Rgb(glm::sqrt(squares / (zone.area_m2 * zone.area_m2) + geometric * geometric));
+  record.stderr_lx = Rgb(glm::sqrt(variance));
 }
 
 /// Analytic gradients, and those that see dark occluders where the photons' places can tell (D4).
@@ -136,7 +173,8 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
     return;
   }
   record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
-  if (zone.centroid_m != Vec2(0)) move_to_centre(place, zone, s, record);
+  move_to_centre(place, zone, s, record);
+  record.stderr_lx *= path_error(photons.size());
   const ComparedGradients known = compared(place, zone, zone_radius_m, s);
   // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
   // the records of a Cornell box or Sponza), and errors there were the same with it.

@@ -1,6 +1,7 @@
 // One irradiance record from photons (thesis chapter 6, with the corrections of FORMULAS-irradiance C and D).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "cache/surroundings.h"
 #include "photon/density.h"
 #include "photon/photon_map.h"
+#include "photon/photon_noise.h"
 #include "scene/rays.h"
 
 namespace phos {
@@ -31,8 +33,9 @@ class RecordMaker : public Estimator {
     NearPhotons near;
     GatheredPhotons gathered;
     DensityScratch density;
-    Frame frame;        ///< of the last make()
-    ZoneEstimate zone;  ///< likewise; of its photons, density.used counted
+    Frame frame;              ///< of the last make()
+    ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
+    std::vector<float> bend;  ///< likewise: what curvature adds to each photon's share of the mean
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
@@ -40,11 +43,15 @@ class RecordMaker : public Estimator {
   /// Does this photon count?
   bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, options_.paths); }
   const RecordOptions& options() const { return options_; }
+  /// How much larger the standard error of a zone is than its photons tell alone: several are of one path.
+  float path_error(std::size_t photons) const {
+    return static_cast<float>(std::sqrt(noise_.spread(static_cast<double>(photons))));
+  }
 
  private:
   ZoneEstimate by_hull(ZonePlace& place, float& radius_m, std::uint32_t left_out, Scratch& scratch) const;
   ZoneEstimate by_kernel(ZonePlace& place, float radius_m, std::uint32_t left_out, Scratch& scratch) const;
-  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, const Scratch& scratch,
+  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, Scratch& scratch,
                       IrradianceRecord& record) const;
   ComparedGradients compared(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
                              const Scratch& scratch) const;
@@ -56,6 +63,7 @@ class RecordMaker : public Estimator {
   RecordOptions options_;
   ZoneGatherer gatherer_;
   Surroundings surroundings_;
+  PhotonNoise noise_;
   Rgb one_photon_lm_{0};
 };
 

@@ -19,6 +19,13 @@ void add(Gradients& sum, const Gradients& g, float weight) {
   }
 }
 
+/// Of the variance of the luminance (were its channels one).
+float shared_part(const PlaceLight& light) {
+  const double all = static_cast<double>(luminance(light.stderr_lx)),
+               shared = static_cast<double>(luminance(Rgb(glm::sqrt(light.shared_lx2))));
+  return all > 0 ? static_cast<float>(std::min(1.0, shared * shared / (all * all))) : 0;
+}
+
 }  // namespace
 
 PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& resolved) {
@@ -32,7 +39,7 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   GradientMode mode = resolved.gradients;
   if (mode == GradientMode::none) mode = stratified ? GradientMode::hybrid : GradientMode::analytic;
   PlaceLight light;
-  DVec3 sum(0), variance(0);
+  DVec3 sum(0), variance(0), source(0);
   double nearness = 0;
   float least_m = kInfinity;
   for (const Hemisphere& h : passes) {
@@ -40,13 +47,15 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
     const DVec3 error = weight * DVec3(standard_error_of(h));
     sum += weight * DVec3(irradiance_of(h));
     variance += error * error;
+    source += weight * h.source.total();  // the same for all passes
     nearness += weight / static_cast<double>(harmonic_distance_m(h));
     least_m = std::min(least_m, least_distance_m(h));
     add(light.gradients, ray_gradients(h, mode, static_cast<float>(*resolved.min_radius_m)),
         static_cast<float>(weight));
   }
   light.irradiance = Rgb(sum);
-  light.stderr_lx = Rgb(glm::sqrt(variance));
+  light.stderr_lx = Rgb(glm::sqrt(variance + source));
+  light.shared_lx2 = source;
   light.distance_m = resolved.radius == RadiusRule::least ? least_m : static_cast<float>(1 / nearness);
   return light;
 }
@@ -113,6 +122,7 @@ Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOpti
   IrradianceRecord record;
   record.position = p, record.normal = site.normal;
   record.irradiance = light.irradiance, record.stderr_lx = light.stderr_lx;
+  record.shared = shared_part(light);
   record.distance_m = light.distance_m;
   const float most_m = std::min(light.distance_m, static_cast<float>(*resolved.max_radius_m));
   const float radius_m = within_gradient_m(light.irradiance, light.gradients.translation, most_m);

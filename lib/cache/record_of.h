@@ -14,6 +14,7 @@ namespace phos {
 /// Light at a place, with what the radius of a record follows from.
 struct PlaceLight {
   Rgb irradiance{0}, stderr_lx{0};
+  DVec3 shared_lx2{0};           ///< of its variance: what places about it have in common
   float distance_m = kInfinity;  ///< of surroundings: harmonic mean or least, as RecordOptions::radius says
   Gradients gradients;
 };

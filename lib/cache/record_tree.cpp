@@ -192,12 +192,16 @@ RecordIndex RecordTree::index() const {
   return index;
 }
 
-Interpolated RecordTree::interpolate(const Vec3& p, const Vec3& n) const {
-  Interpolated sum;
+void RecordTree::add(const Vec3& p, const Vec3& n, Interpolated& sum) const {
   impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
     sum.add(r, w, p, n);
     return true;
   });
+}
+
+Interpolated RecordTree::interpolate(const Vec3& p, const Vec3& n) const {
+  Interpolated sum;
+  add(p, n, sum);
   sum.finish();
   return sum;
 }

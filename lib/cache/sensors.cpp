@@ -6,6 +6,7 @@
 #include "cache/gather.h"
 #include "cache/placement.h"
 #include "cache/radiance_cache.h"
+#include "cache/two_level.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
@@ -79,6 +80,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   GatherSource source;
   source.indirect = tree.get();
   source.holds_direct = caches.holds_direct();
+  if (tree) source.photon_lm = equivalent_photon_lm(tree->records(), caches.accuracy());
   const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
   IrradianceCache fresh;
   fresh.accuracy = resolved.accuracy;
@@ -156,22 +158,20 @@ void SensorCaches::require_light(bool direct, const std::string& name) {
 }
 
 Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
-  if (lookups_.size() == 1 && trees_.empty()) return lookups_[0].interpolate(p, n);
   Interpolated sum;
-  const auto add = [&](const Interpolated& part) {
-    sum.irradiance += part.weight * part.irradiance;
-    sum.stderr_lx += part.weight * part.stderr_lx;
-    sum.weight += part.weight;
-  };
-  for (const RecordLookup& lookup : lookups_) add(lookup.interpolate(p, n));
-  for (const InMemory& cache : trees_) add(cache.tree.interpolate(p, n));
+  for (const RecordLookup& lookup : lookups_) lookup.add(p, n, sum);
+  for (const InMemory& cache : trees_) cache.tree.add(p, n, sum);
   sum.finish();
   return sum;
 }
 
+double SensorCaches::accuracy() const {
+  return lookups_.empty() ? trees_[0].accuracy : lookups_[0].accuracy();
+}
+
 std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   if (empty()) return nullptr;
-  const double accuracy = lookups_.empty() ? trees_[0].accuracy : lookups_[0].accuracy();
+  const double accuracy = this->accuracy();
   auto tree = std::make_unique<RecordTree>(scene.bounds, accuracy, leak_test_);
   const auto add = [&](IrradianceRecord r, double own_accuracy) {
     r.radius_m *= static_cast<float>(own_accuracy / accuracy);

@@ -72,6 +72,8 @@ class SensorCaches {
   bool empty() const { return lookups_.empty() && trees_.empty(); }
   bool holds_direct() const { return holds_direct_; }
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// That at which tree() is read; there must be a cache.
+  double accuracy() const;
   /// All records in memory, each with its reach: what gathered rays read.
   std::unique_ptr<RecordTree> tree(const Scene& scene) const;
 

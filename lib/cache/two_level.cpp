@@ -26,10 +26,23 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   return coarse;
 }
 
+double equivalent_photon_lm(std::span<const IrradianceRecord> records, double accuracy) {
+  double noise = 0, light = 0;
+  for (const IrradianceRecord& r : records) {
+    const double reach_m = accuracy * static_cast<double>(r.radius_m),
+                 error = static_cast<double>(luminance(r.stderr_lx));
+    noise += std::numbers::pi * reach_m * reach_m * error * error;
+    light += static_cast<double>(luminance(r.irradiance));
+  }
+  return light > 0 ? noise / light : 0;
+}
+
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
                          std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
   photons_ = std::make_unique<RecordMaker>(photons, rays, coarse, seed);
+  noise_ = photon_noise(photons, false);
+  zone_photons_ = 2 * static_cast<double>(coarse.min_photons);  // min_photons to 4 times as many
   if (resolved.gather_from == GatherFrom::photons) return;
   IrradianceCache cache;
   cache.accuracy = coarse.accuracy;
@@ -44,6 +57,8 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
                          const RecordOptions& resolved, std::uint64_t seed) {
   if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
   read(rays, earlier);
+  noise_.photon_lm = equivalent_photon_lm(earlier.records, earlier.accuracy);
+  if (photons) noise_.common = photon_noise(*photons, earlier.quantity == "all").common;
   holds_direct_ = earlier.quantity == "all";
 }
 
@@ -58,7 +73,8 @@ CoarseLevel::~CoarseLevel() = default;
 CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
 
 GatherSource CoarseLevel::source() const {
-  return {tree_.get(), far_.get(), photons_.get(), holds_direct_, gloss_.get()};
+  return {tree_.get(),  far_.get(),       photons_.get(), holds_direct_,
+          gloss_.get(), noise_.photon_lm, zone_photons_,  noise_.common};
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 

@@ -9,12 +9,16 @@
 #include "cache/irradiance_cache.h"
 #include "cache/record_options.h"
 #include "photon/photon_map.h"
+#include "photon/photon_noise.h"
 #include "scene/rays.h"
 
 namespace phos {
 
 /// How coarse records are made from photons, where finer ones are made as `fine` says.
 RecordOptions coarse_options(const RecordOptions& fine);
+/// The luminance that a photon would carry whose map had the noise of these records, lm: sum of s^2 A / sum
+/// of E, with A the area of a zone that reaches as far as the record does.
+double equivalent_photon_lm(std::span<const IrradianceRecord> records, double accuracy);
 /// Photons tried as places for them: a coarse cache needs far fewer records than that.
 inline constexpr std::int64_t kCoarseCandidates = 400'000;
 
@@ -48,6 +52,8 @@ class CoarseLevel {
   std::unique_ptr<Estimator> photons_;
   std::unique_ptr<GlossCache> gloss_;
   bool holds_direct_ = false;
+  PhotonNoise noise_;
+  double zone_photons_ = 0;
 };
 
 }  // namespace phos

@@ -39,6 +39,7 @@ void store(const SplatTile& tile, SplatBuffer& buffer, const TileWindow& window)
       const int t = y * kTileSide + x;
       buffer.light[i] = {tile.light[0][t], tile.light[1][t], tile.light[2][t], tile.light[3][t]};
       buffer.error[i] = {tile.error[0][t], tile.error[1][t], tile.error[2][t], tile.error[3][t]};
+      buffer.spread[i] = {tile.spread[0][t], tile.spread[1][t], tile.spread[2][t], 0};
     }
   }
 }
@@ -50,7 +51,7 @@ PackedRecord pack_record(const IrradianceRecord& r) {
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   p.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
   p.front_limit_m = -kFrontTolerance * r.radius_m;
-  p.weight = r.weight;
+  p.weight = r.weight, p.shared = r.shared;
   for (int i = 0; i < 3; ++i) {
     p.position[i] = r.position[i], p.normal[i] = r.normal[i];
     p.irradiance[i] = r.irradiance[i], p.limit[i] = kGrowthLimit * r.irradiance[i],
@@ -72,15 +73,36 @@ SplatKernel* best_splat_kernel() {
   return splat_tile_plain;
 }
 
+Interpolated SplatBuffer::at(std::size_t i) const {
+  Interpolated found;
+  found.weight = light[i].w;
+  if (!(found.weight > 0)) return {};
+  found.sums.weight2 = spread[i].x, found.sums.shared = spread[i].y;
+  found.sums.value2 = static_cast<double>(spread[i].z);
+  found.irradiance = Rgb(light[i]) / found.weight;
+  found.stderr_lx =
+      blended_error(found.sums, found.weight, found.irradiance, Rgb(error[i]) / found.weight,
+                    static_cast<double>(luminance(found.irradiance)) / static_cast<double>(unit_lx));
+  return found;
+}
+
+float splat_unit_lx(std::span<const IrradianceRecord> records) {
+  float most = 0;
+  for (const IrradianceRecord& r : records) most = std::max(most, max_component(r.irradiance));
+  return most > 0 && std::isfinite(most) ? most : 1;
+}
+
 SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                          const Camera& camera) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   const std::size_t pixels = gbuffer.position.size();
   SplatBuffer buffer;
   // Side by side: most of the time goes into the system's handing out of pages.
-  parallel_for(2, 1, [&](std::size_t i) { (i == 0 ? buffer.light : buffer.error).assign(pixels, Vec4(0)); });
+  std::vector<Vec4>* const sums[] = {&buffer.light, &buffer.error, &buffer.spread};
+  parallel_for(3, 1, [&](std::size_t i) { sums[i]->assign(pixels, Vec4(0)); });
   if (pixels == 0 || records.empty()) return buffer;
 
+  buffer.unit_lx = splat_unit_lx(records);
   const auto a = static_cast<float>(accuracy);
   const TileGrid grid(gbuffer, kTileSide);
   const std::vector<PixelRect> bounds =
@@ -112,7 +134,7 @@ SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accur
       const TileWindow window{x0, y0, std::min(kTileSide, gbuffer.width - x0),
                               std::min(kTileSide, gbuffer.height - y0), gbuffer.width};
       load(tile, gbuffer, window);
-      kernel(tile, packed.data(), list.data(), list.size(), 1 / a, kLeastWeight);
+      kernel(tile, packed.data(), list.data(), list.size(), 1 / a, kLeastWeight, 1 / buffer.unit_lx);
       store(tile, buffer, window);
     }
   });

@@ -32,25 +32,27 @@ GlPictureTarget& GlRenderer::Impl::picture_target(const GBuffer& g) {
   const Gl& gl = context.gl();
   if (picture.width != g.width || picture.height != g.height) {
     picture = {};
-    for (GlObject* texture :
-         {&picture.position, &picture.normal, &picture.facet, &picture.light, &picture.error}) {
+    for (GlObject* texture : {&picture.position, &picture.normal, &picture.facet, &picture.light,
+                              &picture.error, &picture.spread}) {
       *texture = make_texture(gl, GL_RGBA32F, g.width, g.height);
     }
     picture.framebuffer = make_framebuffer(gl, {picture.light.id(), picture.error.id()}, 0);
+    picture.with_spread =
+        make_framebuffer(gl, {picture.light.id(), picture.error.id(), picture.spread.id()}, 0);
     picture.width = g.width, picture.height = g.height;
   }
   gl.TextureSubImage2D(picture.position.id(), 0, 0, 0, g.width, g.height, GL_RGBA, GL_FLOAT,
                        g.position.data());
   gl.TextureSubImage2D(picture.normal.id(), 0, 0, 0, g.width, g.height, GL_RGBA, GL_FLOAT, g.normal.data());
   const float black[4] = {0, 0, 0, 0};
-  for (const GLint target : {0, 1})
-    gl.ClearNamedFramebufferfv(picture.framebuffer.id(), GL_COLOR, target, black);
+  for (const GLint target : {0, 1, 2})
+    gl.ClearNamedFramebufferfv(picture.with_spread.id(), GL_COLOR, target, black);
   return picture;
 }
 
-void GlRenderer::Impl::bind_for_sum(const GlPictureTarget& target) const {
+void GlRenderer::Impl::bind_for_sum(const GlPictureTarget& target, bool spread) const {
   const Gl& gl = context.gl();
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer.id());
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, spread ? target.with_spread.id() : target.framebuffer.id());
   gl.Viewport(0, 0, target.width, target.height);
   gl.Disable(GL_DEPTH_TEST);
   gl.Enable(GL_BLEND);

@@ -13,8 +13,9 @@ namespace phos {
 /// Textures of one picture size, and what draws into them. Made when a size is first asked for.
 struct GlPictureTarget {
   int width = 0, height = 0;
-  GlObject position, normal, facet;    // of the G-buffer
-  GlObject light, error, framebuffer;  // RGBA32F
+  GlObject position, normal, facet;            // of the G-buffer
+  GlObject light, error, spread, framebuffer;  // RGBA32F
+  GlObject with_spread;                        // framebuffer of all three
 };
 
 /// Side of the tiles that records are cut down to.
@@ -33,8 +34,8 @@ struct GlRenderer::Impl {
   GlRasterTarget& raster_target(int width, int height);
   /// With the G-buffer's positions and normals uploaded.
   GlPictureTarget& picture_target(const GBuffer& gbuffer);
-  /// Draws are added to light and error from now on, with the G-buffer's textures at hand.
-  void bind_for_sum(const GlPictureTarget& target) const;
+  /// Draws are added to light and error (and spread) from now on, with the G-buffer's textures at hand.
+  void bind_for_sum(const GlPictureTarget& target, bool spread = false) const;
   void prepare_splat();
   /// The program that draws radiance records of an order, made when it is first asked for.
   GlProgram& gloss_program(int order);

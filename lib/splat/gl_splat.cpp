@@ -31,7 +31,7 @@ constexpr Attribute kAttributes[] = {
     {1, 4, kRecord + offsetof(PackedRecord, position)},
     {2, 4, kRecord + offsetof(PackedRecord, normal)},
     {3, 4, kRecord + offsetof(PackedRecord, irradiance)},
-    {4, 3, kRecord + offsetof(PackedRecord, stderr_lx)},
+    {4, 4, kRecord + offsetof(PackedRecord, stderr_lx)},
     {5, 3, kRecord + offsetof(PackedRecord, turn)},
     {6, 3, kRecord + offsetof(PackedRecord, turn) + 12},
     {7, 3, kRecord + offsetof(PackedRecord, turn) + 24},
@@ -63,17 +63,20 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
                               const GBuffer& gbuffer, const Camera& camera) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   const std::size_t pixels = gbuffer.position.size();
-  SplatBuffer buffer{std::vector<Vec4>(pixels, Vec4(0)), std::vector<Vec4>(pixels, Vec4(0))};
+  SplatBuffer buffer;
+  for (std::vector<Vec4>* sums : {&buffer.light, &buffer.error, &buffer.spread})
+    sums->assign(pixels, Vec4(0));
   if (pixels == 0 || records.empty()) return buffer;
 
   impl_->context.make_current();
   impl_->prepare_splat();
   const Gl& gl = impl_->context.gl();
   const GlPictureTarget& target = impl_->picture_target(gbuffer);
+  buffer.unit_lx = splat_unit_lx(records);
   const auto a = static_cast<float>(accuracy);
-  impl_->splat_program.set("rule", Vec4(1 / a, kLeastWeight, kGrowthLimit, 0));
+  impl_->splat_program.set("rule", Vec4(1 / a, kLeastWeight, kGrowthLimit, 1 / buffer.unit_lx));
   impl_->splat_program.use();
-  impl_->bind_for_sum(target);
+  impl_->bind_for_sum(target, true);
   gl.BindVertexArray(impl_->splat_array.id());
 
   std::vector<SplatInstance> batch;
@@ -101,6 +104,7 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   if (!batch.empty()) draw();
   impl_->read(target.light, buffer.light);
   impl_->read(target.error, buffer.error);
+  impl_->read(target.spread, buffer.spread);
   impl_->context.check("splatting");
   return buffer;
 }

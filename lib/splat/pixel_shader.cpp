@@ -47,26 +47,23 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
 
 void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
                              PixelSample& light, ShadingResult& result) const {
-  Vec4 sum = splat.light, error = splat.error;
-  light.weight = sum.w;
-  if (!(sum.w > 0)) {
+  Interpolated light_here = splat.found;
+  light.weight = light_here.weight;
+  if (!(light_here.weight > 0)) {
     // On the rim of a record rounding decides, and the lookup that places records has the last word: else
     // the loop over misses would ask for the same point for ever.
     const std::size_t misses = result.log.misses.size();
-    const Interpolated found = shading_.cached(point, result.log);
+    light_here = shading_.cached(point, result.log);
     if (result.log.misses.size() > misses)
       ++result.missed;
     else
-      light.weight = found.weight;
-    sum = Vec4(found.irradiance * found.weight, found.weight);
-    error = Vec4(found.stderr_lx * found.weight, 0);
+      light.weight = light_here.weight;
   }
-  if (!(sum.w > 0)) return;
-  const Rgb irradiance = Rgb(sum) / sum.w;
+  if (!(light_here.weight > 0)) return;
   const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
-  light.indirect = irradiance * reflected;
-  light.indirect_error += Rgb(error) / sum.w * reflected;
-  light.illuminance_lx += luminance(irradiance);
+  light.indirect = light_here.irradiance * reflected;
+  light.indirect_error += light_here.stderr_lx * reflected;
+  light.illuminance_lx += luminance(light_here.irradiance);
 }
 
 bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat,

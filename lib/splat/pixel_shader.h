@@ -36,7 +36,7 @@ class PixelShader {
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
   struct Splat {
-    Vec4 light{0}, error{0};        // as in SplatBuffer
+    Interpolated found;             // of irradiance
     Vec4 gloss{0}, gloss_error{0};  // as in GlossBuffer
   };
   /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a

@@ -47,12 +47,18 @@ class Stopwatch {
 /// The records at each visible point by lookups, with a ray to each: what splatting gives, without leaks.
 SplatBuffer look_up(const RecordTree& records, const GBuffer& g) {
   SplatBuffer buffer;
-  buffer.light.assign(g.position.size(), Vec4(0)), buffer.error.assign(g.position.size(), Vec4(0));
+  for (std::vector<Vec4>* sums : {&buffer.light, &buffer.error, &buffer.spread})
+    sums->assign(g.position.size(), Vec4(0));
+  buffer.unit_lx = splat_unit_lx(records.records());
+  const double per_unit2 = 1 / (static_cast<double>(buffer.unit_lx) * static_cast<double>(buffer.unit_lx));
   parallel_for(g.position.size(), kChunk, [&](std::size_t i) {
     if (!g.covered(i)) return;
-    const Interpolated found = records.interpolate(Vec3(g.position[i]), Vec3(g.normal[i]));
-    buffer.light[i] = Vec4(found.irradiance * found.weight, found.weight);
-    buffer.error[i] = Vec4(found.stderr_lx * found.weight, found.weight > 0 ? 1 : 0);
+    Interpolated sum;
+    records.add(Vec3(g.position[i]), Vec3(g.normal[i]), sum);
+    buffer.light[i] = Vec4(sum.irradiance, sum.weight);
+    buffer.error[i] = Vec4(sum.stderr_lx, sum.weight > 0 ? 1 : 0);
+    buffer.spread[i] =
+        Vec4(sum.sums.weight2, sum.sums.shared, static_cast<float>(sum.sums.value2 * per_unit2), 0);
   });
   return buffer;
 }
@@ -305,7 +311,7 @@ class Painter {
       const Ray ray = ray_of(i, where);
       if (!gbuffer.covered(i)) return layers_.add(i, background(ray));
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
-      PixelShader::Splat splat{splats.light[i], splats.error[i]};
+      PixelShader::Splat splat{splats.at(i)};
       if (!gloss.light.empty()) splat.gloss = gloss.light[i], splat.gloss_error = gloss.error[i];
       layers_.add(i, shader_.shade({i, s}, ray, point, splat, shared.empty() ? nullptr : &shared[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
@@ -351,7 +357,7 @@ class Painter {
                         pass_.gbuffer, sample.pixel);
     if (!j) return shader_.shade(sample, ray, point, {}, nullptr, result);
     const SharedLight& shared = pass_.shared[*j];
-    const PixelShader::Splat splat{pass_.splats.light[*j], pass_.splats.error[*j]};
+    const PixelShader::Splat splat{pass_.splats.at(*j)};
     // Where a lamp is seen in part, its shadow may have an edge here.
     const bool test = sample.index < kEdgeTests;
     if (even && !test && shared.variance == Rgb(0))

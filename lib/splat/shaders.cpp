@@ -54,15 +54,15 @@ layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, 
 layout(location = 1) in vec4 position;    // and 1 / radius
 layout(location = 2) in vec4 normal;      // and the limit of the in-front test
 layout(location = 3) in vec4 irradiance;  // and the record's own weight
-layout(location = 4) in vec3 error;
+layout(location = 4) in vec4 error;       // and the part that records share
 layout(location = 5) in vec3 turn_r;
 layout(location = 6) in vec3 turn_g;
 layout(location = 7) in vec3 turn_b;
 layout(location = 8) in vec3 translation_r;
 layout(location = 9) in vec3 translation_g;
 layout(location = 10) in vec3 translation_b;
-flat out vec4 a, b, e;
-flat out vec3 s, rr, rg, rb, tr, tg, tb;
+flat out vec4 a, b, e, s;
+flat out vec3 rr, rg, rb, tr, tg, tb;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
@@ -73,13 +73,14 @@ void main() {
 )";
 
 const char* const splat_fragment = R"(#version 450 core
-flat in vec4 a, b, e;
-flat in vec3 s, rr, rg, rb, tr, tg, tb;
-uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth
+flat in vec4 a, b, e, s;
+flat in vec3 rr, rg, rb, tr, tg, tb;
+uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth, 1 / unit of squares
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
 layout(location = 0) out vec4 light;
 layout(location = 1) out vec4 error;
+layout(location = 2) out vec4 spread;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 d = texelFetch(position_map, pixel, 0).xyz - a.xyz;
@@ -94,7 +95,9 @@ void main() {
   value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
   value = mix(rule.z * e.rgb, value, lessThan(value, rule.z * e.rgb));
   light = vec4(w * value, w);
-  error = vec4(w * s, valid ? 1.0 : 0.0);
+  error = vec4(w * s.rgb, valid ? 1.0 : 0.0);
+  float relative = dot(vec3(0.2126, 0.7152, 0.0722) * rule.w, value);
+  spread = vec4(w * w, w * s.w, w * relative * relative, 0.0);
 }
 )";
 

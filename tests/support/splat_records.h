@@ -43,19 +43,24 @@ inline std::vector<IrradianceRecord> records_in_view(const RayScene& rays, const
 inline SplatBuffer splat_one_by_one(const std::vector<IrradianceRecord>& records, float accuracy,
                                     const GBuffer& g) {
   SplatBuffer buffer;
+  buffer.unit_lx = splat_unit_lx(records);
   for (std::size_t i = 0; i < g.position.size(); ++i) {
-    glm::dvec4 light(0), error(0);
+    glm::dvec4 light(0), error(0), spread(0);
     const Vec3 p(g.position[i]), n(g.normal[i]);
     for (const IrradianceRecord& r : records) {
       if (!g.covered(i) || record_in_front(r, p, n)) continue;
       float w = record_weight(record_error(r, p, n), accuracy);
       if (!(w > 1e-6f)) continue;
       w *= r.weight;
-      light += glm::dvec4(w * extrapolate(r, p, n), w);
+      const Rgb e = extrapolate(r, p, n);
+      const double value = static_cast<double>(luminance(e) / buffer.unit_lx);
+      light += glm::dvec4(w * e, w);
+      spread += glm::dvec4(w * w, w * r.shared, static_cast<double>(w) * value * value, 0);
       error += glm::dvec4(w * r.stderr_lx, 1);
     }
     buffer.light.emplace_back(light);
     buffer.error.emplace_back(error);
+    buffer.spread.emplace_back(spread);
   }
   return buffer;
 }
@@ -91,6 +96,8 @@ inline SplatDifference difference(const SplatBuffer& a, const SplatBuffer& b) {
     for (int c = 0; c < 3; ++c) {
       d.relative = std::max(d.relative, off(a.light[i][c], b.light[i][c], 1.f));
       d.relative = std::max(d.relative, off(a.error[i][c], b.error[i][c], 0.1f));
+      // Squares of weights near 0 and of irradiance are rounded twice.
+      d.relative = std::max(d.relative, off(a.spread[i][c], b.spread[i][c], 0.1f) / 2);
     }
   }
   return d;

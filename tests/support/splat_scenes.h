@@ -73,10 +73,10 @@ inline Agreement compare(const AnalyticScene& s, const GBuffer& gbuffer, const S
                          double allowance) {
   std::vector<double> value(splats.light.size(), -1), error(splats.light.size(), 0);
   for (std::size_t i = 0; i < value.size(); ++i) {
-    const double w = static_cast<double>(splats.light[i].w);
-    if (!(w > 0)) continue;
-    value[i] = static_cast<double>(splats.light[i].y) / w;
-    error[i] = static_cast<double>(splats.error[i].y) / w;
+    const Interpolated found = splats.at(i);
+    if (!(found.weight > 0)) continue;
+    value[i] = static_cast<double>(found.irradiance.y);
+    error[i] = static_cast<double>(found.stderr_lx.y);
   }
   return compare(s, gbuffer, value, error, allowance);
 }

@@ -157,8 +157,8 @@ TEST_F(CpuSplat, KernelsGiveTheSameBits) {
     plain->nx[i] = g.normal[from].x, plain->ny[i] = g.normal[from].y, plain->nz[i] = g.normal[from].z;
   }
   *fast = *plain;
-  splat_tile_plain(*plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight);
-  splat_tile_avx2(*fast, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight);
+  splat_tile_plain(*plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
+  splat_tile_avx2(*fast, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
   EXPECT_EQ(0, std::memcmp(plain.get(), fast.get(), sizeof(SplatTile)));
   EXPECT_GT(*std::max_element(plain->error[3], plain->error[3] + kTilePixels), 3);
 #else

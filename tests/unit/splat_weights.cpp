@@ -97,8 +97,8 @@ TEST(SplatWeights, BothKernelsGiveTheSameBits) {
     plain.nz[i] = n.z;
   }
   SplatTile wide = plain;
-  splat_tile_plain(plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight);
-  splat_tile_avx2(wide, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight);
+  splat_tile_plain(plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
+  splat_tile_avx2(wide, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
   EXPECT_GT(plain.light[3][0], 0);
   EXPECT_EQ(0, std::memcmp(&plain, &wide, sizeof plain));
 }

@@ -1,0 +1,23 @@
+// The error of a sum over low-discrepancy samples, from one set of them.
+#pragma once
+
+#include <span>
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// Variance of the sum of `parts`, part k of what point k of r2_point() from a random start has found. Such
+/// points err far less than independent ones do, by what the integrand changes between one point and those
+/// next to it on the square: half the mean square of these differences, x a gain of 0.17 where it is smooth
+/// to 0.45 where edges are (a few differences are all), as measured for rectangles, near and far, whole, cut
+/// by straight edges, and by 4 to 256 points. Where neighbours differ as much as any two samples do, the
+/// points gain nothing.
+///
+/// Neighbours are as many points apart as a number of Padovan's sequence tells (1, 2, 3, 4, 5, 7, 9, 12, 16,
+/// ...), for R2 steps by powers of its ratio. `in_plane`: the two coordinates alone decide what a point
+/// finds; else (a lamp of many parts, taken in turn as k grows) points next to each other in order are
+/// compared. Fewer than 4 samples are taken as independent; one: 0. Each channel by itself.
+DVec3 sequence_variance(std::span<const DVec3> parts, bool in_plane);
+
+}  // namespace phos

@@ -1,0 +1,51 @@
+#include "photon/photon_noise.h"
+
+#include "core/parallel.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kChunk = 1 << 16;
+
+constexpr std::uint8_t kMostBounces = 255;
+
+struct Sums {
+  double photons = 0, flux = 0, squares = 0, before = 0;
+  double last = 0, beyond = 0;  // photons of one bounce less than can be counted, and of more
+};
+
+}  // namespace
+
+PhotonNoise photon_noise(const PhotonMap& photons, bool with_direct) {
+  const std::uint32_t first = with_direct ? 0 : 1;
+  const Sums all = parallel_reduce<Sums>(
+      photons.size(), kChunk, {},
+      [&](std::size_t begin, std::size_t end) {
+        Sums s;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!with_direct && photons.path[i] == static_cast<std::uint8_t>(PhotonPath::direct)) continue;
+          const auto flux = static_cast<double>(luminance(photons.flux[i]));
+          s.photons += 1, s.flux += flux, s.squares += flux * flux;
+          s.last += photons.bounce[i] == kMostBounces - 1, s.beyond += photons.bounce[i] == kMostBounces;
+          if (photons.bounce[i] > first) s.before += photons.bounce[i] - first;
+        }
+        return s;
+      },
+      [](Sums& sum, const Sums& part) {
+        sum.photons += part.photons, sum.flux += part.flux;
+        sum.squares += part.squares, sum.before += part.before;
+        sum.last += part.last, sum.beyond += part.beyond;
+      });
+  PhotonNoise noise;
+  noise.photons = all.photons;
+  if (!(all.photons > 0)) return noise;
+  if (all.flux > 0) noise.photon_lm = all.squares / all.flux;
+  // Beyond, paths go on as they did at the last bounce that was counted.
+  const double uncounted = all.last > 0 ? all.beyond * all.beyond / all.last : 0;
+  noise.pairs = 2 * (all.before + uncounted) / (all.photons * all.photons);
+  if (photons.totals.emitted > 0)
+    noise.common = noise.pairs - 1 / static_cast<double>(photons.totals.emitted);
+  return noise;
+}
+
+}  // namespace phos

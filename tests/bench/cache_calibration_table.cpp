@@ -1,0 +1,25 @@
+// Are stated standard errors the true ones? For each scene of known light and each estimator, over many
+// seeds: the share of estimates within two stated standard errors of the truth (95 % of normal ones), the
+// true over the stated root mean square error, and the mean error in stated ones. CSV.
+//   build/tests/cache_calibration_table [SEEDS [SCENE]] > calibration.csv
+#include <cstdio>
+#include <cstdlib>
+
+#include "support/calibration.h"
+
+int main(int argc, char** argv) {
+  using namespace phos;
+  const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
+  const std::string only = argc > 2 ? argv[2] : "";
+  std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
+  for (const test::AnalyticScene& s : test::all_point_scenes()) {
+    const test::CalibratedScene scene(s, {});
+    if (scene.name().find(only) == std::string::npos) continue;
+    test::CalibrationTable table;
+    for (int seed = 1; seed <= seeds; ++seed) scene.measure(static_cast<std::uint64_t>(seed), table);
+    for (const auto& [estimator, c] : table)
+      std::printf("%s,%s,%.0f,%.1f,%.1f,%.3f,%.3f\n", scene.name().c_str(), estimator.c_str(), c.n,
+                  100 * c.exact_share(), 100 * c.share(), c.ratio(), c.bias());
+    std::fflush(stdout);
+  }
+}
