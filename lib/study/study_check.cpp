@@ -18,12 +18,19 @@ namespace {
   throw Error(ExitCode::mismatch, path, why);
 }
 
-/// The reference was made of this scene, if it says of which.
-void require_scene(const std::string& file, const std::string& scene, const std::string& hash) {
+/// The reference was made of this scene and camera, if it says of which.
+void require_scene(const std::string& file, const std::string& scene, const std::string& hash,
+                   const std::string& camera) {
   const auto made = read_image_provenance(file);
-  if (made && !made->scene_hash.empty() && made->scene_hash != hash)
+  if (!made) return;
+  if (!made->scene_hash.empty() && made->scene_hash != hash)
     mismatch(file, text("was made from another scene than ", scene,
                         ", or from another version of it; make it anew with phos-reference"));
+  const Json* seen = made->parameters.find("camera");
+  if (seen && seen->is_string() && !seen->as_string().empty() && !camera.empty() &&
+      seen->as_string() != camera)
+    mismatch(file, text("is what the camera \"", seen->as_string(), "\" sees, and \"", camera,
+                        "\" is asked for; make it anew with phos-reference --camera"));
 }
 
 void require_two(const std::vector<std::string>& files) {
@@ -33,7 +40,7 @@ void require_two(const std::vector<std::string>& files) {
 }
 
 void check_picture(const StudyFile& study, const std::string& file, int width, int height,
-                   const std::string& scene, const std::string& hash) {
+                   const std::string& scene, const std::string& hash, const std::string& camera) {
   const Image image = read_image(file);
   const auto is = [&](int w, int h) {
     mismatch(file, text("is ", image.width(), " x ", image.height(), " pixels, and ", w, " x ", h,
@@ -48,15 +55,15 @@ void check_picture(const StudyFile& study, const std::string& file, int width, i
     for (const std::string& l : all_layers(image)) all.append(all.empty() ? "" : ", ").append(layer_label(l));
     mismatch(file, text("has no layer ", study.layer, "; it has ", all));
   }
-  require_scene(file, scene, hash);
+  require_scene(file, scene, hash, camera);
 }
 
 void check_pictures(const StudyFile& study, const std::vector<std::string>& files, const std::string& scene,
-                    const std::string& hash) {
+                    const std::string& hash, const std::string& camera) {
   if (files.empty()) return;
   const Image first = read_image(files[0]);
   for (const std::string& file : files)
-    check_picture(study, file, first.width(), first.height(), scene, hash);
+    check_picture(study, file, first.width(), first.height(), scene, hash, camera);
   require_two(files);
 }
 
@@ -115,7 +122,8 @@ void check_against_scenes(const StudyFile& study) {
     if (study.makes_pictures())
       for (const std::string& camera : study.cameras) {
         find_camera(scene, camera);
-        check_pictures(study, given(study, path, camera, &GivenReference::pictures), path, scene.hash);
+        check_pictures(study, given(study, path, camera, &GivenReference::pictures), path, scene.hash,
+                       camera);
       }
     if (study.reads_sensors()) check_lux(study, given(study, path, "", &GivenReference::lux));
   }

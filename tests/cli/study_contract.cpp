@@ -146,6 +146,11 @@ TEST(StudyTool, RefusesAReferenceThatDoesNotBelong) {
   fs::copy_file(folder + "/a.exr", folder + "/twin.exr");
   refused("\"a.exr\", \"twin.exr\"", "", "same picture");
   refused("\"other.exr\"", "", "another scene");
+  ASSERT_EQ(run_tool({"reference", folder + "/box.glb", "--camera", "left-view", "--width", "24", "--samples",
+                      "2", "-o", folder + "/left.exr"})
+                .code,
+            0);
+  refused("\"left.exr\"", "cameras = \"measured\"\n", "left-view");
   refused("\"a.exr\"", "layer = \"glossy\"\n", "glossy");
   // One that belongs is used: pictures are of its size.
   spill(folder + "/toy.toml",
