@@ -71,9 +71,9 @@ class HitLight {
   bool is_diffuse(std::uint32_t material) const;
 
   /// Sets radiance, distance_m, hit_normal and source of h from what its rays hit (distance_m infinite:
-  /// nothing), by one sample of the lamps at each hit (low-discrepancy over the hits) and `source`. Lamps'
-  /// own emission is left out: a record's direct light is computed apart. Random numbers depend on (seed,
-  /// item, pass, ray).
+  /// nothing), by samples of the lamps at each hit (LampSampler::samples(), low-discrepancy over the hits)
+  /// and `source`. Lamps' own emission is left out: a record's direct light is computed apart. Random numbers
+  /// depend on (seed, item, pass, ray).
   void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
              Hemisphere& h, Worker& worker) const;
 

@@ -37,21 +37,25 @@ struct RayName {
 };
 
 /// Point k of an additive sequence of three dimensions (R3), each shifted: low discrepancy over the rays of a
-/// hemisphere, so that together they see all of the lamps evenly.
+/// hemisphere, so that together they see all of the lamps evenly. Of several points to a ray, the first
+/// numbers, which choose the lamp, are stratified.
 class LampSequence {
  public:
-  explicit LampSequence(RandomStream random) : shift_{random.bits(), random.bits(), random.bits()} {}
-  std::array<float, 3> operator[](std::size_t k) const {
+  LampSequence(RandomStream random, std::uint32_t to_a_ray)
+      : shift_{random.bits(), random.bits(), random.bits()}, to_a_ray_(to_a_ray) {}
+  std::array<float, 3> point(std::size_t ray, std::uint32_t n) const {
+    const std::size_t k = ray * to_a_ray_ + n;
     constexpr std::uint32_t kStep[3] = {0xd1b54a32u, 0xabc98388u,
                                         0x8cb92ba7u};  // 2^32 / 1.2207440846^(d + 1)
     std::array<float, 3> u;
     for (unsigned d = 0; d < 3; ++d)
       u[d] = static_cast<float>((shift_[d] + static_cast<std::uint32_t>(k) * kStep[d]) >> 8) * 0x1p-24f;
+    if (to_a_ray_ > 1) u[0] = (static_cast<float>(n) + u[0]) / static_cast<float>(to_a_ray_);
     return u;
   }
 
  private:
-  std::uint32_t shift_[3];
+  std::uint32_t shift_[3], to_a_ray_;
 };
 
 /// What the light read along one ray adds to the noise of the hemisphere.
@@ -111,7 +115,7 @@ struct HitLight::Impl {
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
   static void note(const Rgb& f, const Rgb& lux, Worker& worker);
-  Rgb from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
+  Rgb from_diffuse(const SurfacePoint& point, const LampSequence& lamp_points, const RayName& ray,
                    Worker& worker) const;
   Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
 
@@ -167,19 +171,19 @@ Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
 }
 
 /// Light straight from a lamp that something may hide is left in worker.sights instead.
-Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const std::array<float, 3>& u, const RayName& ray,
-                                 Worker& worker) const {
+Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const LampSequence& lamp_points,
+                                 const RayName& ray, Worker& worker) const {
   const Rgb f = reflectance(point) * (1 / kPi);
   if (!positive(f)) return Rgb(0);
   Rgb sum(0);
   const bool cached = reads_cache(bounces);
-  if (!(cached && source.holds_direct)) {
+  const std::uint32_t samples = cached && source.holds_direct ? 0 : lamps.samples();
+  for (std::uint32_t n = 0; n < samples; ++n) {
     LampSight& sight = worker.sights[worker.sight_count];
-    lamps.sample(point, u, sight.light);
-    if (positive(sight.light.lux)) {
-      sight.brdf = f, sight.hit = ray.ray;
-      ++worker.sight_count;
-    }
+    lamps.sample(point, lamp_points.point(ray.ray, n), sight.light);
+    if (!positive(sight.light.lux)) continue;
+    sight.brdf = f / static_cast<float>(samples), sight.hit = ray.ray;
+    ++worker.sight_count;
   }
   if (cached) {
     const Rgb lux = cached_lx(point, ray.key(), worker);
@@ -349,8 +353,9 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
              pass);
   RandomStream random(impl_->seed, Stage::direct_light, item);
   random.start_bounce(1 + pass);
-  const LampSequence lamp_points(random);
-  if (worker.sights.size() < hits.size()) worker.sights.resize(hits.size());
+  const LampSequence lamp_points(random, impl_->lamps.samples());
+  const std::size_t most_sights = impl_->lamps.samples() * hits.size();
+  if (worker.sights.size() < most_sights) worker.sights.resize(most_sights);
   worker.sight_count = 0;
   h.source = {};
   h.source.common = impl_->source.common;
@@ -366,7 +371,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
     worker.read = {};
     h.radiance[i] = impl_->surface[point.material].diffuse
-                        ? impl_->from_diffuse(point, lamp_points[i], ray, worker)
+                        ? impl_->from_diffuse(point, lamp_points, ray, worker)
                         : impl_->from_any(point, -h.direction[i], ray, worker);
     if (impl_->source.photon_lm > 0 && worker.read.lux > 0)
       add_noise(worker.read, impl_->source, hits[i].distance_m,

@@ -1,6 +1,7 @@
 #include "cache/lamp_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cache/lamp_extent.h"
 #include "core/sampling.h"
@@ -12,6 +13,7 @@ namespace {
 
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
 constexpr double kMinimumShare = 0.1;
+constexpr long kMostSamples = 4;
 constexpr float kBelowOne = 0x1.fffffep-1f;
 /// An area light is near from this distance to its centre on, in radii of the sphere about it.
 constexpr float kNear = 1.5f;
@@ -22,11 +24,13 @@ constexpr float kRaysNear = 0.5f, kRaysAmongMany = 0.125f;
 
 LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {
   if (lights.size() == 0) return;
-  double sum = 0;
+  double sum = 0, entropy = 0;
   for (const double share : lights.power_shares(kMinimumShare)) {
     share_.push_back(static_cast<float>(share));
     cdf_.push_back(sum += share);
+    if (share > 0) entropy -= share * std::log(share);
   }
+  samples_ = static_cast<std::uint32_t>(std::clamp(std::lround(std::exp(entropy)), 1l, kMostSamples));
   for (std::size_t i = 0; i < lights.size(); ++i) {
     area_ = area_ || lights[i].kind == Light::Kind::area;
     panel_.push_back(panel_of(rays.scene(), lights[i]));

@@ -1,7 +1,8 @@
-// Light straight from the lamps where rays land: one sample of one lamp.
+// Light straight from the lamps where rays land: samples of one lamp each.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "scene/luminaires.h"
@@ -22,6 +23,11 @@ struct ArrivingLight {
 class LampSampler {
  public:
   LampSampler(const RayScene& rays, const Luminaires& lights);
+
+  /// How many samples at a place pay, their choices of a lamp stratified: about as many as there are lamps of
+  /// like power (the exponential of the entropy of their shares), and at most four. Which lamp is chosen is
+  /// most of the noise where there are several. 1 for one lamp, or none.
+  std::uint32_t samples() const { return samples_; }
 
   struct Choice {
     std::size_t light = 0;
@@ -82,6 +88,7 @@ class LampSampler {
   std::vector<float> share_;  // of power
   std::vector<double> cdf_;
   bool area_ = false;  // any is an area light
+  std::uint32_t samples_ = 1;
 };
 
 /// The ray that must be free for a light's sample to reach a point. t_max_m is not above 0 where the two are
