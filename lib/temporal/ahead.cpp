@@ -137,10 +137,10 @@ bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& 
   };
   for (std::size_t i = 0; i < w.ask.size(); ++i)
     w.ask[i] = std::isfinite(seen.hemisphere->distance_m[i]) && !known(i);
+  // Light that a ray found (near area lamps) has no way to look along again.
+  for (const LampSight& sight : seen.sights) w.ask[sight.hit] = w.ask[sight.hit] || sight.light.certain;
   bool any = false;
   for (const LampSight& sight : seen.sights) {
-    // Light that a ray found (near area lamps) has no way to look along again.
-    w.ask[sight.hit] = w.ask[sight.hit] || sight.light.certain;
     if (w.ask[sight.hit]) continue;
     const Ray& way = sight.light.ray;
     if (!movers.cross(way)) continue;
