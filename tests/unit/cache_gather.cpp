@@ -117,6 +117,28 @@ TEST(LampSampler, LeavesOutWhatLooksAway) {
   }
 }
 
+/// As many samples as there are lamps of like power; a weak one beside a strong one asks for none of its own.
+TEST(LampSampler, SamplesAboutAsManyAsLampsMatter) {
+  const auto samples = [](std::initializer_list<float> candela) {
+    Scene scene;
+    test::begin_instance(scene, "walls", test::add_lambert(scene, "grey", 0.5f));
+    test::add_room(scene, Vec3(0), Vec3(4, 3, 4));
+    float at = 0.5f;
+    for (const float cd : candela) test::add_point_light(scene, {at += 0.2f, 2, 1}, cd);
+    finalize(scene);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    return LampSampler(rays, lights).samples();
+  };
+  EXPECT_EQ(samples({}), 1u);
+  EXPECT_EQ(samples({100}), 1u);
+  EXPECT_EQ(samples({100, 100}), 2u);
+  EXPECT_EQ(samples({100, 30}), 2u);
+  EXPECT_EQ(samples({1e6f, 1}), 1u);
+  EXPECT_EQ(samples({100, 100, 100}), 3u);
+  EXPECT_EQ(samples({100, 100, 100, 100, 100, 100, 100, 100, 100, 100, 100, 100}), 4u);
+}
+
 /// Two hemispheres made by hand: means weigh rays, distances are harmonic or least.
 TEST(RecordOf, JoinsPasses) {
   Hemisphere a, b;
