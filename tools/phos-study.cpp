@@ -7,24 +7,20 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool(
-      "phos-study", "measures what settings cost and what error they leave",
-      "Runs the stages that a study file (TOML) names, with every combination of the values that it lists, "
-      "and judges "
-      "pictures and lux against a reference. Sections [photons], [brdf], [radiance], [irradiance], "
-      "[temporal], [splat] "
-      "and [sense] hold options of the programs of these names: a value, a list of values, or a range { from "
-      "= 0.05, to "
-      "= 0.4, steps = 4, scale = \"log\" }; [common] holds options of all. [study] has scenes, cameras, "
-      "seeds (or "
-      "repeats), sensors, layer, ignore_lamps, width, height, threads and confidence; [reference] has "
-      "options of "
-      "phos-reference, seeds (two, so that its noise can be taken out) and sensor_samples, or files and lux "
-      "made before. "
-      "Stages that settings share run once; finished ones are not run again, and an interrupted study goes "
-      "on where it "
-      "was. The folder gets results.csv, results.json, plots and index.html, a page that needs nothing else.",
-      1, Tool::Output::none);
+  Tool tool("phos-study", "measures what settings cost and what error they leave",
+            "Runs the stages that a study file (TOML) names, with every combination of the values that it "
+            "lists, and judges pictures and lux against a reference. "
+            "Sections [photons], [brdf], [radiance], [irradiance], [temporal], [splat] and [sense] hold "
+            "options of the programs of these names: a value, a list of values, or a range "
+            "{ from = 0.05, to = 0.4, steps = 4, scale = \"log\" }; [common] holds options of all; camera = "
+            "\"each\" before phos-splat is each camera of the study in turn. [study] has scenes, "
+            "cameras, seeds (or repeats), sensors, layer, ignore_lamps, width, height, threads and "
+            "confidence. [reference] has options of phos-reference, seeds (two, so that its noise can be "
+            "taken out) and sensor_samples; or files and lux made before, of several views as "
+            "[[reference.given]] with scene and camera. Stages that settings share run once; finished ones "
+            "are not run again, and an interrupted study goes on where it was. The folder gets results.csv, "
+            "results.json, plots and index.html, a page that needs nothing else.",
+            1, Tool::Output::none);
   StudyOptions study;
   Options& options = tool.options();
   options.input("STUDY", study.file, "study file (TOML)");

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "study/settings.h"
+#include "study/study_check.h"
 #include "study/study_tools.h"
 #include "study/study_values.h"
 #include "support/run.h"
@@ -189,6 +190,27 @@ TEST_F(StudyFiles, IsRead) {
             (std::vector<std::string>{"--camera", kEachCamera, "--min-photons", "20", "--isa", "sse2"}));
   EXPECT_TRUE(s.sections.contains("sense"));  // sensors are asked for
   EXPECT_EQ(s.reference, (std::vector<std::string>{"--samples", "8"}));
+}
+
+TEST_F(StudyFiles, ReferencesOfSeveralViews) {
+  for (const char* name : {"a.exr", "b.exr", "c.exr", "l.csv"}) test::spill(folder_ + "/" + name, "");
+  const std::string views =
+      kBox + "cameras = [\"x\", \"y\"]\nsensors = \"points.csv\"\n[irradiance]\n[splat]\n";
+  const StudyFile s = read(views +
+                           "[reference]\nlux = \"l.csv\"\n"
+                           "[[reference.given]]\ncamera = \"x\"\nfiles = [\"a.exr\", \"b.exr\"]\n"
+                           "[[reference.given]]\ncamera = \"y\"\nscene = \"box.glb\"\nfiles = \"c.exr\"\n");
+  const auto of = [&](const char* camera) {
+    return given(s, s.scenes[0], camera, &GivenReference::pictures);
+  };
+  EXPECT_EQ(of("x"), (std::vector<std::string>{folder_ + "/a.exr", folder_ + "/b.exr"}));
+  EXPECT_EQ(of("y"), std::vector<std::string>{folder_ + "/c.exr"});
+  EXPECT_EQ(given(s, s.scenes[0], "", &GivenReference::lux), std::vector<std::string>{folder_ + "/l.csv"});
+  wrong(views + "[reference]\nfiles = \"a.exr\"\n", "[[reference.given]]");
+  wrong(views + "[[reference.given]]\ncamera = \"z\"\nfiles = \"a.exr\"\n", "\"z\"");
+  wrong(views + "[[reference.given]]\nfile = \"a.exr\"\n", "did you mean \"files\"");
+  wrong(views + "[[reference.given]]\ncamera = \"x\"\nfiles = [\"a.exr\", \"b.exr\", \"c.exr\"]\n",
+        "two of different seeds");
 }
 
 TEST_F(StudyFiles, WrongOnesAreRefused) {
