@@ -1,0 +1,161 @@
+#include "study/pilot.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "file/atomic_file.h"
+#include "study/pilot_runs.h"
+
+namespace phos {
+namespace {
+
+// Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
+constexpr double kPhotons[] = {20000, 80000};
+constexpr double kAccuracy[] = {0.5, 0.25};
+constexpr double kRays[] = {64, 256, 128};
+constexpr double kCountRays = 32;  ///< of records that are made to be counted
+struct Samples {
+  double pixel, light, gloss;
+};
+constexpr Samples kSamples[] = {{1, 2, 16}, {4, 64, 4}, {32, 32, 32}};
+constexpr double kSensorRays[] = {4, 64};
+constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
+constexpr double kReferencePaths = 4096;  ///< and of a sensor
+constexpr double kMostSamples = 1 << 22;
+constexpr double kReferenceShare = 0.5;  ///< of the pilot's time, for references
+constexpr double kOwnDoubt = 0.1;        ///< relative, of any measured mean square: what the terms leave out
+
+Knobs knobs_of(double photons, double accuracy, double rays) {
+  Knobs k{};
+  k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = accuracy, k[at(Knob::rays)] = rays;
+  k[at(Knob::pixel_samples)] = k[at(Knob::light_rays)] = k[at(Knob::gloss_rays)] = k[at(Knob::sensor_rays)] =
+      1;
+  return k;
+}
+
+Knobs with(Knobs k, const Samples& s) {
+  k[at(Knob::pixel_samples)] = s.pixel, k[at(Knob::light_rays)] = s.light, k[at(Knob::gloss_rays)] = s.gloss;
+  return k;
+}
+
+Observation observed(const Knobs& knobs, double value, double sigma) {
+  return {knobs, value, std::hypot(sigma, kOwnDoubt * std::fabs(value)) + 1e-12};
+}
+
+void fit(PlanModel& model, const std::string& part, const std::vector<Observation>& rows,
+         std::uint64_t seed) {
+  model.find(part)->fit(rows, seed);
+}
+
+/// The pair of references that the rest is judged by: a first cheap one tells how noisy a better one has to
+/// be.
+void choose_references(PilotRuns& runs, bool lux, double target, double seconds, ReferenceCost& cost) {
+  double samples = lux ? kReferencePaths : kReferenceSamples;
+  ReferenceRun run = runs.references(lux, samples);
+  cost.variance = run.variance * samples;
+  const double per_place = run.seconds / samples / run.places;  // of one of the pair; its start is in it
+  cost.sample_s = per_place, cost.places = run.places;
+  const double wanted = cost.samples(target),
+               affordable = seconds / 2 / std::max(per_place * run.places, 1e-12);
+  const double better = std::floor(std::min({wanted, affordable, kMostSamples}));
+  if (better < 2 * samples) return;
+  run = runs.references(lux, better);
+  const double first = per_place * samples * run.places;
+  cost.sample_s = std::max(run.seconds - first, 0.1 * run.seconds) / (better - samples) / run.places;
+  cost.fixed_s = std::max(0.0, first - cost.sample_s * samples * run.places);
+  cost.variance = run.variance * better;
+}
+
+double resolution_of(const std::vector<Observation>& bias_rows) {
+  double least = HUGE_VAL;
+  for (const Observation& o : bias_rows) least = std::min(least, o.sigma);
+  return std::isfinite(least) ? std::sqrt(2 * least) : 0;
+}
+
+struct Rows {
+  std::vector<Observation> seen_noise, seen_bias, indirect_noise, indirect_bias;
+};
+
+void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_direct) {
+  rows.indirect_noise.push_back(observed(k, s.indirect.noise2, s.indirect.noise2_sigma));
+  rows.indirect_bias.push_back(observed(k, s.indirect.bias2, s.indirect.bias2_sigma));
+  if (!with_direct) return;
+  rows.seen_noise.push_back(observed(k, s.seen.noise2, s.seen.noise2_sigma));
+  // What edges do to both kinds of light goes together: the whole less the indirect part.
+  rows.seen_bias.push_back(
+      observed(k, s.whole.bias2 - s.indirect.bias2, std::hypot(s.whole.bias2_sigma, s.indirect.bias2_sigma)));
+}
+
+void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const char* direct) {
+  fit(model, text(direct, ", noise"), rows.seen_noise, seed + 1);
+  fit(model, text(direct, ", bias"), rows.seen_bias, seed + 2);
+  fit(model, "indirect light, noise", rows.indirect_noise, seed + 3);
+  fit(model, "indirect light, bias", rows.indirect_bias, seed + 4);
+}
+
+/// Records at two accuracies, counted.
+RecordCount counted(double a, double n, double finer, double more) {
+  RecordCount count{n, a, 0};
+  if (n > 0 && more > 0) count.power = std::clamp(std::log(more / n) / std::log(a / finer), 0.0, 2.5);
+  return count;
+}
+
+}  // namespace
+
+Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
+  const auto begun = std::chrono::steady_clock::now();
+  PilotRuns runs(task, options);
+  Pilot pilot;
+  pilot.time = time_model(task);
+  const int kinds = (task.image ? 1 : 0) + (task.lux ? 1 : 0);
+  for (const bool lux : {false, true}) {
+    if (!(lux ? task.lux : task.image)) continue;
+    choose_references(runs, lux, options.error / 2, kReferenceShare * options.seconds / kinds,
+                      lux ? pilot.lux_reference : pilot.image_reference);
+  }
+  if (task.lux) pilot.sensors = runs.sensors();
+
+  const Knobs caches[] = {knobs_of(kPhotons[0], kAccuracy[0], kRays[0]),
+                          knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
+                          knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+  Rows image, lux;
+  for (std::size_t c = 0; c < std::size(caches); ++c) {
+    runs.make_caches(caches[c]);
+    if (task.image) {
+      for (const Samples& s : kSamples)
+        if (c == 0)
+          add_rows(image, runs.sized(with(caches[c], s)), runs.pictures(with(caches[c], s), true), true);
+      const Knobs fine = with(caches[c], kSamples[2]);
+      if (c > 0) add_rows(image, runs.sized(fine), runs.pictures(fine, false), false);
+    }
+    if (!task.lux) continue;
+    for (const double rays : kSensorRays) {
+      Knobs k = caches[c];
+      k[at(Knob::sensor_rays)] = rays;
+      if (c == 0 || rays == kSensorRays[1]) add_rows(lux, k, runs.lux_tables(k), true);
+    }
+  }
+  const std::vector<double> counts =
+      runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]}, kCountRays);
+  pilot.records = counted(kAccuracy[0], counts[0], kAccuracy[1], counts[1]);
+  for (auto& [name, p] : pilot.time.part)
+    p.fit(runs.times(name.substr(0, name.find(','))), options.seed + 11);
+  if (task.image) {
+    pilot.image_error = image_error_model(task.gloss);
+    fit_errors(*pilot.image_error, image, options.seed + 20, "direct light and gloss");
+    pilot.image_resolution = resolution_of(image.indirect_bias);
+    pilot.image_reference.places = static_cast<double>(task.width * task.height);
+  }
+  if (task.lux) {
+    pilot.lux_error = lux_error_model();
+    fit_errors(*pilot.lux_error, lux, options.seed + 30, "direct light");
+    pilot.lux_resolution = resolution_of(lux.indirect_bias);
+    pilot.lux_reference.places = static_cast<double>(std::min(pilot.sensors, kPilotSensors));
+  }
+  pilot.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return pilot;
+}
+
+}  // namespace phos

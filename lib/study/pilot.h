@@ -1,0 +1,78 @@
+// A few seconds of small runs that tell what a scene's pipeline costs and how wrong it is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/plan_model.h"
+#include "study/plan_task.h"
+
+namespace phos {
+
+/// How many records lie where they are wanted, by their accuracy: count x (a / accuracy)^-power.
+struct RecordCount {
+  double count = 0, accuracy = 1, power = 0;
+  double at(double a) const;
+};
+
+/// What a reference takes, and how noisy it is.
+struct ReferenceCost {
+  double fixed_s = 0, sample_s = 0;  ///< of a run; of each sample of each place
+  /// Of one sample, relative to the mean squared; root of its mean square over places, so that a few that are
+  /// much noisier than the rest count as they should.
+  double variance = 0;
+  double places = 0;  ///< pixels or sensors of the whole result
+
+  double seconds(double samples) const { return fixed_s + sample_s * samples * places; }
+  /// The least relative error that two of them, of so many samples, tell from none: what the noise of both
+  /// feigns at two standard deviations (see measure_picture()).
+  double resolution(double samples) const;
+  /// Samples for a resolution.
+  double samples(double resolution) const;
+};
+
+/// Figures hold for the whole task, on this machine.
+struct Pilot {
+  PlanModel time;                                   ///< s, of the pipeline
+  std::optional<PlanModel> image_error, lux_error;  ///< mean square, relative
+  RecordCount records;                              ///< all that the pipeline makes
+  ReferenceCost image_reference, lux_reference;
+  std::optional<double> image_resolution, lux_resolution;  ///< what the pilot's own references tell from none
+  double seconds = 0;                                      ///< that it took
+  std::size_t sensors = 0;
+};
+
+struct PilotOptions {
+  double seconds = 10;  ///< it may take, about
+  double error =
+      0.02;  ///< that will be asked for; the references are made to tell half of it, time permitting
+  std::uint64_t seed = 0;
+  std::vector<std::string> common;  ///< words for every program: "--threads", "2"
+  std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
+};
+
+/// Runs the pipeline twice each at three settings of photons and records and three of the picture's samples,
+/// at a size of at most kPilotPixels and for at most kPilotSensors sensors, and fits models to what comes
+/// out. Throws Error(bad_input) where nothing that is looked at is lit, or a program fails.
+Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
+inline constexpr double kPilotPixels = 4800;
+inline constexpr std::size_t kPilotSensors = 64;
+
+/// Terms of the models.
+PlanModel image_error_model(bool specular);
+PlanModel lux_error_model();
+PlanModel time_model(const PlanTask& task);
+
+/// At most `most` rows of a table, evenly from first to last, of those columns alone (of numbers: nothing is
+/// quoted).
+std::string thinned_rows(const std::string& csv, const std::string& where,
+                         const std::vector<std::string>& columns, std::size_t most,
+                         std::size_t* rows = nullptr);
+/// Columns of a table of sensors: what phos-reference reads, and what is measured.
+inline const std::vector<std::string> kSensorColumns{"x", "y", "z", "nx", "ny", "nz"};
+inline const std::vector<std::string> kLuxColumns{"x", "y", "z", "E_lx", "stderr_lx"};
+
+}  // namespace phos

@@ -1,0 +1,102 @@
+// The terms of a pilot's models, and figures that follow from them.
+#include <algorithm>
+#include <cmath>
+
+#include "file/csv.h"
+#include "study/pilot.h"
+
+namespace phos {
+namespace {
+
+using K = Knob;
+
+Posynomial sum_of(std::vector<Monomial> terms) { return Posynomial(std::move(terms)); }
+
+}  // namespace
+
+double RecordCount::at(double a) const { return count * std::pow(a / accuracy, -power); }
+
+double ReferenceCost::resolution(double samples) const {
+  // Two references of variance v each: the mean over n places of the product of their errors deviates by v /
+  // sqrt(n).
+  return std::sqrt(2 * variance / samples / std::sqrt(std::max(places, 1.0)));
+}
+
+double ReferenceCost::samples(double resolution) const {
+  return 2 * variance / (resolution * resolution) / std::sqrt(std::max(places, 1.0));
+}
+
+PlanModel image_error_model(bool specular) {
+  std::vector<Monomial> seen = {{"noise of shadow rays", {{K::light_rays, -1}}},
+                                {"noise of shadow rays, slow part", {{K::light_rays, -0.5}}}};
+  if (specular) {
+    seen.push_back({"noise of gloss rays", {{K::gloss_rays, -1}}});
+    seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
+  }
+  const Monomial edges{"edges and textures within pixels", {{K::pixel_samples, -1}, {K::pixels, -0.5}}};
+  std::vector<Monomial> seen_bias = {edges};
+  if (specular) seen_bias.push_back({"what no setting mends", {}});  // rays that end in the cache
+  return {{{"direct light and gloss, noise", sum_of(seen)},
+           {"direct light and gloss, bias", sum_of(seen_bias)},
+           {"indirect light, noise", sum_of({{"noise of gathered rays", {{K::accuracy, 1}, {K::rays, -1}}},
+                                             {"noise of photons", {{K::photons, -1}}}})},
+           {"indirect light, bias", sum_of({edges,
+                                            {"interpolation between records", {{K::accuracy, 2}}},
+                                            {"what no setting mends", {}}})}}};
+}
+
+PlanModel lux_error_model() {
+  return {{{"direct light, noise", sum_of({{"noise of shadow rays", {{K::sensor_rays, -1}}}})},
+           {"direct light, bias", sum_of({{"what no setting mends", {}}})},
+           {"indirect light, noise",
+            sum_of({{"noise of gathered rays", {{K::rays, -1}}}, {"noise of photons", {{K::photons, -1}}}})},
+           {"indirect light, bias",
+            sum_of({{"interpolation between records", {{K::accuracy, 2}}}, {"what no setting mends", {}}})}}};
+}
+
+PlanModel time_model(const PlanTask& task) {
+  PlanModel model;
+  model.part = {
+      {"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
+      {"coarse records",
+       sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}, {"photons", {{K::photons, 1}}}})},
+      {"records", sum_of({{"start", {}},
+                          {"places", {{K::pixels, 1}}},
+                          {"records", {{K::records, 1}}},
+                          {"their rays", {{K::records, 1}, {K::rays, 1}}}})}};
+  if (task.image) {
+    std::vector<Monomial> terms = {{"start", {}},
+                                   {"pixels", {{K::pixels, 1}}},
+                                   {"pixel samples", {{K::pixels, 1}, {K::pixel_samples, 1}}},
+                                   {"shadow rays", {{K::pixels, 1}, {K::light_rays, 1}}}};
+    if (task.gloss) terms.push_back({"gloss rays", {{K::pixels, 1}, {K::gloss_rays, 1}}});
+    model.part.emplace_back("picture", sum_of(terms));
+  }
+  if (task.image && task.lux)  // made anew when records for the sensors are added
+    model.part.emplace_back("coarse records, again", *std::as_const(model).find("coarse records"));
+  if (task.lux)
+    model.part.emplace_back("lux", sum_of({{"start", {}}, {"shadow rays", {{K::sensor_rays, 1}}}}));
+  return model;
+}
+
+std::string thinned_rows(const std::string& csv, const std::string& where,
+                         const std::vector<std::string>& columns, std::size_t most, std::size_t* rows) {
+  const CsvTable table = parse_csv(csv, where);
+  std::vector<std::size_t> kept;
+  std::string out;
+  for (const std::string& name : columns) {
+    kept.push_back(table.column(name, where));
+    out.append(out.empty() ? "" : ",").append(name);
+  }
+  out += '\n';
+  const std::size_t n = table.rows.size(), count = std::min(n, most);
+  if (rows) *rows = n;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<std::string>& row = table.rows[count > 1 ? i * (n - 1) / (count - 1) : 0];
+    for (std::size_t c = 0; c < kept.size(); ++c) out.append(c > 0 ? "," : "").append(row[kept[c]]);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace phos

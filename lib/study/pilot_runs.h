@@ -1,0 +1,82 @@
+// The runs of a pilot: files in a folder that goes with it, times, and what two of a kind tell.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/command.h"
+#include "study/pilot.h"
+#include "study/plan_separate.h"
+
+namespace phos {
+
+/// A folder that goes with it, with all that is in it.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+struct ReferenceRun {
+  double seconds = 0;   ///< of one of the pair
+  double places = 0;    ///< pixels, sensors
+  double variance = 0;  ///< of one, as ReferenceCost has it
+};
+
+/// Relative to the mean of the whole.
+struct SeparatedLayers {
+  Separated whole, seen, indirect;  ///< seen: all but indirect light
+};
+
+class PilotRuns {
+ public:
+  PilotRuns(const PlanTask& task, const PilotOptions& options);
+
+  /// Makes a pair; the last pair judges. Throws Error(bad_input) where everything is dark.
+  ReferenceRun references(bool lux, double samples);
+  /// Photons and records, twice.
+  void make_caches(const Knobs& knobs);
+  /// Two pictures of those caches; `direct`: with all light, else indirect light alone.
+  SeparatedLayers pictures(const Knobs& knobs, bool direct);
+  SeparatedLayers lux_tables(const Knobs& knobs);
+  /// Records that the whole task takes, at each accuracy.
+  std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
+
+  /// The knobs with the pilot's own number of pixels.
+  Knobs sized(Knobs knobs) const;
+  /// What was measured of a part of the time model.
+  const std::vector<Observation>& times(const std::string& part) { return times_[part]; }
+  std::size_t sensors() const { return sensors_; }
+
+ private:
+  /// Every program is run here.
+  CommandRun require(const Command& command) const;
+  CommandRun timed(const std::string& part, const Knobs& knobs, const Command& command);
+  double records_run(const Knobs& knobs, const Command& command);
+  std::string name(const char* kind, std::size_t which) const;
+  void set_out_sensors();
+  std::vector<double> lux_of(const std::string& path, const char* column) const;
+
+  const PlanTask task_;
+  PlanTask small_;
+  PilotOptions options_;
+  CommandRunner runner_;
+  ScratchFolder folder_;
+  std::map<std::string, std::vector<Observation>> times_;
+  std::map<double, bool> traced_;  ///< photons that are there
+  Knobs made_{};                   ///< of the caches
+  Image reference_[2];
+  std::vector<double> lux_reference_[2];
+  double image_mean_ = 0, lux_mean_ = 0;
+  std::size_t sensors_ = 0;
+};
+
+}  // namespace phos

@@ -1,0 +1,186 @@
+#include "study/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace phos {
+namespace {
+
+/// What the terms leave out, relative standard deviation: of a mean square, and of a time.
+constexpr double kErrorDoubt = 0.2, kTimeDoubt = 0.15;
+constexpr double kOtherErrors[] = {0.2, 0.1, 0.05, 0.02, 0.01};
+
+std::vector<double> doubling(double first, double last) {
+  std::vector<double> out;
+  for (double v = first; v <= last * 1.001; v *= 2) out.push_back(v);
+  return out;
+}
+
+std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
+  std::vector<KnobGroup> groups;
+  groups.push_back({{Knob::photons}, {doubling(5000, 1e8)}});
+  KnobGroup records{{Knob::accuracy, Knob::rays},
+                    {{0.8, 0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(16, 16384)}};
+  records.derived = {Knob::records};
+  records.derive = [count = pilot.records](Knobs& k) {
+    k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
+  };
+  groups.push_back(records);
+  if (task.image) {
+    KnobGroup picture{
+        {Knob::pixel_samples, Knob::light_rays, Knob::gloss_rays},
+        {doubling(1, 1024), doubling(1, 4096), task.gloss ? doubling(1, 4096) : std::vector<double>{1}}};
+    // Each sample of a pixel sends at least one ray of a kind.
+    picture.allowed = [gloss = task.gloss](const Knobs& k) {
+      const double s = k[at(Knob::pixel_samples)];
+      return k[at(Knob::light_rays)] >= s && (!gloss || k[at(Knob::gloss_rays)] >= s);
+    };
+    groups.push_back(picture);
+  }
+  if (task.lux) groups.push_back({{Knob::sensor_rays}, {doubling(4, 65536)}});
+  return groups;
+}
+
+Interval root(Interval squared) {
+  return {std::sqrt(squared.low), std::sqrt(squared.value), std::sqrt(squared.high)};
+}
+
+double largest(const Prediction& p, double Interval::*part) {
+  return std::max(p.image ? (*p.image).*part : 0.0, p.lux ? (*p.lux).*part : 0.0);
+}
+
+/// The front is by mean squares of best guesses: of those that may do, each is predicted with its interval.
+template <class Good>
+std::optional<Prediction> first_that(const PlanTask& task, const Pilot& pilot,
+                                     const std::vector<PlanPoint>& front, double error, const Good& good) {
+  for (const PlanPoint& point : front) {
+    if (std::any_of(point.error.begin(), point.error.end(), [&](double e) { return e > error * error; }))
+      continue;
+    const Prediction p = predict(task, pilot, point.knobs);
+    if (good(p)) return p;
+  }
+  return {};
+}
+
+Prediction within(const PlanTask& task, const Pilot& pilot, const std::vector<PlanPoint>& front,
+                  double seconds) {
+  std::optional<Prediction> best;
+  for (const PlanPoint& point : front) {
+    if (point.cost > seconds) break;
+    const Prediction p = predict(task, pilot, point.knobs);
+    if (p.seconds.high <= seconds && (!best || p.error() < best->error())) best = p;
+  }
+  if (best) return *best;
+  const Prediction least = predict(task, pilot, front.front().knobs);
+  throw Error(ExitCode::usage, "--seconds",
+              text("no settings keep within ", duration(seconds), ": the cheapest take ",
+                   duration(least.seconds.value), " (at most ", duration(least.seconds.high),
+                   "); give more, or a smaller picture"));
+}
+
+}  // namespace
+
+double Prediction::error() const { return largest(*this, &Interval::value); }
+double Prediction::error_high() const { return largest(*this, &Interval::high); }
+double Prediction::error_low() const { return largest(*this, &Interval::low); }
+
+std::string percent(double share) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, 100 * share < 9.95 ? "%.2g %%" : "%.0f %%", 100 * share);
+  return buffer;
+}
+
+std::string duration(double seconds) {
+  char buffer[48];
+  if (seconds < 9.95)
+    std::snprintf(buffer, sizeof buffer, "%.2g s", seconds);
+  else if (seconds < 119.5)
+    std::snprintf(buffer, sizeof buffer, "%.0f s", seconds);
+  else
+    std::snprintf(buffer, sizeof buffer, "%.0f min %02d s", std::floor(std::round(seconds) / 60),
+                  static_cast<int>(std::fmod(std::round(seconds), 60)));
+  return buffer;
+}
+
+std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot) {
+  Knobs fixed{};
+  fixed.fill(1);
+  if (task.image) fixed[at(Knob::pixels)] = static_cast<double>(task.width * task.height);
+  std::vector<const PlanModel*> errors;
+  if (task.image) errors.push_back(&*pilot.image_error);
+  if (task.lux) errors.push_back(&*pilot.lux_error);
+  return plan_front(groups_of(task, pilot), fixed, pilot.time, errors);
+}
+
+Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs) {
+  Prediction p;
+  p.knobs = knobs;
+  p.seconds = pilot.time.predict(knobs, kTimeDoubt);
+  if (task.image) p.image = root(pilot.image_error->predict(knobs, kErrorDoubt));
+  if (task.lux) p.lux = root(pilot.lux_error->predict(knobs, kErrorDoubt));
+  return p;
+}
+
+std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
+                                   const std::vector<PlanPoint>& front, double error, bool* wide) {
+  if (wide) *wide = false;
+  std::optional<Prediction> found =
+      first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_high() <= error; });
+  // Sure to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
+  constexpr double kDearest = 8;
+  const std::optional<Prediction> guess =
+      first_that(task, pilot, front, kMargin * error, [](const Prediction&) { return true; });
+  if (guess && (!found || found->seconds.value > kDearest * guess->seconds.value)) {
+    found = guess;
+    if (wide) *wide = true;
+  }
+  return found;
+}
+
+Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
+  PHOS_CHECK(goal.error || goal.seconds, "no goal");
+  const std::vector<PlanPoint> front = front_of(task, pilot);
+  Plan plan;
+  if (goal.error) {
+    bool wide = false;
+    const std::optional<Prediction> found = cheapest(task, pilot, front, *goal.error, &wide);
+    if (!found) {
+      const Prediction least = predict(task, pilot, front.back().knobs);
+      throw Error(
+          ExitCode::usage, "--error",
+          text(percent(*goal.error), " is out of reach of photons and records here: the least is about ",
+               percent(least.error()), " (", percent(least.error_low()), " to ", percent(least.error_high()),
+               "), after ", duration(least.seconds.value), "; ask for more, or use phos-reference --error"));
+    }
+    plan.chosen = *found;
+    if (wide)
+      plan.warnings.push_back(text("the pilot cannot be sure of ", percent(*goal.error),
+                                   ": the prediction reaches up to ", percent(plan.chosen.error_high()),
+                                   "; phos-plan --run measures and corrects, a longer --pilot narrows it"));
+    if (goal.seconds && plan.chosen.seconds.value > *goal.seconds) {
+      const Prediction other = within(task, pilot, front, *goal.seconds);
+      throw Error(
+          ExitCode::usage, "--seconds",
+          text(percent(*goal.error), " takes about ", duration(plan.chosen.seconds.value), ", not ",
+               duration(*goal.seconds), "; in that time the error is about ", percent(other.error())));
+    }
+  } else {
+    plan.chosen = within(task, pilot, front, *goal.seconds);
+  }
+  const double asked = goal.error.value_or(plan.chosen.error());
+  for (const auto& [resolution, name] :
+       {std::pair{pilot.image_resolution, "picture"}, {pilot.lux_resolution, "lux"}})
+    if (resolution && *resolution > asked)
+      plan.warnings.push_back(text("the pilot's references of the ", name, " tell no error below ",
+                                   percent(*resolution), " from none, and ", percent(asked),
+                                   goal.error ? " is asked for" : " is predicted",
+                                   "; a longer --pilot makes better ones"));
+  for (const double other : kOtherErrors)
+    plan.others.emplace_back(other, cheapest(task, pilot, front, other));
+  return plan;
+}
+
+}  // namespace phos

@@ -1,0 +1,59 @@
+// The settings that meet what is asked, by the models of a pilot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/pilot.h"
+#include "study/plan_choose.h"
+#include "study/plan_task.h"
+#include "study/requirements.h"
+
+namespace phos {
+
+/// At least one of them.
+struct PlanGoal {
+  std::optional<double> error;    ///< relative, at most
+  std::optional<double> seconds;  ///< of the pipeline, at most
+};
+
+struct Prediction {
+  Knobs knobs{};
+  Interval seconds;
+  std::optional<Interval> image, lux;  ///< relative error
+  /// The larger of the errors, best guess.
+  double error() const;
+  double error_high() const;
+  double error_low() const;
+};
+
+struct Plan {
+  Prediction chosen;
+  std::vector<std::pair<double, std::optional<Prediction>>>
+      others;  ///< the cheapest for other errors; none: out of reach
+  std::vector<std::string> warnings;
+};
+
+/// The choices that no other beats, cheapest first.
+std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot);
+Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs);
+
+/// With an error asked for: the cheapest settings of which all but one draw in twenty of the pilot's
+/// measurements say that they meet it; where there are none because the pilot cannot tell so little, the
+/// cheapest that meet kMargin of it by the best guess, and a warning. With seconds: the least error whose
+/// time, likewise, is within them. Throws Error(usage) where no settings reach the error or keep the time,
+/// naming what can be had.
+Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal);
+inline constexpr double kMargin = 0.8;
+
+/// The same for an error alone; nothing if it is out of reach. `wide`: set where kMargin had to do.
+std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
+                                   const std::vector<PlanPoint>& front, double error, bool* wide = nullptr);
+
+/// "4.2 %"
+std::string percent(double share);
+/// "12 s", "1 min 20 s"
+std::string duration(double seconds);
+
+}  // namespace phos

@@ -1,0 +1,32 @@
+// Coefficients of a sum of known terms, none of them negative, from few measurements.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace phos {
+
+/// One measurement: value = sum over terms of coefficient x term, within `sigma` (one standard deviation).
+struct FitRow {
+  std::vector<double> term;
+  double value = 0, sigma = 1;
+};
+
+/// The coefficients, none below 0, of the least sum of squared deviations in units of sigma: every set of
+/// terms is tried and the best that needs no negative one is taken, so at most kMaxTerms. A term that no row
+/// tells from the others is 0. All rows must have as many terms.
+std::vector<double> fit_nonnegative(std::span<const FitRow> rows);
+inline constexpr std::size_t kMaxTerms = 10;
+
+/// The best fit, and what other draws of the same measurements would have given: each value moved by a normal
+/// deviate of its sigma, and fitted anew. `misfit` widens every sigma where the terms do not describe the
+/// rows: root of chi^2 per degree of freedom, at least 1.
+struct Fit {
+  std::vector<double> best;
+  std::vector<std::vector<double>> draws;
+  double misfit = 1;
+};
+Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_t seed);
+
+}  // namespace phos

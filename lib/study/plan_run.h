@@ -1,0 +1,56 @@
+// A plan carried out, measured, and corrected until it is met.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/measure.h"
+#include "study/plan.h"
+
+namespace phos {
+
+struct PlanRunOptions {
+  std::string folder;  ///< where the files go
+  std::uint64_t seed = 0;
+  std::vector<std::string> common;  ///< words for every program
+  double reference_seconds =
+      0;  ///< that the two references may take; 0: as long as the pipeline, but kReferenceSeconds at least
+  int rounds = 5;  ///< at most
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+};
+inline constexpr double kReferenceSeconds = 10;
+
+struct PlanRound {
+  Prediction predicted;
+  double seconds = 0;  ///< that the pipeline took, without what an earlier round had left
+  std::optional<MeasuredError> image, lux;
+  double indirect =
+      0;  ///< mean square root of the picture's indirect light's error, over the mean of the whole
+  double error() const;       ///< the larger one
+  double resolution() const;  ///< the larger of what the references tell from none
+};
+
+struct PlanReport {
+  std::vector<PlanRound> rounds;
+  double pipeline_s = 0, reference_s = 0;
+  double resolution = 0;  ///< the least error that the references tell from none
+  bool met = false;
+  std::string verdict;  ///< in a line
+};
+
+/// Makes two references (their time is stated apart), then runs the pipeline of `plan` in the folder. Where
+/// its error is more than was asked for, the parts of the pilot's model are scaled to what was measured, and
+/// the settings chosen anew, until the error is met, the seconds of the goal are spent, or nothing better can
+/// be had. The files of the last round stay.
+PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
+                    const PlanRunOptions& options);
+
+/// What a measurement says of the model: its parts of direct light and of indirect light are scaled to the
+/// mean squares found, both relative. Factors stay between a tenth and ten.
+void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2);
+
+Json to_json(const PlanReport& report);
+
+}  // namespace phos

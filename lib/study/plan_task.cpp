@@ -1,0 +1,136 @@
+#include "study/plan_task.h"
+
+#include <cmath>
+
+namespace phos {
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
+
+Words of_scene(const PlanTask& task, const std::string& scene) {
+  Words words{scene};
+  add(words, task.scene_words);
+  return words;
+}
+
+Words view(const PlanTask& task) {
+  Words words;
+  if (!task.camera.empty()) words = {"--camera", task.camera};
+  add(words, {"--width", std::to_string(task.width), "--height", std::to_string(task.height)});
+  return words;
+}
+
+Words gathered(const Knobs& k) {
+  return {
+      "--estimate", "gather", "--accuracy", knob_word(k, Knob::accuracy), "--rays", knob_word(k, Knob::rays)};
+}
+
+}  // namespace
+
+std::string knob_word(const Knobs& knobs, Knob knob) {
+  const double v = knobs[at(knob)];
+  return knob == Knob::accuracy ? shortest(v) : std::to_string(std::llround(v));
+}
+
+Command seeded(Command command, std::uint64_t seed) {
+  if (seed != 0) add(command.arguments, {"--seed", std::to_string(seed)});
+  return command;
+}
+
+Command photons_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {"--photons", knob_word(knobs, Knob::photons)});
+  return {"phos-photons", words, out};
+}
+
+Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                             const std::string& photons, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {photons, "--place", "view"});
+  add(words, view(task));
+  add(words, gathered(knobs));
+  return {"phos-irradiance", words, out};
+}
+
+Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                               const std::string& photons, const std::string& points,
+                               const std::string& add_to, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {photons, "--at", points, "--place", "given"});
+  if (add_to.empty())
+    add(words, gathered(knobs));  // else they are those of the file
+  else
+    add(words, {"--add-to", add_to});
+  return {"phos-irradiance", words, out};
+}
+
+Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& cache, const std::string& out) {
+  Words words = of_scene(task, scene);
+  words.push_back(cache);
+  add(words, view(task));
+  add(words, {"--pixel-samples", knob_word(knobs, Knob::pixel_samples), "--light-samples",
+              knob_word(knobs, Knob::light_rays)});
+  if (task.gloss) add(words, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
+  return {"phos-splat", words, out};
+}
+
+Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                      const std::string& cache, const std::string& points, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {cache, "--points", points, "--light-samples", knob_word(knobs, Knob::sensor_rays)});
+  return {"phos-sense", words, out};
+}
+
+Command points_command(const PlanTask& task, const std::string& scene, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {"--direct-only", "--light-samples", "1"});
+  add(words, task.grid);
+  return {"phos-sense", words, out};
+}
+
+Command reference_picture_command(const PlanTask& task, std::int64_t samples, const std::string& out) {
+  Words words = of_scene(task, task.scene);
+  add(words, view(task));
+  add(words, {"--samples", std::to_string(samples)});
+  return {"phos-reference", words, out};
+}
+
+Command reference_points_command(const PlanTask& task, std::int64_t samples, const std::string& points,
+                                 const std::string& out) {
+  Words words = of_scene(task, task.scene);
+  add(words, {"--points", points, "--samples", std::to_string(samples)});
+  return {"phos-reference", words, out};
+}
+
+std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                   const std::string& folder, std::uint64_t seed) {
+  const auto file = [&](const char* name) { return folder + "/" + name; };
+  std::vector<PlanStage> stages;
+  const auto stage = [&](const char* name, const char* what, Command command) {
+    stages.push_back({name, what, seeded(std::move(command), seed)});
+  };
+  const std::string photons = file(kPlanPhotons), records = file(kPlanRecords);
+  const std::string points = task.grid.empty() ? task.points : file(kPlanPoints);
+  if (task.lux && !task.grid.empty())
+    stage("sensors", "where the sensors are", points_command(task, scene, points));
+  stage("photons", "light from the lamps, and a tree over it", photons_command(task, knobs, scene, photons));
+  if (task.image)
+    stage("records", "indirect light where the camera looks, by rays that read a coarse cache of the photons",
+          view_records_command(task, knobs, scene, photons, records));
+  if (task.lux)
+    stage(task.image ? "sensor records" : "records", "indirect light where the sensors are",
+          sensor_records_command(task, knobs, scene, photons, points, task.image ? records : "", records));
+  if (task.image)
+    stage("picture", "records drawn, direct light and what mirrors and gloss show by rays",
+          picture_command(task, knobs, scene, records, file(kPlanPicture)));
+  if (task.lux)
+    stage("lux", "direct light by rays, indirect light from the records",
+          sense_command(task, knobs, scene, records, points, file(kPlanLux)));
+  return stages;
+}
+
+}  // namespace phos

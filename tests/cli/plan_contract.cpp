@@ -1,0 +1,151 @@
+// phos-plan as a user meets it: what it refuses, what it prints, that its scripts run, and that runs are
+// judged.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "file/json_parse.h"
+#include "image/image.h"
+#include "support/refused.h"
+#include "support/script.h"
+
+namespace {
+
+using namespace phos;
+using namespace phos::test;
+
+const std::string kBox = data("cornell-empty.glb");
+const std::vector<std::string> kSmall{"--width", "32", "--height", "32", "--pilot", "0.5"};
+
+std::vector<std::string> plan_of(std::vector<std::string> more, const std::string& scene = kBox) {
+  std::vector<std::string> words{"plan", scene};
+  words.insert(words.end(), kSmall.begin(), kSmall.end());
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(PlanTool, HelpSaysWhatErrorMeans) {
+  const auto help = run_tool({"plan", "--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* word : {"--error", "--seconds", "--quantity", "--sensors", "--grid", "--run", "--json",
+                           "--sh", "root mean square error", "130"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(run_tool({"plan", "--version"}).code, 0);
+}
+
+TEST(PlanTool, RefusesBadCommandLines) {
+  EXPECT_EQ(run_tool({"plan"}).code, 2);
+  expect_refused("plan", {kBox}, 2, "--error 5%");
+  for (const char* none : {"0", "-5%", "200%", "five", "5%%", "nan", ""})
+    expect_refused("plan", {kBox, "--error", none}, 2, "--error");
+  expect_refused("plan", {kBox, "--seconds", "-1"}, 2, "seconds");
+  expect_refused("plan", {kBox, "--error", "5%", "--run"}, 2, "-o");
+  expect_refused("plan", {kBox, "--error", "5%", "--sh", "--json"}, 2, "--sh");
+  expect_refused("plan", {kBox, "--error", "5%", "--rounds", "2"}, 2, "--run");
+  expect_refused("plan", {kBox, "--error", "5%", "--quantity", "lux"}, 2, "--sensors");
+  expect_refused("plan", {kBox, "--error", "5%", "--grid", "0.1"}, 2, "--quantity");
+  expect_refused("plan", {kBox, "--error", "5%", "--quantity", "lux", "--grid", "0.1"}, 2, "--workplane");
+  expect_refused(
+      "plan",
+      {kBox, "--error", "5%", "--quantity", "lux", "--grid", "0.1", "--workplane", "0.1", "--width", "9"}, 2,
+      "--width");
+  expect_refused("plan", {kBox, "--error", "5%", "--camera", "nobody"}, 2, "nobody");
+  expect_refused("plan", {"nowhere.glb", "--error", "5%"}, 3, "nowhere.glb");
+}
+
+TEST(PlanTool, WhatCannotBeHadIsALine) {
+  const std::string folder = scratch("plan-dark");
+  spill(folder + "/dark.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  expect_refused("plan", {folder + "/dark.obj", "--error", "5%"}, 3, "has no light");
+  for (const auto& [goal, word] : {std::pair{std::pair{"--seconds", "0.001"}, "--seconds"},
+                                   {std::pair{"--error", "0.001%"}, "out of reach"}}) {
+    const auto run = run_tool(plan_of({goal.first, goal.second, "--quiet"}));
+    EXPECT_EQ(run.code, 2) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  }
+}
+
+TEST(PlanTool, ItsScriptMakesThePicture) {
+  const std::string folder = scratch("plan-script");
+  const auto plan = run_tool(plan_of({"--error", "20%"}));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  for (const char* part : {"#!/usr/bin/env bash", "# Asked for: image of 32 x 32, error at most 20 %",
+                           "# Predicted:", "global photons", "temporal data: nothing moves", "phos-photons",
+                           "phos-irradiance", "phos-splat"})
+    EXPECT_NE(plan.out.find(part), std::string::npos) << part << plan.out;
+  spill(folder + "/plan.sh", plan.out);
+  const auto run = run_shell({"bash", folder + "/plan.sh", "made"}, folder);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Image image = read_image(folder + "/made/image.exr");
+  EXPECT_EQ(image.width(), 32);
+  float light = 0;
+  for (const float v : image.channel("indirect.G")) {
+    ASSERT_TRUE(std::isfinite(v));
+    light = std::max(light, v);
+  }
+  EXPECT_GT(light, 0);
+}
+
+TEST(PlanTool, JsonForPrograms) {
+  const auto plan = run_tool(plan_of({"--seconds", "5", "--json"}));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  const Json j = parse_json(plan.out, "plan");
+  const Json& chosen = *j.find("plan");
+  EXPECT_GT(chosen.find("settings")->find("photons")->as_number(), 0);
+  EXPECT_LE(chosen.find("seconds")->find("high")->as_number(), 5);
+  const Json& error = *chosen.find("image_error");
+  EXPECT_LE(error.find("low")->as_number(), error.find("value")->as_number());
+  EXPECT_LE(error.find("value")->as_number(), error.find("high")->as_number());
+  EXPECT_EQ(j.find("stages")->as_array().size(), 3u);
+  EXPECT_EQ(j.find("asked")->find("seconds")->as_number(), 5);
+}
+
+TEST(PlanTool, ARunIsMeasuredAndJudged) {
+  const std::string folder = scratch("plan-run");
+  std::vector<std::string> words =
+      plan_of({"--error", "25%", "--run", "-o", folder + "/out", "--reference-seconds", "1"});
+  const auto run = run_tool(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("met: error"), std::string::npos) << run.err;
+  const Json j = parse_json(slurp(folder + "/out/plan.json"), "plan.json");
+  const Json& report = *j.find("run");
+  EXPECT_TRUE(report.find("met")->as_bool());
+  EXPECT_LE(report.find("rounds")->as_array().back().find("error")->as_number(), 0.25);
+  EXPECT_GT(report.find("reference_s")->as_number(), 0);
+  // The tool that compares says the same.
+  const std::string out = folder + "/out/";
+  const auto compared =
+      run_tool({"compare", out + "image.exr", out + "reference-0.exr", "--second-reference",
+                out + "reference-1.exr", "--ignore-emission", "--layer", "beauty", "--json"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  const double measured = report.find("rounds")->as_array().back().find("error")->as_number();
+  const std::string key = "\"relative_converged_rmse\": ";
+  const std::size_t start = compared.out.find(key);
+  ASSERT_NE(start, std::string::npos) << compared.out;
+  EXPECT_NEAR(std::strtod(compared.out.c_str() + start + key.size(), nullptr), measured,
+              0.03 * measured + 1e-4);
+}
+
+TEST(PlanTool, LuxOnAWorkplane) {
+  const std::string folder = scratch("plan-lux");
+  std::vector<std::string> words{"plan",   kBox,   "--error",     "15%", "--quantity", "lux",
+                                 "--grid", "0.15", "--workplane", "0.1", "--pilot",    "0.5"};
+  const auto plan = run_tool(words);
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_EQ(plan.out.find("phos-splat"), std::string::npos) << plan.out;
+  spill(folder + "/plan.sh", plan.out);
+  const auto run = run_shell({"bash", folder + "/plan.sh", "made"}, folder);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(slurp(folder + "/made/lux.csv").starts_with("id,x,y,z,nx,ny,nz,E_lx"));
+}
+
+TEST(PlanTool, AnAnimatedSceneIsToldOfTemporalRecords) {
+  const auto plan = run_tool(plan_of({"--error", "30%"}, data("cube-in-a-box.glb")));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_NE(plan.err.find("phos-temporal --frames 0:"), std::string::npos) << plan.err;
+  EXPECT_NE(plan.out.find("temporal data"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,246 @@
+// The chooser: its front is what trying everything finds, and plans of a synthetic pilot keep what they
+// promise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "study/plan.h"
+#include "study/plan_run.h"
+#include "study/plan_text.h"
+
+namespace phos {
+namespace {
+
+Posynomial known(std::vector<Monomial> terms, std::vector<double> coefficients) {
+  Posynomial p(std::move(terms));
+  p.set(std::move(coefficients));
+  return p;
+}
+
+using K = Knob;
+
+PlanModel synthetic_time() {
+  return {{{"photons", known({{"start", {}}, {"photons", {{K::photons, 1}}}}, {0.1, 2e-6})},
+           {"records", known({{"rays", {{K::records, 1}, {K::rays, 1}}}}, {1e-6})},
+           {"picture", known({{"samples", {{K::pixels, 1}, {K::pixel_samples, 1}}},
+                              {"shadows", {{K::pixels, 1}, {K::light_rays, 1}}}},
+                             {1e-6, 2e-7})}}};
+}
+
+PlanModel synthetic_error(double unmended) {
+  return {
+      {{"direct light and gloss, noise", known({{"shadow rays", {{K::light_rays, -1}}}}, {0.02})},
+       {"direct light and gloss, bias", known({{"edges", {{K::pixel_samples, -1}, {K::pixels, -0.5}}}}, {2})},
+       {"indirect light, noise",
+        known({{"gathered rays", {{K::accuracy, 1}, {K::rays, -1}}}, {"photons", {{K::photons, -1}}}},
+              {1, 20})},
+       {"indirect light, bias",
+        known({{"interpolation", {{K::accuracy, 2}}}, {"what no setting mends", {}}}, {0.002, unmended})}}};
+}
+
+Pilot synthetic_pilot(double unmended = 0) {
+  Pilot pilot;
+  pilot.time = synthetic_time();
+  pilot.image_error = synthetic_error(unmended);
+  pilot.records = {2000, 0.5, 1.5};
+  pilot.image_reference = {0.1, 1e-6, 1, 30000};
+  return pilot;
+}
+
+PlanTask picture() {
+  PlanTask task;
+  task.scene = "a room.glb", task.width = 200, task.height = 150;
+  return task;
+}
+
+TEST(StudyPlanChoose, TheFrontIsWhatTryingEverythingFinds) {
+  const PlanModel time = synthetic_time(), error = synthetic_error(1e-5);
+  const RecordCount count{2000, 0.5, 1.5};
+  KnobGroup photons{{K::photons}, {{1e4, 4e4, 16e4, 64e4}}};
+  KnobGroup records{{K::accuracy, K::rays}, {{0.8, 0.4, 0.2}, {16, 64, 256, 1024}}};
+  records.derived = {K::records};
+  records.derive = [&](Knobs& k) { k[at(K::records)] = count.at(k[at(K::accuracy)]); };
+  KnobGroup samples{{K::pixel_samples, K::light_rays}, {{1, 4, 16}, {1, 4, 16, 64}}};
+  samples.allowed = [](const Knobs& k) { return k[at(K::light_rays)] >= k[at(K::pixel_samples)]; };
+  Knobs fixed{};
+  fixed.fill(1);
+  fixed[at(K::pixels)] = 30000;
+  const std::vector<PlanPoint> front = plan_front({photons, records, samples}, fixed, time, {&error});
+
+  std::vector<std::pair<double, double>> all;
+  for (const double n : photons.levels[0])
+    for (const double a : records.levels[0])
+      for (const double r : records.levels[1])
+        for (const double s : samples.levels[0])
+          for (const double l : samples.levels[1]) {
+            if (l < s) continue;
+            Knobs k = fixed;
+            k[at(K::photons)] = n, k[at(K::accuracy)] = a, k[at(K::rays)] = r,
+            k[at(K::records)] = count.at(a);
+            k[at(K::pixel_samples)] = s, k[at(K::light_rays)] = l;
+            all.emplace_back(time.best(k), error.best(k));
+          }
+  ASSERT_GT(front.size(), 10u);
+  for (const PlanPoint& p : front) {
+    EXPECT_NEAR(p.cost, time.best(p.knobs), 1e-9 * p.cost);
+    EXPECT_NEAR(p.error[0], error.best(p.knobs), 1e-9 * p.error[0]);
+  }
+  for (const auto& [cost, e] : all) {
+    EXPECT_TRUE(std::any_of(
+        front.begin(), front.end(),
+        [&](const PlanPoint& p) { return p.cost <= cost * (1 + 1e-9) && p.error[0] <= e * (1 + 1e-9); }))
+        << cost << " " << e;
+  }
+  EXPECT_TRUE(std::is_sorted(front.begin(), front.end(),
+                             [](const PlanPoint& a, const PlanPoint& b) { return a.cost < b.cost; }));
+}
+
+TEST(StudyPlanChoose, TwoQuantitiesAtOnce) {
+  const PlanModel time = synthetic_time();
+  const PlanModel one{{{"a", known({{"rays", {{K::rays, -1}}}}, {1})}}},
+      two{{{"b", known({{"photons", {{K::photons, -1}}}}, {1e4})}}};
+  KnobGroup photons{{K::photons}, {{1e4, 1e5, 1e6}}}, rays{{K::rays}, {{16, 64, 256}}};
+  Knobs fixed{};
+  fixed.fill(1);
+  const auto front = plan_front({photons, rays}, fixed, time, {&one, &two});
+  EXPECT_EQ(front.size(), 9u);  // each buys something that no other does
+}
+
+TEST(StudyPlan, MeetsTheErrorAtTheLeastCost) {
+  const Pilot pilot = synthetic_pilot();
+  double before = 0;
+  for (const double asked : {0.2, 0.1, 0.05, 0.02}) {
+    const Plan plan = make_plan(picture(), pilot, {asked, {}});
+    EXPECT_LE(plan.chosen.error_high(), asked);
+    EXPECT_GT(plan.chosen.error(), 0.4 * asked) << "dearer than need be";
+    EXPECT_GE(plan.chosen.seconds.value, before);
+    before = plan.chosen.seconds.value;
+    EXPECT_TRUE(plan.warnings.empty());
+    for (const PlanPoint& p : front_of(picture(), pilot)) {
+      const Prediction q = predict(picture(), pilot, p.knobs);
+      EXPECT_TRUE(q.error_high() > asked || q.seconds.value >= plan.chosen.seconds.value);
+    }
+  }
+}
+
+TEST(StudyPlan, KeepsTheTimeWithTheLeastError) {
+  const Pilot pilot = synthetic_pilot();
+  double before = 1;
+  for (const double seconds : {1.0, 4.0, 16.0, 64.0}) {
+    const Plan plan = make_plan(picture(), pilot, {{}, seconds});
+    EXPECT_LE(plan.chosen.seconds.high, seconds);
+    EXPECT_GT(plan.chosen.seconds.value, 0.3 * seconds);
+    EXPECT_LT(plan.chosen.error(), before);
+    before = plan.chosen.error();
+  }
+}
+
+std::string refusal(const Pilot& pilot, const PlanGoal& goal) {
+  try {
+    make_plan(picture(), pilot, goal);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::usage);
+    return e.where() + ": " + e.what();
+  }
+  return "";
+}
+
+TEST(StudyPlan, SaysWhatCannotBeHad) {
+  EXPECT_NE(refusal(synthetic_pilot(1e-3), {0.02, {}}).find("--error: 2 % is out of reach"),
+            std::string::npos);
+  EXPECT_EQ(refusal(synthetic_pilot(1e-3), {0.1, {}}), "");
+  EXPECT_NE(refusal(synthetic_pilot(), {{}, 0.01}).find("--seconds: no settings keep within 0.01 s"),
+            std::string::npos);
+  EXPECT_NE(refusal(synthetic_pilot(), {0.02, 0.5}).find("--seconds: 2 % takes about"), std::string::npos);
+  Pilot blurred = synthetic_pilot();
+  blurred.image_resolution = 0.04;
+  const Plan plan = make_plan(picture(), blurred, {0.02, {}});
+  ASSERT_EQ(plan.warnings.size(), 1u);
+  EXPECT_NE(plan.warnings[0].find("tell no error below 4 % from none"), std::string::npos)
+      << plan.warnings[0];
+}
+
+TEST(StudyPlan, TheScriptHoldsPredictionAndReasons) {
+  PlanTask task = picture();
+  task.camera = "it's";
+  const Pilot pilot = synthetic_pilot();
+  const PlanGoal goal{0.05, {}};
+  const Plan plan = make_plan(task, pilot, goal);
+  Needs needs;
+  needs.wanted = {{"global photons", "because"}}, needs.unwanted = {{"temporal data", "nothing moves"}};
+  const std::string s = plan_script(task, needs, pilot, goal, plan, 7);
+  for (const char* part :
+       {"#!/usr/bin/env bash\n", "# Asked for: image of 200 x 150 from camera it's, error at most 5 %",
+        "# Predicted: error of the image ", "global photons: because", "temporal data: nothing moves",
+        "scene='a room.glb'\n", "phos-photons \"$scene\" --photons ",
+        "phos-irradiance \"$scene\" \"$out/light.photons\" --place view", "--camera 'it'\\''s'", "--seed 7",
+        "-o \"$out/image.exr\"\n", "set -euo pipefail\n"})
+    EXPECT_NE(s.find(part), std::string::npos) << part << "\n" << s;
+  EXPECT_EQ(s.find("phos-sense"), std::string::npos);
+  for (std::size_t start = 0; start < s.size();) {
+    const std::size_t end = s.find('\n', start);
+    EXPECT_LE(end - start, 125u) << s.substr(start, end - start);
+    start = end + 1;
+  }
+}
+
+TEST(StudyPlan, JsonHoldsTheSame) {
+  PlanTask task = picture();
+  const Pilot pilot = synthetic_pilot();
+  const Plan plan = make_plan(task, pilot, {0.05, {}});
+  const Json j = plan_json(task, {}, pilot, {0.05, {}}, plan, 0);
+  EXPECT_EQ(j.find("plan")->find("settings")->find("photons")->as_number(),
+            plan.chosen.knobs[at(K::photons)]);
+  EXPECT_EQ(j.find("plan")->find("image_error")->find("high")->as_number(), plan.chosen.image->high);
+  ASSERT_EQ(j.find("stages")->as_array().size(), 3u);
+  EXPECT_EQ(j.find("stages")->as_array()[2].find("tool")->as_string(), "phos-splat");
+  EXPECT_EQ(j.find("other_errors")->as_array().size(), 5u);
+}
+
+TEST(StudyPlan, LuxAndBoth) {
+  PlanTask task = picture();
+  task.lux = true, task.grid = {"--grid", "0.5", "--height", "0.8"};
+  Knobs k{};
+  k.fill(16);
+  const auto both = plan_stages(task, k, "s", "d", 0);
+  ASSERT_EQ(both.size(), 6u);
+  EXPECT_EQ(shell_line(both[0].command),
+            "phos-sense s --direct-only --light-samples 1 --grid 0.5 --height 0.8 -o d/sensors.csv");
+  EXPECT_EQ(shell_line(both[3].command),
+            "phos-irradiance s d/light.photons --at d/sensors.csv --place given --add-to d/light.irradiance "
+            "-o d/light.irradiance");
+  EXPECT_EQ(shell_line(both[5].command),
+            "phos-sense s d/light.irradiance --points d/sensors.csv --light-samples 16 -o d/lux.csv");
+  task.image = false, task.grid = {}, task.points = "p.csv";
+  const auto lux = plan_stages(task, k, "s", "d", 3);
+  ASSERT_EQ(lux.size(), 3u);
+  EXPECT_EQ(shell_line(lux[1].command),
+            "phos-irradiance s d/light.photons --at p.csv --place given --estimate gather --accuracy 16 "
+            "--rays 16 --seed 3 -o d/light.irradiance");
+}
+
+TEST(StudyPlanRun, AMeasurementCorrectsThePartThatIsWrong) {
+  PlanModel model = synthetic_error(0);
+  Knobs k{};
+  k.fill(64);
+  double indirect = 0, rest = 0;
+  for (const auto& [name, p] : model.part) (name.starts_with("indirect") ? indirect : rest) += p.best(k);
+  correct(model, k, rest + 4 * indirect, 4 * indirect);
+  EXPECT_NEAR(model.best(k), rest + 4 * indirect, 1e-9 * model.best(k));
+  EXPECT_NEAR(model.find("direct light and gloss, noise")->coefficients()[0], 0.02, 1e-9);
+  EXPECT_NEAR(model.find("indirect light, noise")->coefficients()[1], 80, 1e-6);
+}
+
+TEST(StudyPlan, FiguresForPeople) {
+  EXPECT_EQ(percent(0.05), "5 %");
+  EXPECT_EQ(percent(0.0123), "1.2 %");
+  EXPECT_EQ(percent(0.2), "20 %");
+  EXPECT_EQ(duration(1.26), "1.3 s");
+  EXPECT_EQ(duration(42.4), "42 s");
+  EXPECT_EQ(duration(150), "2 min 30 s");
+}
+
+}  // namespace
+}  // namespace phos

@@ -1,0 +1,97 @@
+// phos-plan: scene + error or seconds -> the pipeline that gives it, as a script; or carried out.
+#include <cstdio>
+
+#include "cache/gloss_report.h"
+#include "core/parallel.h"
+#include "file/atomic_file.h"
+#include "file/tool.h"
+#include "scene/load.h"
+#include "scene/picture.h"
+#include "study/plan_options.h"
+#include "study/plan_run.h"
+#include "study/plan_text.h"
+
+namespace {
+
+using namespace phos;
+
+void print(const std::string& path, const std::string& s) {
+  AtomicFile file(path.empty() ? "/dev/stdout" : path);
+  file.write(s);
+  file.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool(
+      "phos-plan", "chooses the pipeline and its settings for an error or a time",
+      text("Finds what the scene requires, makes a few small runs (the pilot) that tell noise from bias and "
+           "fixed "
+           "from growing times, and chooses the cheapest settings that meet the error, or the best that keep "
+           "the "
+           "time. Prints them as a shell script with the prediction and the reasons, or as JSON; --run "
+           "carries "
+           "them out, measures, and corrects them until the error is met or the time is spent. ",
+           kErrorMeaning, " Predictions hold for this machine; times vary, and with them what is chosen."),
+      1, Tool::Output::none);
+  Options& options = tool.options();
+  std::string scene_path;
+  SceneOptions scene_options;
+  PlanOptions plan;
+  options.input("SCENE", scene_path, "glTF or OBJ scene");
+  declare_options(options, plan);
+  declare_options(options, scene_options);
+  options.example("phos-plan room.glb --error 5% --width 640 > plan.sh; bash plan.sh folder",
+                  "a script, and its files");
+  options.example("phos-plan room.glb --seconds 60 --json", "what can be had in a minute, for a program");
+  options.example("phos-plan room.glb --error 3% --quantity lux --grid 0.5 --workplane 0.8 --run -o folder",
+                  "lux on a workplane, measured until it is within 3 %");
+
+  return tool.run(argc, argv, [&] {
+    const PlanGoal goal = goal_of(options, plan);
+    PlanTask task = task_of(options, plan, scene_path, scene_options);
+    const Scene scene = load_scene(scene_path, scene_options);
+    const Needs needs = plan_needs(
+        scene, gloss_report(scene, GlossTables(scene, {}, GlossBy::automatic, {}, tool.counters())));
+    if (!needs.lit)
+      throw Error(ExitCode::bad_input, scene_path,
+                  "has no light, so there is nothing to plan; give it a lamp or an --environment");
+    task.gloss = needs.gloss;
+    if (task.image) resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
+    if (needs.animated && !options.given("frame") && !options.given("time"))
+      tool.say(
+          text("the scene is animated: this plan is for its start (see --frame); for all of it use "
+               "phos-temporal --frames 0:",
+               needs.frames - 1));
+
+    PilotOptions piloted;
+    piloted.seconds = plan.pilot_s, piloted.seed = tool.seed(),
+    piloted.error = goal.error.value_or(plan.usual_error);
+    piloted.common = {"--threads", std::to_string(thread_count())};
+    if (tool.verbose()) piloted.say = [&](const std::string& line) { tool.say(line); };
+    const Pilot pilot = [&] {
+      const auto timer = tool.time("pilot");
+      return run_pilot(task, piloted);
+    }();
+    tool.say(text("pilot: ", duration(pilot.seconds)));
+    const Plan chosen = make_plan(task, pilot, goal);
+    tool.say(prediction_line(chosen.chosen));
+    for (const std::string& warning : chosen.warnings) tool.say(warning);
+    const std::string script = plan_script(task, needs, pilot, goal, chosen, tool.seed());
+    Json json = plan_json(task, needs, pilot, goal, chosen, tool.seed());
+    if (!plan.run) return print(plan.output, plan.json ? json.dump(2) + "\n" : script);
+
+    PlanRunOptions run;
+    run.folder = plan.output, run.seed = tool.seed(), run.common = piloted.common;
+    run.reference_seconds = plan.reference_s, run.rounds = static_cast<int>(plan.rounds);
+    run.say = [&](const std::string& line) { tool.say(line); };
+    const PlanReport report = run_plan(task, pilot, goal, chosen, run);
+    json["run"] = to_json(report);
+    print(run.folder + "/plan.json", json.dump(2) + "\n");
+    print(run.folder + "/plan.sh", script);
+    if (report.met) return tool.say(report.verdict);
+    tool.warn(report.verdict);
+    tool.set_exit(ExitCode::check_failed);
+  });
+}
