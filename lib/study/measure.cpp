@@ -26,16 +26,31 @@ bool has(const Image& image, const std::string& layer, const Names& components) 
   });
 }
 
-/// The mean of two references: one layer, and the lamps.
+/// One layer of a reference, or the mean of two.
 Image mean_of(const Image& a, const Image& b, const std::string& layer, const Names& components) {
   Image mean(a.width(), a.height());
-  if (a.has_layer("emission")) mean.set_rgb("emission", a.rgb("emission"));
   for (const std::string& c : components) {
     const std::span<const float> one = a.channel(channel_of(layer, c)), two = b.channel(channel_of(layer, c));
     const std::span<float> out = mean.channel(channel_of(layer, c));
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(0.5 * (double{one[i]} + two[i]));
   }
   return mean;
+}
+
+/// A pixel shows a lamp if any of the pictures saw it there: few samples miss a lamp at its edge. False: none
+/// has the layer.
+bool mark_lamps(Image& mean, std::initializer_list<const Image*> pictures) {
+  std::vector<Rgb> lamps(mean.pixels(), Rgb(0));
+  bool known = false;
+  for (const Image* picture : pictures) {
+    if (!picture || !picture->has_layer("emission")) continue;
+    known = true;
+    const std::vector<Rgb> emission = picture->rgb("emission");
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+      if (emission[i] != Rgb(0)) lamps[i] = Rgb(1);
+  }
+  if (known) mean.set_rgb("emission", lamps);
+  return known;
 }
 
 void require_alike(const Image& second, const Image& reference, const std::string& layer,
@@ -104,13 +119,12 @@ class Pixels {
 MeasuredError measure_picture(const Image& image, const Image& reference, const Image* second,
                               const MeasureOptions& options) {
   const std::string layer = layer_from_label(options.layer);
-  const bool lamps = options.ignore_lamps && (reference.has_layer("emission") || image.has_layer("emission"));
-  const CompareOptions compare{{options.layer}, lamps};
-  common_layers(image, reference, compare);  // or it says what is wrong
+  common_layers(image, reference, {{options.layer}, false});  // or it says what is wrong
   const Names components = components_of(reference, layer);
   if (second) require_alike(*second, reference, layer, components);
-  const Image mean = second ? mean_of(reference, *second, layer, components) : Image();
-  const LayerMetrics metrics = compare_images(image, second ? mean : reference, compare).at(0);
+  Image mean = mean_of(reference, second ? *second : reference, layer, components);
+  const bool lamps = options.ignore_lamps && mark_lamps(mean, {&image, &reference, second});
+  const LayerMetrics metrics = compare_images(image, mean, {{options.layer}, lamps}).at(0);
 
   MeasuredError error;
   error.quantity = metrics.layer, error.unit = metrics.unit;
@@ -118,7 +132,7 @@ MeasuredError measure_picture(const Image& image, const Image& reference, const 
   error.bias = metrics.bias, error.relative_bias = metrics.relative_bias;
   error.p99 = metrics.p99, error.max = metrics.max;
   if (metrics.visual) error.psnr_db = metrics.visual->psnr_db, error.ssim = metrics.visual->ssim;
-  const std::vector<char> mask = emission_mask(image, reference, lamps);
+  const std::vector<char> mask = emission_mask(image, mean, lamps);
   Pixels(image, reference, second, layer, components).sums(mask).finish(error);
   return error;
 }

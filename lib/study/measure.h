@@ -42,7 +42,7 @@ struct MeasuredError {
 
 struct MeasureOptions {
   std::string layer = "beauty";
-  bool ignore_lamps = true;  ///< leave out pixels whose `emission` is not black, where that layer is
+  bool ignore_lamps = true;  ///< leave out pixels whose layer emission, if any, is not black in one of them
 };
 
 /// Error of one layer. Variance of the reference: from `second`, the reference once more with another seed,

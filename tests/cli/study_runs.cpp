@@ -70,6 +70,26 @@ TEST(StudyRuns, MeasuresEverySetting) {
   EXPECT_GT(number(0, "picture_error"), number(2, "picture_error")) << "four times the photons";
 }
 
+TEST(StudyRuns, TheReferencesNoiseIsNoError) {
+  // The same picture by references of ever fewer samples: the same error, ever less surely.
+  const std::string folder = toy_study("noise");
+  double lo = 0, hi = 1, resolution = 0;
+  for (const int samples : {128, 16, 2}) {
+    spill(folder + "/toy.toml",
+          "[study]\nscenes = \"box.glb\"\nwidth = 48\nthreads = 1\n[reference]\nsamples = " +
+              std::to_string(samples) + "\n[photons]\nphotons = 20000\n[irradiance]\n[splat]\n");
+    ASSERT_EQ(study(folder).code, 0);
+    const CsvTable table = results(folder);
+    const auto of = [&](const char* name) { return table.number(0, table.column(name, "")); };
+    lo = std::max(lo, of("picture_error_lo")), hi = std::min(hi, of("picture_error_hi"));
+    EXPECT_LT(lo, hi) << samples;
+    EXPECT_GT(of("picture_resolution"), 1.5 * resolution) << samples;
+    resolution = of("picture_resolution");
+    // Without taking it out, the noise alone would be more than what is found.
+    if (samples == 2) EXPECT_GT(of("picture_reference_noise"), 2 * hi);
+  }
+}
+
 TEST(StudyRuns, SharedStagesRunOnce) {
   std::map<std::string, int> runs;
   std::istringstream journal(slurp(finished() + "/out/journal.jsonl"));

@@ -127,6 +127,12 @@ TEST(StudyMeasure, LampsAreLeftOut) {
   EXPECT_FALSE(e.resolution);
   EXPECT_TRUE(e.resolved());
   EXPECT_EQ(measure_picture(image, reference, nullptr, {"beauty", false}).places, 4u);
+  // A second reference, or the image, that saw a lamp where the first did not.
+  Image second = grey(2, {1, 1, 50, 100}), seen = image;
+  second.set_rgb("emission", std::vector<Rgb>{Rgb(0), Rgb(0), Rgb(49), Rgb(99)});
+  EXPECT_EQ(measure_picture(image, reference, &second).places, 2u);
+  seen.set_rgb("emission", std::vector<Rgb>{Rgb(1), Rgb(0), Rgb(0), Rgb(0)});
+  EXPECT_EQ(measure_picture(seen, reference, &second).places, 1u);
 }
 
 TEST(StudyMeasure, DoesNotDependOnTheUnit) {
