@@ -86,7 +86,9 @@ TEST(StudyRuns, TheReferencesNoiseIsNoError) {
     EXPECT_GT(of("picture_resolution"), 1.5 * resolution) << samples;
     resolution = of("picture_resolution");
     // Without taking it out, the noise alone would be more than what is found.
-    if (samples == 2) EXPECT_GT(of("picture_reference_noise"), 2 * hi);
+    if (samples == 2) {
+      EXPECT_GT(of("picture_reference_noise"), 2 * hi);
+    }
   }
 }
 
