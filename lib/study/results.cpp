@@ -39,12 +39,13 @@ Summary summary_of(const std::vector<const Judgement*>& runs, double confidence)
   const double of_bias = mean_of(runs, &MeasuredError::bias_stderr).value_or(0);
   s.error = mean_interval(values_of(runs, [](const Judgement& r) { return r.error.relative_rmse; }),
                           confidence, of_error);
-  if (s.error.lo < 0) s.error.lo = 0;
   s.bias = mean_interval(values_of(runs, [](const Judgement& r) { return r.error.relative_bias; }),
                          confidence, of_bias);
   s.p99 = mean_interval(values_of(runs, [](const Judgement& r) { return r.error.relative_p99; }), confidence);
   s.seconds = mean_interval(values_of(runs, [](const Judgement& r) { return r.cost.wall_s; }), confidence);
   s.cpu_s = mean_interval(values_of(runs, [](const Judgement& r) { return r.cost.cpu_s; }), confidence);
+  for (Interval* i : {&s.error, &s.p99, &s.seconds, &s.cpu_s})
+    if (i->lo < 0) i->lo = 0;
   const auto n = static_cast<double>(runs.size());
   for (const Judgement* r : runs) {
     s.rmse += r->error.rmse / n, s.non_finite += r->error.non_finite;
@@ -102,13 +103,14 @@ std::vector<FactorEffect> effects_of(const StudyFile& study, const StudyWork& wo
 
 void doubt(const StudyResults& results, std::optional<Summary> PointResult::*kind, const char* name,
            std::vector<std::string>& sentences) {
-  std::size_t faint = 0, all = 0, unknown = 0;
+  std::size_t faint = 0, all = 0, unknown = 0, broken = 0;
   double worst = 1;
   for (const PointResult& p : results.points) {
     if (!p.own(kind)) continue;
     const Summary& s = *p.own(kind);
     ++all;
     if (!s.resolution) ++unknown;
+    if (s.non_finite > 0) ++broken;
     if (s.resolved) continue;
     ++faint;
     if (s.error.mean > 0) worst = std::max(worst, *s.resolution / s.error.mean);
@@ -117,6 +119,9 @@ void doubt(const StudyResults& results, std::optional<Summary> PointResult::*kin
     sentences.push_back(
         text("the reference of ", name,
              " does not say how noisy it is: errors hold its noise; give a second one of another seed"));
+  if (broken > 0)
+    sentences.push_back(text("the ", name, " results of ", broken, " of ", all,
+                             " settings have values that are not finite; they are left out of errors"));
   if (faint == 0) return;
   // Its variance falls as 1 / samples, and the resolution is the root of a deviation of a square.
   const double more = worst * worst;

@@ -80,7 +80,8 @@ std::vector<RunResult> measure_runs(const StudyFile& study, const StudyWork& wor
                                     const StudyJournal& journal, const Failures& failures);
 StudyResults summarise(const StudyFile& study, const StudyWork& work, std::vector<RunResult> runs);
 
-/// Sentences on what the reference cannot tell, and what it would take. Empty where it can.
+/// Sentences on what the reference cannot tell, and what it would take, and on values that are not finite.
+/// Empty where all is well.
 std::vector<std::string> doubts(const StudyResults& results);
 
 /// A row for each setting. Absent values are empty cells.

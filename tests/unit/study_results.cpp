@@ -104,6 +104,15 @@ TEST(StudyResults, WhatTheReferenceCannotTellIsSaid) {
   EXPECT_TRUE(doubts(grid().results()).empty());
 }
 
+TEST(StudyResults, WhatIsNotFiniteIsSaid) {
+  Made m = grid();
+  m.runs[3].picture->error.non_finite = 7;
+  const StudyResults r = m.results();
+  EXPECT_EQ(r.points[1].picture->non_finite, 7u);
+  ASSERT_EQ(doubts(r).size(), 1u);
+  EXPECT_NE(doubts(r)[0].find("1 of 4 settings"), std::string::npos);
+}
+
 TEST(StudyResults, ASharedResultStandsOnce) {
   Made m = grid();
   for (RunResult& run : m.runs) run.picture->owner = run.setting - run.setting % 2;  // samples do not matter
