@@ -131,6 +131,7 @@ std::string head(const PageInput& in) {
            " %: Student's t over seeds, and what the reference itself is uncertain of. A ratio of two values "
            "is over settings that differ in nothing else. Time is that of all stages from the scene to the "
            "result, each once",
+           s.by_cpu ? "; fronts, plots and ratios are of processor time" : "",
            s.threads > 0 ? text(", on ", s.threads, s.threads == 1 ? " thread" : " threads") : "", ".</p>\n");
   for (const std::string& sentence : doubts(in.results))
     html += text("<p class=\"doubt\">", html_text(sentence), "</p>\n");

@@ -66,7 +66,7 @@ std::vector<Shown> show(const PageInput& in, std::size_t view, const std::vector
     const Summary& s = *in.results.points[p].picture;
     all.push_back({text("v", view, "p", p),
                    text("point ", p, ": ", describe(in.study, in.work.settings[p]), "; error ",
-                        short_number(100 * s.error.mean), " % in ", short_number(s.seconds.mean), " s"),
+                        short_number(100 * s.error.mean), " % in ", short_number(s.time.mean), " s"),
                    data_uri(layer_picture(image, options).picture),
                    data_uri(difference_picture(d, image.width(), image.height(), range, "difference",
                                                layer_unit(layer)))});

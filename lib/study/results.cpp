@@ -28,7 +28,8 @@ std::vector<double> values_of(const std::vector<const Judgement*>& runs, const G
   return values;
 }
 
-Summary summary_of(const std::vector<const Judgement*>& runs, double confidence) {
+Summary summary_of(const StudyFile& study, const std::vector<const Judgement*>& runs) {
+  const double confidence = study.confidence;
   Summary s;
   s.owner = runs[0]->owner;
   s.unit = runs[0]->error.unit;
@@ -46,6 +47,7 @@ Summary summary_of(const std::vector<const Judgement*>& runs, double confidence)
   s.cpu_s = mean_interval(values_of(runs, [](const Judgement& r) { return r.cost.cpu_s; }), confidence);
   for (Interval* i : {&s.error, &s.p99, &s.seconds, &s.cpu_s})
     if (i->lo < 0) i->lo = 0;
+  s.time = study.by_cpu ? s.cpu_s : s.seconds;
   const auto n = static_cast<double>(runs.size());
   for (const Judgement* r : runs) {
     s.rmse += r->error.rmse / n, s.non_finite += r->error.non_finite;
@@ -70,7 +72,7 @@ void mark_fronts(const StudyWork& work, std::vector<PointResult>& points,
   };
   for (const auto& [view, all] : views) {
     mark(
-        all, [](const Summary& s) { return s.seconds.mean; }, &Summary::best_in_time);
+        all, [](const Summary& s) { return s.time.mean; }, &Summary::best_in_time);
     mark(
         all, [](const Summary& s) { return s.peak_bytes; }, &Summary::best_in_memory);
     mark(
@@ -84,8 +86,8 @@ std::vector<FactorEffect> effects_of(const StudyFile& study, const StudyWork& wo
   for (const RunResult& run : runs) {
     if (!(run.*kind) || (run.*kind)->owner != run.setting) continue;
     const Judgement& j = *(run.*kind);
-    Trial trial{work.settings[run.setting].level, run.seed, j.error.relative_rmse, j.cost.wall_s,
-                j.error.resolution.value_or(0)};
+    Trial trial{work.settings[run.setting].level, run.seed, j.error.relative_rmse,
+                study.by_cpu ? j.cost.cpu_s : j.cost.wall_s, j.error.resolution.value_or(0)};
     trial.level.push_back(work.settings[run.setting].scene),
         trial.level.push_back(work.settings[run.setting].camera);
     trials.push_back(std::move(trial));
@@ -141,7 +143,7 @@ StudyResults summarise(const StudyFile& study, const StudyWork& work, std::vecto
     for (const RunResult& run : results.runs)
       if (run.setting == setting && run.*kind) found.push_back(&*(run.*kind));
     if (found.empty()) return std::nullopt;
-    return summary_of(found, study.confidence);
+    return summary_of(study, found);
   };
   for (std::size_t i = 0; i < work.settings.size(); ++i) {
     PointResult point{i, summary(i, &RunResult::picture), summary(i, &RunResult::lux), ""};

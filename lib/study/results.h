@@ -46,6 +46,7 @@ struct Summary {
   std::optional<double> psnr_db, ssim;
   std::size_t non_finite = 0;
   Interval seconds, cpu_s;
+  Interval time;  ///< the one of them that fronts, effects and plots are of
   double peak_bytes = 0, file_bytes = 0;
   /// On the front of its scene and camera: does nothing there beat it in error and that?
   bool best_in_time = false, best_in_memory = false, best_in_bytes = false;

@@ -95,6 +95,7 @@ Json results_json(const StudyFile& study, const StudyWork& work, const StudyJour
                   const StudyResults& results) {
   Json j;
   j["version"] = version(), j["study"] = study.path, j["confidence"] = study.confidence;
+  j["time"] = study.by_cpu ? "cpu" : "wall";
   j["layer"] = study.layer, j["ignore_lamps"] = study.ignore_lamps, j["threads"] = study.threads;
   j["method"] =
       "error: root mean square difference over the mean of the reference, without the reference's noise; "

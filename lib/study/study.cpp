@@ -46,7 +46,7 @@ std::string front_of(const StudyFile& study, const StudyWork& work, const StudyR
   const Summary& s = *(least->*kind);
   return text(name, ": ", front, " of ", all, " settings are on the front; the least error is ",
               s.resolved ? "" : "at most ", shortest(static_cast<float>(100 * s.told_error())), " % in ",
-              shortest(static_cast<float>(s.seconds.mean)), " s (",
+              shortest(static_cast<float>(s.time.mean)), " s (",
               describe(study, work.settings[least->setting]), ")");
 }
 

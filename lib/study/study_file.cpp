@@ -32,6 +32,10 @@ void read_own_section(const TomlFile& file, StudyFile& study) {
   study.layer = keys.word("layer").value_or(study.layer);
   study.ignore_lamps = keys.flag("ignore_lamps").value_or(study.ignore_lamps);
   study.threads = keys.integer("threads", 0).value_or(study.threads);
+  if (const auto time = keys.word("time")) {
+    if (*time != "wall" && *time != "cpu") keys.refuse("time", "is neither \"wall\" nor \"cpu\"");
+    study.by_cpu = *time == "cpu";
+  }
   study.width = keys.integer("width", 1), study.height = keys.integer("height", 1);
   study.confidence = keys.number("confidence").value_or(study.confidence);
   if (!(study.confidence > 0 && study.confidence < 1))

@@ -38,6 +38,8 @@ struct StudyFile {
   bool ignore_lamps = true;
   std::int64_t threads = 0;
   double confidence = 0.95;
+  bool by_cpu =
+      false;  ///< time = "cpu": fronts and effects are of processor time, which other work disturbs less
   std::optional<std::int64_t> width, height;  ///< pixels
 
   std::set<std::string> sections;  ///< stages that run

@@ -231,6 +231,7 @@ TEST_F(StudyFiles, WrongOnesAreRefused) {
   wrong(kBox + "seeds = []\n[irradiance]\n[splat]\n", "empty");
   wrong(kBox + "seeds = [1, 1]\n[irradiance]\n[splat]\n", "twice");
   wrong(kBox + "confidence = 1\n[irradiance]\n[splat]\n", "below 1");
+  wrong(kBox + "time = \"sun\"\n[irradiance]\n[splat]\n", "\"cpu\"");
   wrong(kBox + "senors = \"points.csv\"\n", "did you mean \"sensors\"");
   wrong(kBox + "[irradiance]\n[splat]\n[reference]\nsamples = [1, 2]\n", "one value");
   wrong(kBox + "[irradiance]\n[splat]\n[reference]\nseeds = [1, 2, 3]\n", "two at most");

@@ -75,6 +75,18 @@ TEST(StudyResults, FrontsOfTimeMemoryAndBytes) {
   }
 }
 
+TEST(StudyResults, TimeMayBeTheProcessors) {
+  Made m = grid();
+  m.study.by_cpu = true;
+  for (RunResult& run : m.runs) run.picture->cost.cpu_s = run.setting == 1 ? 0.5 : 2;
+  const StudyResults r = m.results();
+  EXPECT_TRUE(r.points[1].picture->best_in_time);
+  EXPECT_FALSE(r.points[0].picture->best_in_time);
+  // 2 -> 0.5 and 2 -> 2.
+  EXPECT_NEAR(r.picture_effects[1].levels[1].seconds.mean, 0.5, 1e-12);
+  EXPECT_EQ(r.points[1].picture->time.mean, 0.5);
+}
+
 TEST(StudyResults, EffectsAreRatios) {
   const StudyResults r = grid().results();
   ASSERT_EQ(r.picture_effects.size(), 2u);
