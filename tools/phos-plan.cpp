@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
                needs.frames - 1));
 
     PilotOptions piloted;
-    piloted.seconds = plan.pilot_s, piloted.seed = tool.seed(),
+    piloted.seconds = pilot_seconds(plan, goal), piloted.seed = tool.seed(),
     piloted.error = goal.error.value_or(plan.usual_error);
     piloted.common = {"--threads", std::to_string(thread_count())};
     if (tool.verbose()) piloted.say = [&](const std::string& line) { tool.say(line); };

@@ -21,9 +21,8 @@ std::vector<double> doubling(double first, double last) {
 
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
-  groups.push_back({{Knob::photons}, {doubling(5000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays},
-                    {{0.8, 0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(16, 16384)}};
+  groups.push_back({{Knob::photons}, {doubling(20000, 1e8)}});
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {{0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(32, 16384)}};
   records.derived = {Knob::records};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
@@ -52,13 +51,26 @@ double largest(const Prediction& p, double Interval::*part) {
   return std::max(p.image ? (*p.image).*part : 0.0, p.lux ? (*p.lux).*part : 0.0);
 }
 
-/// The front is by mean squares of best guesses: of those that may do, each is predicted with its interval.
+/// The part of a mean square that is the same for all settings.
+double unmended(const PlanModel& model) {
+  double sum = 0;
+  for (const auto& [name, p] : model.part)
+    for (std::size_t i = 0; i < p.terms().size(); ++i)
+      if (p.terms()[i].powers.empty()) sum += p.coefficients()[i];
+  return sum;
+}
+
+/// The front is by mean squares of best guesses, here without `less` of each: of those that may do, each is
+/// predicted with its interval.
 template <class Good>
 std::optional<Prediction> first_that(const PlanTask& task, const Pilot& pilot,
-                                     const std::vector<PlanPoint>& front, double error, const Good& good) {
+                                     const std::vector<PlanPoint>& front, double error, const Good& good,
+                                     const std::vector<double>& less = {}) {
   for (const PlanPoint& point : front) {
-    if (std::any_of(point.error.begin(), point.error.end(), [&](double e) { return e > error * error; }))
-      continue;
+    bool may = true;
+    for (std::size_t i = 0; i < point.error.size(); ++i)
+      may = may && point.error[i] - (less.empty() ? 0 : less[i]) <= error * error;
+    if (!may) continue;
     const Prediction p = predict(task, pilot, point.knobs);
     if (good(p)) return p;
   }
@@ -131,8 +143,15 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
       first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_high() <= error; });
   // Sure to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
   constexpr double kDearest = 8;
-  const std::optional<Prediction> guess =
-      first_that(task, pilot, front, kMargin * error, [](const Prediction&) { return true; });
+  const auto any = [](const Prediction&) { return true; };
+  std::optional<Prediction> guess = first_that(task, pilot, front, kMargin * error, any);
+  if (!guess && !found && predict(task, pilot, front.back().knobs).error_low() <= error) {
+    // What no setting mends may be nothing, for all that the pilot can tell.
+    std::vector<double> less;
+    if (task.image) less.push_back(unmended(*pilot.image_error));
+    if (task.lux) less.push_back(unmended(*pilot.lux_error));
+    guess = first_that(task, pilot, front, kMargin * error, any, less);
+  }
   if (guess && (!found || found->seconds.value > kDearest * guess->seconds.value)) {
     found = guess;
     if (wide) *wide = true;

@@ -40,10 +40,11 @@ std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot);
 Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs);
 
 /// With an error asked for: the cheapest settings of which all but one draw in twenty of the pilot's
-/// measurements say that they meet it; where there are none because the pilot cannot tell so little, the
-/// cheapest that meet kMargin of it by the best guess, and a warning. With seconds: the least error whose
-/// time, likewise, is within them. Throws Error(usage) where no settings reach the error or keep the time,
-/// naming what can be had.
+/// measurements say that they meet it. Where there are none, or only at a price that its doubt alone would
+/// make one pay, because the pilot cannot tell so little: the cheapest that meet kMargin of it by the best
+/// guess, or, if that is not out of the question, by the guess without what no setting mends; and a warning.
+/// With seconds: the least error whose time, likewise, is within them. Throws Error(usage) where no settings
+/// reach the error or keep the time, naming what can be had.
 Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal);
 inline constexpr double kMargin = 0.8;
 

@@ -121,6 +121,9 @@ Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_
       moved[r].value = rows[r].value + fit.misfit * rows[r].sigma * normal(random);
     fit.draws.push_back(fit_nonnegative(moved));
   }
+  if (draws > 0) std::fill(fit.best.begin(), fit.best.end(), 0.0);
+  for (const std::vector<double>& draw : fit.draws)
+    for (std::size_t c = 0; c < draw.size(); ++c) fit.best[c] += draw[c] / static_cast<double>(draws);
   return fit;
 }
 

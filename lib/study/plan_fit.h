@@ -19,9 +19,10 @@ struct FitRow {
 std::vector<double> fit_nonnegative(std::span<const FitRow> rows);
 inline constexpr std::size_t kMaxTerms = 10;
 
-/// The best fit, and what other draws of the same measurements would have given: each value moved by a normal
-/// deviate of its sigma, and fitted anew. `misfit` widens every sigma where the terms do not describe the
-/// rows: root of chi^2 per degree of freedom, at least 1.
+/// What draws of the same measurements give: each value moved by a normal deviate of its sigma, and fitted
+/// anew. `best` is their mean: a term that the best fit alone would leave out, though the measurements do not
+/// exclude it, has a share in it. `misfit` widens every sigma where the terms do not describe the rows: root
+/// of chi^2 per degree of freedom, at least 1.
 struct Fit {
   std::vector<double> best;
   std::vector<std::vector<double>> draws;

@@ -45,6 +45,11 @@ void Posynomial::scale(double factor) {
     for (double& c : draw) c *= factor;
 }
 
+void Posynomial::add(std::size_t i, double more) {
+  fit_.best[i] += more;
+  for (auto& draw : fit_.draws) draw[i] += more;
+}
+
 double Posynomial::sum(const Knobs& knobs, const std::vector<double>& coefficients) const {
   double sum = 0;
   for (std::size_t i = 0; i < coefficients.size(); ++i)

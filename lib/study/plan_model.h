@@ -45,7 +45,7 @@ struct Observation {
 };
 
 struct Interval {
-  double low = 0, value = 0, high = 0;  ///< the 5th percentile, the best guess, the 95th percentile
+  double low = 0, value = 0, high = 0;  ///< the 5th percentile, the mean, the 95th percentile
 };
 
 /// Sum of monomials whose coefficients, none negative, are fitted to observations.
@@ -58,6 +58,8 @@ class Posynomial {
   void set(std::vector<double> coefficients);
   /// What a later measurement says: all coefficients times `factor`.
   void scale(double factor);
+  /// That term i is `more` larger than thought.
+  void add(std::size_t i, double more);
 
   double best(const Knobs& knobs) const;
   /// By draw i (of kDraws) of the measurements.

@@ -1,5 +1,6 @@
 #include "study/plan_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -33,10 +34,11 @@ void declare_options(Options& options, PlanOptions& p) {
   options.choice<Axis>("up", p.grid.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                        "which way is up, for a workplane");
   options.section("Plan");
-  options.number(
-      "pilot", p.pilot_s, "S",
-      "time for the pilot, about: half of it goes into references, and what they cannot tell is not known",
-      kPositive);
+  options.number("pilot", p.pilot_s, "S",
+                 "time for the pilot, about: half of it goes into references, and what they cannot tell is "
+                 "not known; 0: 10, "
+                 "and more for an error below 6 %",
+                 kNotNegative);
   options.flag("sh", p.script, "print a shell script (this is usual)");
   options.flag("json", p.json, "print JSON");
   options.file("output,o", p.output,
@@ -63,6 +65,12 @@ double read_error(const std::string& word) {
     throw Error(ExitCode::usage, "--error",
                 "'" + word + "' is no error; give a share between 0 and 100 %: 5% or 0.05");
   return value;
+}
+
+double pilot_seconds(const PlanOptions& p, const PlanGoal& goal) {
+  constexpr double kUsual = 10, kOfError = 0.6;  // s: the noise of references falls slowly
+  if (p.pilot_s > 0) return p.pilot_s;
+  return goal.error ? std::max(kUsual, kOfError / *goal.error) : kUsual;
 }
 
 PlanGoal goal_of(const Options& options, const PlanOptions& p) {

@@ -17,7 +17,7 @@ struct PlanOptions {
   std::string camera, points, output;
   GridOptions grid;
   std::int64_t width = 0, height = 0;
-  double pilot_s = 10, reference_s = 0;
+  double pilot_s = 0, reference_s = 0;
   std::int64_t rounds = 5;
   bool script = false, json = false, run = false;
   double usual_error = 0.05;  ///< that the pilot looks for where seconds are asked for
@@ -27,6 +27,9 @@ void declare_options(Options& options, PlanOptions& plan);
 /// 0.05 of "5%", "5 %" and "0.05". Throws Error(usage) for what is no such number, or not between 0 and 100
 /// %.
 double read_error(const std::string& word);
+
+/// That the pilot may take.
+double pilot_seconds(const PlanOptions& plan, const PlanGoal& goal);
 
 /// Throw Error(usage) for a goal that is none, and for what does not go together.
 PlanGoal goal_of(const Options& options, const PlanOptions& plan);

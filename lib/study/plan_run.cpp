@@ -175,14 +175,26 @@ double PlanRound::resolution() const {
 }
 
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2) {
-  double indirect = 0, rest = 0;
-  for (const auto& [name, p] : model.part) (name.starts_with("indirect") ? indirect : rest) += p.best(knobs);
-  const auto factor = [](double found, double predicted) {
-    return predicted > 0 ? std::clamp(found / predicted, 0.1, 10.0) : 1.0;
-  };
-  const double of_indirect = factor(indirect2, indirect),
-               of_rest = factor(std::max(whole2 - indirect2, 0.0), rest);
-  for (auto& [name, p] : model.part) p.scale(name.starts_with("indirect") ? of_indirect : of_rest);
+  for (const bool indirect : {false, true}) {
+    const double found = indirect ? indirect2 : std::max(whole2 - indirect2, 0.0);
+    std::vector<Posynomial*> parts;
+    double predicted = 0, mendable = 0;
+    for (auto& [name, p] : model.part) {
+      if (name.starts_with("indirect") != indirect) continue;
+      parts.push_back(&p);
+      predicted += p.best(knobs);
+      for (const Monomial& term : p.terms()) mendable += !term.powers.empty();
+    }
+    for (Posynomial* p : parts) {
+      if (found < predicted || mendable == 0) {
+        if (predicted > 0) p->scale(std::max(found / predicted, 0.1));
+        continue;
+      }
+      for (std::size_t i = 0; i < p->terms().size(); ++i)
+        if (!p->terms()[i].powers.empty())
+          p->add(i, (found - predicted) / mendable / p->terms()[i].at(knobs));
+    }
+  }
 }
 
 PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,

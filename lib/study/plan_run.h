@@ -47,8 +47,10 @@ struct PlanReport {
 PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
                     const PlanRunOptions& options);
 
-/// What a measurement says of the model: its parts of direct light and of indirect light are scaled to the
-/// mean squares found, both relative. Factors stay between a tenth and ten.
+/// What a measurement says of the model, of direct and of indirect light apart, both mean squares relative.
+/// Where less was found, all terms of the part shrink, to a tenth at most. Where more was found, nothing says
+/// which term it comes from: each that a setting mends is raised by as much, so that whichever it is, better
+/// settings are chosen for it.
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2);
 
 Json to_json(const PlanReport& report);

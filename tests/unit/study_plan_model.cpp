@@ -83,12 +83,14 @@ TEST(StudyPlanModel, PredictsBeyondWhatWasMeasured) {
     rows.push_back({k, truth(k), 0.1 * truth(k)});
   p.fit(rows, 1);
   const Knobs far = knobs(5e6, 0.2, 2048);
-  EXPECT_NEAR(p.best(far) / truth(far), 1, 1e-6);
-  EXPECT_NEAR(p.coefficients()[0], 0.7, 1e-6);
-  EXPECT_NEAR(p.coefficients()[1], 30, 1e-4);
+  // The mean of draws of rows of 10 %: 200 of them know it to 10 % / sqrt(200) or a few times that.
+  EXPECT_NEAR(p.best(far) / truth(far), 1, 0.05);
+  EXPECT_NEAR(p.coefficients()[0] / 0.7, 1, 0.05);
+  EXPECT_NEAR(p.coefficients()[1] / 30, 1, 0.2);
   EXPECT_EQ(p.misfit(), 1);
+  const double before = p.best(far);
   p.scale(4);
-  EXPECT_NEAR(p.best(far) / truth(far), 4, 1e-6);
+  EXPECT_NEAR(p.best(far) / before, 4, 1e-9);
 }
 
 TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
@@ -116,6 +118,14 @@ TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
   // narrow.
   EXPECT_GE(inside, 165);
   EXPECT_LT(width, 1);
+}
+
+TEST(StudyPlanModel, ATermThatMayBeThereHasAShare) {
+  // Two rows that the first term alone fits best, and the second just fits as well within their sigma.
+  Posynomial p({{"all", {}}, {"rays", {{Knob::rays, 1}}}});
+  p.fit(std::vector<Observation>{{knobs(1, 1, 1), 1, 0.1}, {knobs(1, 1, 11), 0.98, 0.1}}, 3);
+  EXPECT_GT(p.coefficients()[1], 1e-3);
+  EXPECT_LT(p.coefficients()[1], 2e-2);
 }
 
 TEST(StudyPlanModel, DoubtWidensAnInterval) {

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Draft, good and final picture of one view, from one cache that grows from each to the next:
+#   pipelines/quality-ladder.sh SCENE FOLDER [--photons N] [--rays N] [--accuracy A] [--width W] [--camera NAME]
+# Writes FOLDER/draft.exr, good.exr, final.exr (and .png), FOLDER/scene.irradiance, which only ever gets more records, and ladder.csv:
+# records, seconds so far, and how far each picture is from the final one (root mean square, of the mean).
+set -euo pipefail
+
+usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+[[ $# -ge 2 ]] || usage
+scene=$1 folder=$2
+shift 2
+photons=400000 rays=256 accuracy=0.15 width=800 camera=''
+while (($# > 0)); do
+  case $1 in
+    --photons | --rays | --accuracy | --width | --camera)
+      [[ $# -ge 2 ]] || usage
+      declare "${1#--}=$2"
+      shift 2 ;;
+    *) usage ;;
+  esac
+done
+[[ -f $scene ]] || { echo "quality-ladder.sh: $scene: no such file" >&2; exit 3; }
+source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+mkdir -p "$folder"
+base=$folder/$(basename "${scene%.*}")
+name=()
+[[ -z $camera ]] || name=(--camera "$camera")
+stats=$folder/stats.json
+figure() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" "${2:-$stats}" | head -1; }
+sum() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a + b }'; }
+
+# 1. Photons serve all three.
+phos-photons "$scene" --photons "$photons" --quiet --stats "$stats" -o "$base.photons"
+seconds=$(figure seconds.total)
+rm -f "$base.irradiance"
+rows=()
+
+# 2. Each step looks closer: records where a picture of its own width sees none yet, read from less and less far away.
+step() { # name, share of the width, reach of a record when read, samples of a pixel, shadow rays of a pixel
+  local place=$((width / $2)) earlier=(--estimate gather --accuracy "$accuracy" --rays "$rays")
+  ((place > 0)) || place=1
+  [[ ! -f $base.irradiance ]] || earlier=(--add-to "$base.irradiance")
+  phos-irradiance "$scene" "$base.photons" --place view "${name[@]}" --width "$place" "${earlier[@]}" --quiet --stats "$stats" \
+    -o "$base.irradiance"
+  local records fresh
+  records=$(figure records) fresh=$(figure records_new) seconds=$(sum "$seconds" "$(figure seconds.total)")
+  phos-splat "$scene" "$base.irradiance" "${name[@]}" --width "$width" --accuracy "$3" --pixel-samples "$4" --light-samples "$5" \
+    --quiet --stats "$stats" -o "$folder/$1.exr"
+  seconds=$(sum "$seconds" "$(figure seconds.total)")
+  phos-picture "$folder/$1.exr" --quiet -o "$folder/$1.png"
+  rows+=("$1,$records,$fresh,$seconds")
+}
+step draft 8 0.9 1 4
+step good 3 0.6 4 16
+step final 1 0.4 16 64
+
+# 3. What each was worth.
+echo "picture,records,new_records,seconds,rmse_to_final" >"$folder/ladder.csv"
+for row in "${rows[@]}"; do
+  phos-compare "$folder/${row%%,*}.exr" "$folder/final.exr" --layer beauty --ignore-emission --json >"$stats"
+  echo "$row,$(figure relative_rmse)" >>"$folder/ladder.csv"
+done
+rm -f "$stats"
+cat "$folder/ladder.csv"

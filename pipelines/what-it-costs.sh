@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# What each part of the model costs, and what the picture loses without it:
+#   pipelines/what-it-costs.sh SCENE FOLDER [--photons N] [--rays N] [--accuracy A] [--width W] [--camera NAME] [--samples N]
+# Draws the scene with all of them, then with one after another left out or made cheaper, and writes FOLDER/costs.csv: seconds of the
+# whole pipeline with and without, and how much the picture changes (root mean square, of the mean; below `noise`, the same of
+# another seed, it changes nothing). Parts that the scene does not require (see phos-scene) are not tried. FOLDER/*.png show each.
+set -euo pipefail
+
+usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+[[ $# -ge 2 ]] || usage
+scene=$1 folder=$2
+shift 2
+photons=200000 rays=256 accuracy=0.3 width=400 camera='' samples=4
+while (($# > 0)); do
+  case $1 in
+    --photons | --rays | --accuracy | --width | --camera | --samples)
+      [[ $# -ge 2 ]] || usage
+      declare "${1#--}=$2"
+      shift 2 ;;
+    *) usage ;;
+  esac
+done
+[[ -f $scene ]] || { echo "what-it-costs.sh: $scene: no such file" >&2; exit 3; }
+source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+mkdir -p "$folder"
+view=(--width "$width")
+[[ -z $camera ]] || view+=(--camera "$camera")
+stats=$folder/stats.json
+figure() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" "$stats" | head -1; }
+required=$(phos-scene "$scene" --json)
+requires() { grep -q "\"what\": \"$1\"" <<<"$required"; }
+
+# The stages, each with options of its own; what they took is added up in `seconds`.
+records=(--estimate gather --accuracy "$accuracy" --rays "$rays")
+stage() { # program, arguments...
+  "$@" --quiet --stats "$stats"
+  seconds=$(awk -v a="$seconds" -v b="$(figure seconds.total)" 'BEGIN { printf "%.3f", a + b }')
+}
+draw() { # name, options of phos-irradiance, ":", options of phos-splat
+  local name=$1 of_records=() caches=("$folder/$1.irradiance")
+  shift
+  while (($# > 0)) && [[ $1 != : ]]; do of_records+=("$1"); shift; done
+  (($# == 0)) || shift
+  seconds=0
+  stage phos-photons "$scene" --photons "$photons" -o "$folder/light.photons"
+  if [[ $name == cached-gloss ]]; then
+    stage phos-brdf "$scene" -o "$folder/gloss.brdf"
+    stage phos-radiance "$scene" "$folder/light.photons" "$folder/gloss.brdf" --place view "${view[@]}" -o "$folder/gloss.radiance"
+    caches+=("$folder/gloss.radiance" "$folder/gloss.brdf")
+    of_records+=("$folder/gloss.radiance")
+  fi
+  stage phos-irradiance "$scene" "$folder/light.photons" --place view "${view[@]}" "${records[@]}" "${of_records[@]}" \
+    -o "$folder/$name.irradiance"
+  stage phos-splat "$scene" "${caches[@]}" "${view[@]}" --pixel-samples "$samples" "$@" -o "$folder/$name.exr"
+  phos-picture "$folder/$name.exr" --quiet -o "$folder/$name.png"
+}
+change() { # name: against the picture with everything
+  phos-compare "$folder/$1.exr" "$folder/all.exr" --layer beauty --ignore-emission --json >"$stats"
+  figure relative_rmse
+}
+compared() { # name, what is left out
+  echo "$1,\"$2\",$whole,$seconds,$(change "$1")" >>"$folder/costs.csv"
+}
+
+draw all
+whole=$seconds
+echo "part,without it,seconds_with,seconds_without,change" >"$folder/costs.csv"
+draw noise --seed 1 : --seed 1
+compared noise "the same with another seed"
+draw bounces --gather-bounces 1
+compared bounces "one bounce of indirect light in place of all"
+draw gathering --estimate hull
+compared gathering "irradiance by counting photons in place of rays"
+draw gradients --gradients none
+compared gradients "records without gradients"
+draw leak-test --leak-test ray : --leak-test ray
+compared leak-test "nothing: with rays against leaks through walls as well"
+draw interleaved : --direct interleaved
+compared interleaved "shadow rays shared by 4 x 4 pixels"
+draw shadow-maps : --direct shadow-map
+compared shadow-maps "shadow maps in place of shadow rays"
+draw direct-light : --direct none
+compared direct-light "no direct light"
+if requires 'traced gloss' || requires 'radiance records'; then
+  draw gloss : --gloss-samples 0
+  compared gloss "no rays for gloss"
+fi
+if requires 'radiance records'; then
+  draw cached-gloss : --gloss auto
+  compared cached-gloss "gloss from radiance records in place of rays"
+fi
+if requires 'specular tracing'; then
+  draw mirrors : --specular-depth 0
+  compared mirrors "no mirrors and glass"
+fi
+rm -f "$stats"
+cat "$folder/costs.csv"
