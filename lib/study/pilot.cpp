@@ -19,7 +19,7 @@ constexpr double kCountRays = 32;  ///< of records that are made to be counted
 struct Samples {
   double pixel, light, gloss;
 };
-constexpr Samples kSamples[] = {{1, 2, 16}, {4, 128, 4}, {32, 32, 32}};
+constexpr Samples kSamples[] = {{1, 2, 128}, {4, 128, 4}, {32, 32, 32}};
 constexpr double kSensorRays[] = {4, 64};
 constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
 constexpr double kReferencePaths = 4096;  ///< and of a sensor

@@ -28,7 +28,8 @@ double ReferenceCost::samples(double resolution) const {
 
 PlanModel image_error_model(bool specular) {
   std::vector<Monomial> seen = {{"noise of shadow rays", {{K::light_rays, -1}}},
-                                {"noise of shadow rays, slow part", {{K::light_rays, -0.5}}}};
+                                {"noise of shadow rays, slow part", {{K::light_rays, -0.5}}},
+                                {"noise of shadow rays, fast part", {{K::light_rays, -2}}}};
   if (specular) {
     seen.push_back({"noise of gloss rays", {{K::gloss_rays, -1}}});
     seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});

@@ -1,11 +1,7 @@
 #include "study/pilot_runs.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 
 #include "core/error.h"
 #include "file/atomic_file.h"
@@ -41,16 +37,6 @@ std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
 }
 
 }  // namespace
-
-ScratchFolder::ScratchFolder()
-    : path_((std::filesystem::temp_directory_path() / "phos-pilot-XXXXXX").string()) {
-  if (!::mkdtemp(path_.data())) throw Error(ExitCode::bad_input, path_, std::strerror(errno));
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 PilotRuns::PilotRuns(const PlanTask& task, const PilotOptions& options)
     : task_(task), small_(task), options_(options), runner_(quiet(options.common)) {

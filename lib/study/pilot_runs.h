@@ -7,23 +7,10 @@
 
 #include "study/command.h"
 #include "study/pilot.h"
+#include "study/pilot_folder.h"
 #include "study/plan_separate.h"
 
 namespace phos {
-
-/// A folder that goes with it, with all that is in it.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 struct ReferenceRun {
   double seconds = 0;   ///< of one of the pair

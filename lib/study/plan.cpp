@@ -22,7 +22,7 @@ std::vector<double> doubling(double first, double last) {
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
   groups.push_back({{Knob::photons}, {doubling(20000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {{0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(32, 16384)}};
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {{0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(64, 16384)}};
   records.derived = {Knob::records};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);

@@ -1,0 +1,41 @@
+// The programs of a plan in its folder: references, pipeline, measurement.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/command.h"
+#include "study/plan_run.h"
+
+namespace phos {
+
+class PlanRunner {
+ public:
+  /// Keeps a reference to the options.
+  PlanRunner(const PlanTask& task, const PlanRunOptions& options);
+
+  /// Makes the folder and a pair of references for each quantity, good enough to tell half of `error` from
+  /// none if `seconds` allow. Seconds that they took.
+  double make_references(const Pilot& pilot, double error, double seconds);
+  /// Better ones where those that are there do not tell `error` from none and time is left. Seconds that they
+  /// took; 0: none were made.
+  double better_references(const PlanRound& round, double error, double seconds);
+  /// Runs the pipeline with the round's settings and adds up its time; `again`: stages that are there already
+  /// are kept.
+  void run(PlanRound& round, bool again) const;
+  /// Fills in the errors.
+  void measure(PlanRound& round) const;
+
+ private:
+  std::string file(const std::string& name) const;
+  std::string reference(bool lux, std::size_t i) const;
+  double set_out_sensors() const;
+  double make_pair(bool lux, double samples);
+
+  const PlanTask task_;
+  const PlanRunOptions& options_;
+  CommandRunner runner_;
+  double samples_[2] = {0, 0}, pair_s_[2] = {0, 0};  ///< of picture and sensors
+};
+
+}  // namespace phos
