@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
             "these have no "
             "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "
             "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout.",
-            1, Tool::Output::optional);
+            2, Tool::Output::optional);
   tool.output_has_no_key();
   Inputs inputs;
   SceneOptions scene_options;

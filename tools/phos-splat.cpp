@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
             "indirect, glossy, specular, emission, stderr, albedo in cd/m2, illuminance.Y in lx, weight, "
             "normal, position "
             "and Z. Another camera, size or --accuracy needs no new cache.",
-            2);
+            3);
   Options& options = tool.options();
   std::string scene_path, misses_path, gloss_misses_path;
   std::vector<std::string> cache_paths;

@@ -152,17 +152,25 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
   auto& used = w.zone.density.used;
   const bool dark = zone.kind == ZoneKind::dark || e.irradiance == Rgb(0);
   if (dark) std::fill(used.begin(), used.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < w.zone.gathered.zone.size() && !dark; ++i)
+    w.zone.gathered.zone.flux_lm[i] *= 1 - w.zone.bend[i];
   // The radius asks for gradients even where the record is to have none.
   const bool without = impl_->gradient == RadianceGradient::none;
   auto record = std::make_shared<RadianceRecord>(
       w.projector.project(w.zone.gathered.zone, used, zone.area_m2, zone.area_error, -zone.centroid_m,
                           w.zone.frame, without ? RadianceGradient::analytic : impl_->gradient));
-  for (float& error : record->stderr_light) error *= impl_->zones.path_error(w.zone.gathered.zone.size());
+  // What zones know of their errors besides: paths, and curvature that is left.
+  const Rgb found = irradiance_of(*record).stderr_lx;
+  for (std::size_t i = 0; i < record->stderr_light.size(); ++i) {
+    const int c = static_cast<int>(i % 3);
+    if (found[c] > 0) record->stderr_light[i] *= e.stderr_lx[c] / found[c];
+  }
   if (dark) {  // known no better than by what one photon would have shown
     for (std::size_t i = 0; i < record->stderr_light.size(); ++i)
       record->stderr_light[i] =
           static_cast<float>(std::sqrt(white(impl_->order))) * e.stderr_lx[static_cast<int>(i % 3)];
   }
+  record->shared = e.shared;
   record->position = e.position, record->distance_m = e.distance_m;
   record->radius_m = std::max(made.least_radius_m, within_gradient_m(*record, e.radius_m));
   if (without) record->gradient_x.clear(), record->gradient_y.clear();

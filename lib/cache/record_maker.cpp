@@ -27,6 +27,16 @@ float kernel_spread(Kernel kernel) {
   return 1;
 }
 
+/// More of the mean than this is not taken for curvature: the terms after it are as large.
+constexpr double kMostBend = 0.25;
+
+/// What paths add to the variance of a zone, `spread` times that of its photons alone, all zones have in
+/// common; next to nothing of it is left out.
+float shared_of(double spread) {
+  if (spread < 1.02) return kSharedByZones;
+  return static_cast<float>((static_cast<double>(kSharedByZones) + spread - 1) / spread);
+}
+
 float scale_of(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 }  // namespace
@@ -99,13 +109,43 @@ ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, std::uint3
   return kernel_irradiance(photons.offset_m, photons.flux_lm, radius_m, options_.kernel, s.density);
 }
 
+/// The part of the curvature `bend` (in the sum of flux; variance `noise`) that is taken away.
+double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
+                                  const Scratch& s) {
+  const ZonePhotons& photons = s.gathered.zone;
+  if (!(bend * bend > 3 * noise)) return 0;
+  ZoneShape shape = disc_shape(static_cast<double>(zone_radius_m));
+  double area_m2 = zone.area_m2;
+  if (zone.kind == ZoneKind::hull)
+    shape = polygon_shape(photons.offset_m, s.density.hull.vertices), area_m2 = s.density.hull.area;
+  double flux = 0, squares = 0, moment_m2 = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    if (!s.density.used[i]) continue;
+    const auto f = static_cast<double>(luminance(photons.flux_lm[i]));
+    const glm::dvec2 place = glm::dvec2(photons.offset_m[i]) - shape.centroid_m;
+    flux += f, squares += f * f, moment_m2 += f * glm::dot(place, place);
+  }
+  if (!(flux > 0)) return 0;
+  const double share = std::min(1 - 3 * noise / (bend * bend), kMostBend * flux / std::fabs(bend));
+  const double even_m4 = shape.second_moments_m4[0][0] + shape.second_moments_m4[1][1];
+  // Of a shape that is partly no surface, photons' places tell nothing to check it by.
+  if (zone.partial || !(even_m4 > 0)) return 0;
+  // Over a disc of light that is E + k r^2, the mean of r^2 exceeds half of R^2 by R^2 bend / (6 flux); its
+  // own variance is 1/12 of that of the flux. If the photons lie as they would without, by e^2 : 1, they do
+  // not come from where they seem to.
+  const double moment = moment_m2 * area_m2 / (2 * even_m4 * flux) - 0.5, expected = bend / (6 * flux),
+               variance = squares / (12 * flux * flux), off = moment - expected;
+  return off * off - moment * moment > 4 * variance ? 0 : share;
+}
+
 /// Irradiance at p from the mean over the area, photon by photon: moved along the gradient from the area's
 /// centroid (C3), and without what the curvature of irradiance adds to the mean, its Laplacian x (mean of
 /// |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of this area. The curvature is taken away as far
-/// as it exceeds its own noise (by the factor 1 - 3 / z2, as D4), so that even light stays as it is; what may
-/// be left of it is in the error. A kernel, for comparison, keeps it, and says so in its error.
-void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, Scratch& s,
-                                 IrradianceRecord& record) const {
+/// as it exceeds its own noise (by the factor 1 - 3 / z2, as D4), so that even light stays as it is, up to
+/// kMostBend of the mean, and unless the photons lie otherwise; what may be left of it is in the error. A
+/// kernel, for comparison, keeps it, and says so in its error.
+void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
+                                 Scratch& s, IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
   const Vec3 step = place.frame.to_world(Vec3(-zone.centroid_m, 0));
   const bool kernel = zone.kind == ZoneKind::kernel;
@@ -125,18 +165,19 @@ void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zon
   }
   const double grey = static_cast<double>(luminance(Rgb(bend)));
   if (kernel) {
+    s.bend.assign(photons.size(), 0);
     const DVec3 left = glm::max(bend * bend - bend2, DVec3(0)) / (zone.area_m2 * zone.area_m2);
     record.stderr_lx = Rgb(glm::sqrt(DVec3(zone.stderr_lx) * DVec3(zone.stderr_lx) + left));
     return;
   }
-  const double share = !(grey * grey > 0) ? 0 : std::max(0.0, 1 - 3 * noise / (grey * grey));
+  const double share = share_of_bend(grey, noise, zone, zone_radius_m, s);
   DVec3 sum(0), squares(0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
+    s.bend[i] *= static_cast<float>(share);
     const double change =
-        static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step)) -
-        share * static_cast<double>(s.bend[i]);
-    const DVec3 f = DVec3(photons.flux_lm[i]) * (1 + change);
+        static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step));
+    const DVec3 f = DVec3(photons.flux_lm[i]) * ((1 + change) * (1 - static_cast<double>(s.bend[i])));
     sum += f, squares += f * f;
   }
   const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
@@ -173,8 +214,9 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
     return;
   }
   record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
-  move_to_centre(place, zone, s, record);
+  move_to_centre(place, zone, zone_radius_m, s, record);
   record.stderr_lx *= path_error(photons.size());
+  record.shared = shared_of(noise_.spread(static_cast<double>(photons.size())));
   const ComparedGradients known = compared(place, zone, zone_radius_m, s);
   // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
   // the records of a Cornell box or Sponza), and errors there were the same with it.

@@ -35,7 +35,7 @@ class RecordMaker : public Estimator {
     DensityScratch density;
     Frame frame;              ///< of the last make()
     ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
-    std::vector<float> bend;  ///< likewise: what curvature adds to each photon's share of the mean
+    std::vector<float> bend;  ///< likewise: the part of each photon's flux that was taken away for curvature
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
@@ -51,8 +51,10 @@ class RecordMaker : public Estimator {
  private:
   ZoneEstimate by_hull(ZonePlace& place, float& radius_m, std::uint32_t left_out, Scratch& scratch) const;
   ZoneEstimate by_kernel(ZonePlace& place, float radius_m, std::uint32_t left_out, Scratch& scratch) const;
-  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, Scratch& scratch,
+  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,
                       IrradianceRecord& record) const;
+  static double share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
+                              const Scratch& scratch);
   ComparedGradients compared(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
                              const Scratch& scratch) const;
   void fill(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,

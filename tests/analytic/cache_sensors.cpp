@@ -101,7 +101,9 @@ TEST(SensorsAnalytic, CachesOfAllLightAreNotLitTwice) {
     EXPECT_NEAR(r.direct_lx, whole, 0.02f * whole);
     EXPECT_GE(r.indirect_lx, 0);
     EXPECT_LT(r.indirect_lx, 0.02f * whole);
-    EXPECT_NEAR(r.stderr_lx, 0.01f * whole, 1e-3f * whole);
+    // Each record's own is 1 %; where several are blended, that part of it is left which is not their own.
+    EXPECT_LE(r.stderr_lx, 0.0101f * whole);
+    EXPECT_GE(r.stderr_lx, 0.01f * std::sqrt(kSharedByZones) * whole);
   }
   const Container other = even_cache("indirect", s.scene, s.checks, 1, 1, "indirect");
   EXPECT_THROW(SensorCaches(std::vector<Container>{file, other}, nullptr), Error);

@@ -95,7 +95,10 @@ TEST_P(Zones, OneTwoThreePhotonsAreTheirFluxOverTheZone) {
     const IrradianceRecord r =
         record(map_at(std::vector<Vec3>(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(n))));
     EXPECT_GT(r.irradiance.y, last) << n;
-    EXPECT_NEAR(r.stderr_lx.y / r.irradiance.y, 1 / std::sqrt(static_cast<float>(n)), 0.01f) << n;
+    // And what curvature may have added to the mean: all photons come from one lamp.
+    const float error = std::sqrt(static_cast<float>(n)) * r.stderr_lx.y / r.irradiance.y;
+    EXPECT_GT(error, 0.99f) << n;
+    EXPECT_LT(error, 2.f) << n;
     last = r.irradiance.y;
   }
   if (hull()) {

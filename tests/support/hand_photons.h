@@ -8,14 +8,15 @@
 namespace phos::test {
 
 /// One indirect photon of 1 lm at each place of a floor that faces +y, from `direction` (towards where it
-/// came from), 2 m away.
-inline PhotonMap photons_on_floor(const std::vector<Vec3>& places, const Vec3& direction = {0, 1, 0}) {
+/// came from).
+inline PhotonMap photons_on_floor(const std::vector<Vec3>& places, const Vec3& direction = {0, 1, 0},
+                                  float distance_m = 2) {
   Photons photons;
   for (const Vec3& p : places) {
     photons.position.push_back(p), photons.flux.push_back(Rgb(1));
     photons.direction.push_back(encode_octahedral(glm::normalize(direction)));
     photons.normal.push_back(encode_octahedral({0, 1, 0}));
-    photons.distance.push_back(2), photons.source_normal.push_back(encode_octahedral({0, -1, 0}));
+    photons.distance.push_back(distance_m), photons.source_normal.push_back(encode_octahedral({0, -1, 0}));
     photons.path.push_back(static_cast<std::uint8_t>(PhotonPath::indirect)), photons.bounce.push_back(1);
   }
   PhotonTotals totals;

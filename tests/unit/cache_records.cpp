@@ -85,9 +85,9 @@ Interpolated brute_force(std::span<const IrradianceRecord> records, float accura
   for (const IrradianceRecord& r : records) {
     const float w = record_weight(record_error(r, p, n), accuracy);
     if (w <= 1e-6f || record_in_front(r, p, n)) continue;
-    sum.irradiance += w * extrapolate(r, p, n), sum.stderr_lx += w * r.stderr_lx, sum.weight += w;
+    sum.add(r, w, p, n);
   }
-  if (sum.weight > 0) sum.irradiance /= sum.weight, sum.stderr_lx /= sum.weight;
+  sum.finish();
   return sum;
 }
 

@@ -29,6 +29,16 @@ RecordTree tree_of(const std::vector<IrradianceRecord>& records, double accuracy
   return tree;
 }
 
+/// Of the mean of records that say 10 and 50 with errors of 1 and 2, the second of weight 1/4
+/// (blended_error).
+float error_of_both() {
+  const double q = (1 + 0.0625) / (1.25 * 1.25), own = 1 - double(kSharedByZones), error = 1.2, mean = 18;
+  const double scatter = (100 + 0.25 * 2500) / 1.25 - mean * mean;
+  return static_cast<float>(
+      std::sqrt(error * error * (1 - own + own * q) +
+                kCommonDisagreement * (scatter - kCarriedNoise * own * error * error * (1 - q))));
+}
+
 TEST(RecordWeights, BlendExactly) {
   // Weights of place: 1 - (0.25 / 4) / 0.25 = 3/4 each.
   const Interpolated even = tree_of(two(1)).interpolate(kMiddle, kUp),
@@ -37,7 +47,7 @@ TEST(RecordWeights, BlendExactly) {
   EXPECT_EQ(even.irradiance, Rgb(30));
   EXPECT_EQ(faded.weight, 0.75f * 1.25f);
   EXPECT_FLOAT_EQ(faded.irradiance.x, (10 + 0.25f * 50) / 1.25f);
-  EXPECT_FLOAT_EQ(faded.stderr_lx.x, (1 + 0.25f * 2) / 1.25f);
+  EXPECT_FLOAT_EQ(faded.stderr_lx.x, error_of_both());
 }
 
 TEST(RecordWeights, AloneIsItsOwn) {
@@ -76,7 +86,8 @@ TEST(RecordWeights, OfRadiance) {
     RadianceTree tree({Vec3(-1), Vec3(1)}, 0.25, order);
     for (const RadianceRecord& r : two_radiance(order, 0.25f)) tree.insert(r);
     RadianceTree::Worker worker;
-    const float share = (10 + 0.25f * 50) / 1.25f, error = (1 + 0.25f * 2) / 1.25f;
+    const float share = (10 + 0.25f * 50) / 1.25f;
+    const float error = 1.2f * std::sqrt(kSharedByZones + (1 - kSharedByZones) * 0.68f);
     // In the records' own frame and in one that is turned.
     for (const Frame& frame : {make_frame(kUp), Frame{{0, 1, 0}, {-1, 0, 0}, kUp}}) {
       EXPECT_EQ(tree.interpolate(kMiddle, frame, order, worker), 0.75f * 1.25f);
@@ -87,7 +98,7 @@ TEST(RecordWeights, OfRadiance) {
       const GlossyLight light = tree.outgoing(kMiddle, frame, lobe, Rgb(0), worker);
       EXPECT_EQ(light.weight, 0.75f * 1.25f);
       EXPECT_FLOAT_EQ(light.radiance.x, 2 * share);
-      EXPECT_FLOAT_EQ(light.stderr_cd.x, 2 * error);
+      EXPECT_NEAR(light.stderr_cd.x, 2 * error_of_both(), 1e-4f);
     }
     EXPECT_EQ(tree.irradiance().records()[1].weight, 0.25f);
   }

@@ -51,7 +51,7 @@ TEST(Sequence, StatesAboutTheTrueErrorOfLampsAndShadows) {
                                Integrand(edge(1.1, 0.4)), Integrand(edge(0.785, 0.25))}) {
       const double ratio = true_over_stated(f, n);
       EXPECT_GT(ratio, 0.4) << n;
-      EXPECT_LT(ratio, 1.7) << n;
+      EXPECT_LT(ratio, 1.8) << n;
     }
   }
 }
