@@ -29,6 +29,11 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, Hemisp
     add_lamps(worker.lamps, samples, lights, site.normal, options, around);
   }
   Made made = record_of(site, around, options);
+  // Under a coat the gloss of a hit is signed, and of few rays the sum may be too.
+  if (glm::any(glm::lessThan(made.record.irradiance, Rgb(0)))) {
+    made.record.irradiance = glm::max(made.record.irradiance, Rgb(0));
+    worker.counters.count(kBelowZeroEvent);
+  }
   float& radius_m = made.record.radius_m;
   const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * place.error_m, radius_m);
   radius_m = std::min(radius_m, next_m / kNextSurface);

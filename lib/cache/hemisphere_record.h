@@ -9,6 +9,9 @@
 
 namespace phos {
 
+/// Few rays that meet gloss under a coat, which is signed, can add up to less than nothing: that is dark.
+inline constexpr const char* kBelowZeroEvent = "gathered irradiance below zero";
+
 /// Memory and counts of one thread.
 struct HemisphereWorker : Estimator::Worker {
   std::unique_ptr<HitLight::Worker> light;
@@ -27,7 +30,8 @@ struct HemisphereRecords {
                     const RecordOptions& resolved, std::uint64_t seed);
 
   /// The record of what hemispheres at a site have shown; with paths = all, direct light is added from
-  /// samples of the lamps. Passes the counts of `worker.light` on to the worker.
+  /// samples of the lamps. No component is below 0 (kBelowZeroEvent). Passes the counts of `worker.light` on
+  /// to the worker.
   Made record(const RecordSite& site, PlaceLight around, HemisphereWorker& worker) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "cache/hemisphere_record.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "support/gathered.h"
@@ -155,6 +156,25 @@ TEST(Nothing, LitHasAnError) {
   EXPECT_EQ(r.irradiance, Rgb(0));
   EXPECT_GT(r.stderr_lx.y, 0);
   EXPECT_LT(r.stderr_lx.y, 0.5f * 1000 / 52);  // one ray of 52 that shows a wall of 1000 lx
+}
+
+/// Gloss under a coat is signed: it takes light from the Lambert part. The sum of few rays can fall below
+/// zero where a hit sends its one ray of gloss to a lamp, and is dark then; no file takes less than nothing.
+TEST(Nothing, IsTheLeastThereIs) {
+  test::AnalyticScene s = test::furnace(0.9f, 0);
+  Material& m = s.scene.material[0];
+  m.model = Model::plastic, m.alpha_x = m.alpha_y = 0.1f, m.ior = 1.5f;
+  test::begin_instance(s.scene, "lamp", test::add_lambert(s.scene, "lamp", 0, 1000));
+  test::add_quad(s.scene, {0.2f, 0.99f, 0.2f}, {1.6f, 0, 0}, {0, 0, 1.1f});
+  finalize(s.scene);
+  test::Gathered g(s.scene);
+  const RecordTree dark = test::uniform_tree(Vec3(0), Vec3(2, 1, 1.5f), 1e-6f);
+  GatherSource source;
+  source.indirect = &dark;
+  const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, -1, 16);
+  for (const IrradianceRecord& r : g.records({1, 0, 0.75f}, {0, 1, 0}, options, source, 2000))
+    expect_finite(r);
+  EXPECT_GT(g.counters[kBelowZeroEvent], 0u) << "nothing was tested";
 }
 
 TEST(Determinism, SameBytesForAnyThreads) {
