@@ -141,8 +141,9 @@ void HitLight::Impl::ask_ahead(std::span<const Hit> hits, std::size_t i) const {
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
-    const Interpolated cached = source.indirect->interpolate(point.position, point.smooth_normal);
-    if (cached.weight > 0) return cached.irradiance;
+    Interpolated cached;  // its error is not asked for: that of the source as a whole is known
+    source.indirect->add(point.position, point.smooth_normal, cached);
+    if (cached.weight > 0) return cached.irradiance / cached.weight;
     if (source.far) {
       const Interpolated beyond = source.far->interpolate(point.position, point.smooth_normal);
       ++worker.beyond_reach;
