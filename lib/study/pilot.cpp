@@ -19,7 +19,7 @@ constexpr double kCountRays = 32;  ///< of records that are made to be counted
 struct Samples {
   double pixel, light, gloss;
 };
-constexpr Samples kSamples[] = {{1, 2, 128}, {4, 128, 4}, {32, 32, 32}};
+constexpr Samples kSamples[] = {{1, 2, 128}, {1, 256, 4}, {4, 32, 32}, {32, 32, 32}};
 constexpr double kSensorRays[] = {4, 64};
 constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
 constexpr double kReferencePaths = 4096;  ///< and of a sensor
@@ -127,7 +127,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
       for (const Samples& s : kSamples)
         if (c == 0)
           add_rows(image, runs.sized(with(caches[c], s)), runs.pictures(with(caches[c], s), true), true);
-      const Knobs fine = with(caches[c], kSamples[2]);
+      const Knobs fine = with(caches[c], kSamples[3]);
       if (c > 0) add_rows(image, runs.sized(fine), runs.pictures(fine, false), false);
     }
     if (!task.lux) continue;

@@ -35,10 +35,8 @@ PlanModel image_error_model(bool specular) {
     seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   }
   const Monomial edges{"edges and textures within pixels", {{K::pixel_samples, -1}, {K::pixels, -0.5}}};
-  std::vector<Monomial> seen_bias = {edges};
-  if (specular) seen_bias.push_back({"what no setting mends", {}});  // rays that end in the cache
   return {{{"direct light and gloss, noise", sum_of(seen)},
-           {"direct light and gloss, bias", sum_of(seen_bias)},
+           {"direct light and gloss, bias", sum_of(std::vector<Monomial>{edges})},
            {"indirect light, noise", sum_of({{"noise of gathered rays", {{K::accuracy, 1}, {K::rays, -1}}},
                                              {"noise of photons", {{K::photons, -1}}}})},
            {"indirect light, bias", sum_of({edges,
