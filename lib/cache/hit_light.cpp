@@ -64,10 +64,11 @@ void add_noise(const HitLight::Worker::Read& read, const GatherSource& source, f
   const auto lux = static_cast<double>(read.lux), d = static_cast<double>(distance_m);
   if (!(lux > 0)) return;
   const double sr = static_cast<double>(solid_sr), c = static_cast<double>(cosine);
+  noise.irradiance += c * sr * DVec3(read.radiance);
   const double zone2_m2 = source.zone_photons * source.photon_lm / (std::numbers::pi * lux);
+  if (!(d * d + zone2_m2 / 2 > 0)) return;  // of a source without noise
   const double share = source.photon_lm * static_cast<double>(cos_hit) / (d * d + zone2_m2 / 2);
   const DVec3 white = share * sr * DVec3(read.noise);
-  noise.irradiance += c * sr * DVec3(read.radiance);
   noise.variance += c * c * white;
   noise.per_coefficient += white / (2 * std::numbers::pi);
 }

@@ -80,7 +80,10 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   GatherSource source;
   source.indirect = tree.get();
   source.holds_direct = caches.holds_direct();
-  if (tree) source.photon_lm = equivalent_photon_lm(tree->records(), caches.accuracy());
+  if (tree) {
+    const EquivalentPhotons equivalent = equivalent_photons(tree->records(), caches.accuracy());
+    source.photon_lm = equivalent.photon_lm, source.zone_photons = equivalent.of_a_zone;
+  }
   const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
   IrradianceCache fresh;
   fresh.accuracy = resolved.accuracy;

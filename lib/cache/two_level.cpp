@@ -26,15 +26,17 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   return coarse;
 }
 
-double equivalent_photon_lm(std::span<const IrradianceRecord> records, double accuracy) {
-  double noise = 0, light = 0;
+EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy) {
+  double noise = 0, light = 0, squares = 0, errors = 0;
   for (const IrradianceRecord& r : records) {
     const double reach_m = accuracy * static_cast<double>(r.radius_m),
                  error = static_cast<double>(luminance(r.stderr_lx));
     noise += std::numbers::pi * reach_m * reach_m * error * error;
-    light += static_cast<double>(luminance(r.irradiance));
+    const auto lux = static_cast<double>(luminance(r.irradiance));
+    light += lux, squares += lux * lux, errors += error * error;
   }
-  return light > 0 ? noise / light : 0;
+  if (!(light > 0) || !(errors > 0)) return {};
+  return {noise / light, squares / errors};
 }
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
@@ -57,7 +59,8 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
                          const RecordOptions& resolved, std::uint64_t seed) {
   if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
   read(rays, earlier);
-  noise_.photon_lm = equivalent_photon_lm(earlier.records, earlier.accuracy);
+  const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
+  noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
   if (photons) noise_.common = photon_noise(*photons, earlier.quantity == "all").common;
   holds_direct_ = earlier.quantity == "all";
 }

@@ -16,9 +16,14 @@ namespace phos {
 
 /// How coarse records are made from photons, where finer ones are made as `fine` says.
 RecordOptions coarse_options(const RecordOptions& fine);
-/// The luminance that a photon would carry whose map had the noise of these records, lm: sum of s^2 A / sum
-/// of E, with A the area of a zone that reaches as far as the record does.
-double equivalent_photon_lm(std::span<const IrradianceRecord> records, double accuracy);
+/// Photons whose map would have the noise of some records.
+struct EquivalentPhotons {
+  double photon_lm =
+      0;  ///< luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach
+  double of_a_zone = 0;  ///< sum of E^2 / sum of s^2
+};
+/// Zero of records that are exact.
+EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy);
 /// Photons tried as places for them: a coarse cache needs far fewer records than that.
 inline constexpr std::int64_t kCoarseCandidates = 400'000;
 

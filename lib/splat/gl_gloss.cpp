@@ -55,8 +55,9 @@ GlossBuffer GlRenderer::splat_gloss(const GlossCache& cache, double accuracy, co
   impl_->context.make_current();
   const Gl& gl = impl_->context.gl();
   const GlossRows rows(cache.tables(), rays.scene().material.size(), impl_->context.largest_texture());
-  std::vector<Vec4> places;
-  GlossBuffer buffer = splat_gloss_beside(cache, accuracy, rays, g, camera, subpixel, rows, places);
+  GlossLeft left;
+  GlossBuffer buffer = splat_gloss_beside(cache, accuracy, rays, g, camera, subpixel, rows, left);
+  const std::vector<Vec4>& places = left.place;
   if (std::all_of(places.begin(), places.end(), [](const Vec4& p) { return p.x < 0; })) return buffer;
 
   const GlPictureTarget& target = impl_->picture_target(g);
@@ -65,7 +66,7 @@ GlossBuffer GlRenderer::splat_gloss(const GlossCache& cache, double accuracy, co
   gl.TextureSubImage2D(lobes.id(), 0, 0, 0, g.width, g.height, GL_RGBA, GL_FLOAT, places.data());
   gl.TextureSubImage2D(table.id(), 0, 0, 0, rows.width(), rows.height(), GL_RGBA, GL_FLOAT,
                        rows.texels().data());
-  impl_->bind_for_sum(target);
+  impl_->bind_for_sum(target, true);
   gl.BindTextureUnit(2, lobes.id());
   gl.BindTextureUnit(3, table.id());
 
@@ -79,6 +80,7 @@ GlossBuffer GlRenderer::splat_gloss(const GlossCache& cache, double accuracy, co
     if (first == end) continue;
     GlProgram& program = impl_->gloss_program(order);
     program.set("rule", Vec4(1 / a, kLeastWeight, static_cast<float>(first), static_cast<float>(end)));
+    program.set("unit", Vec4(1 / buffer.unit, 0, 0, 0));
     program.use();
     gl.BindVertexArray(impl_->gloss_array.id());
     const std::span<const IrradianceRecord> records = tree.irradiance().records();
@@ -97,11 +99,19 @@ GlossBuffer GlRenderer::splat_gloss(const GlossCache& cache, double accuracy, co
       throw_if_interrupted();
     }
   }
-  std::vector<Vec4> light(places.size());
+  std::vector<Vec4> light(places.size()), spread(places.size());
   impl_->read(target.light, light);
+  impl_->read(target.spread, spread);
   impl_->context.check("splatting gloss");
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i].x >= 0) buffer.light[i] = glm::max(light[i], Vec4(0));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!(places[i].x >= 0)) continue;
+    buffer.light[i] = glm::max(light[i], Vec4(0));
+    left.spread[i].value2 = static_cast<double>(spread[i].z);
+    if (!(light[i].w > 0)) continue;
+    const Rgb error = gloss_error(left.spread[i], light[i].w, Rgb(buffer.light[i]), Rgb(light[i]),
+                                  Rgb(buffer.error[i]), buffer.unit);
+    buffer.error[i] = Vec4(error, buffer.error[i].w);
+  }
   return buffer;
 }
 

@@ -24,13 +24,15 @@ struct GlossGroup {
   GlossLane* lobe;        ///< [order^2][3], 1/sqrt(sr)
   GlossLane* band_error;  ///< [order][3] sums of w stderr
   GlossLane light[4], error[4], irradiance[3];
+  GlossLane spread[3];  ///< as SplatBuffer::spread, of light in units of 1 / per_unit
+  float per_unit;
 };
 
 /// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius.
 struct GlossSplat {
   float position[3], inverse_radius, normal[3], front_limit_m;
   float x[3], y[3];       ///< axes of its frame
-  float weight;           ///< its own
+  float weight, shared;   ///< its own
   float steepness_per_m;  ///< steps by more than 1/this are shortened to that; 0: no steps at all
   const float *light, *gradient_x, *gradient_y, *stderr_light;
   float irradiance[3], irradiance_x[3], irradiance_y[3];  ///< of the former three

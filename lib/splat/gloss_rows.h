@@ -39,10 +39,16 @@ class GlossRows {
   std::vector<Vec4> texels_;
 };
 
-/// splat_gloss_on_cpu() of all pixels but those whose lobe is in `rows`: `places` is set to where (x = -1: no
-/// record adds to the pixel, or it is drawn already), light is left 0 there, all else is as it should be.
+/// What a pixel's light is left to others for.
+struct GlossLeft {
+  std::vector<Vec4>
+      place;  ///< where its lobe is; x = -1: no record adds to the pixel, or it is drawn already
+  std::vector<BlendSums> spread;  ///< but for value2
+};
+/// splat_gloss_on_cpu() of all pixels but those whose lobe is in `rows`: their light is left 0, and their
+/// error the sum of w x the records' own.
 GlossBuffer splat_gloss_beside(const GlossCache& cache, double accuracy, const RayScene& rays,
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel,
-                               const GlossRows& rows, std::vector<Vec4>& places);
+                               const GlossRows& rows, GlossLeft& left);
 
 }  // namespace phos

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "splat/gloss_kernel.h"
 #include "splat/gloss_rows.h"
+#include "splat/splatter.h"
 #include "splat/tiles.h"
 
 namespace phos {
@@ -36,7 +37,7 @@ GlossSplat pack(const RadianceRecord& r) {
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   s.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
   s.front_limit_m = -kFrontTolerance * r.radius_m;
-  s.weight = r.weight;
+  s.weight = r.weight, s.shared = r.shared;
   s.steepness_per_m = steepness_per_m(r);
   s.light = r.light.data(), s.stderr_light = r.stderr_light.data();
   s.gradient_x = r.gradient_x.data(), s.gradient_y = r.gradient_y.data();
@@ -72,15 +73,18 @@ class GlossSplatter {
     buffer_.light.assign(g_.position.size(), Vec4(0)), buffer_.error.assign(g_.position.size(), Vec4(0));
   }
 
-  /// Leaves pixels whose lobe is in `rows` to others; `places` says which, and where it is.
-  void leave(const GlossRows& rows, std::vector<Vec4>& places) {
-    places.assign(g_.position.size(), Vec4(-1, 0, 0, 0));
-    rows_ = &rows, places_ = &places;
+  /// Leaves pixels whose lobe is in `rows` to others; `left` says which, where it is, and what errors need.
+  void leave(const GlossRows& rows, GlossLeft& left) {
+    left.place.assign(g_.position.size(), Vec4(-1, 0, 0, 0)), left.spread.assign(g_.position.size(), {});
+    rows_ = &rows, left_ = &left;
   }
 
   GlossBuffer draw() {
     for (const int order : cache_.tables().orders()) add_class(order);
     if (classes_.empty()) return std::move(buffer_);
+    float most = 0;
+    for (const Class& c : classes_) most = std::max(most, splat_unit_lx(c.records));
+    buffer_.unit = most;
     const TileGrid grid(g_, kTileSide);
     join(static_cast<std::size_t>(grid.rows()), 1, [&](std::size_t row, Worker& worker) {
       for (const Class& c : classes_) draw_row(grid, static_cast<int>(row), c, worker);
@@ -180,6 +184,7 @@ class GlossSplatter {
   void draw_group(std::span<const std::size_t> pixels, const Class& c, const std::vector<std::uint32_t>& list,
                   Worker& w) {
     w.group = GlossGroup{};
+    w.group.per_unit = 1 / buffer_.unit;
     w.lit = {}, w.turned = {};
     for (std::size_t k = 0; k < pixels.size(); ++k) {
       const Vec4 &p = g_.position[pixels[k]], &n = g_.normal[pixels[k]];
@@ -201,8 +206,12 @@ class GlossSplatter {
         const auto rgb = [k](const GlossLane* of) { return Rgb(of[0].of[k], of[1].of[k], of[2].of[k]); };
         const Rgb least = w.least[k] * glm::max(rgb(w.group.irradiance), Rgb(0));
         const float weight = w.group.light[3].of[k], records = w.group.error[3].of[k];
-        buffer_.light[w.pixel[k]] = Vec4(glm::max(rgb(w.group.light), least), weight);
-        buffer_.error[w.pixel[k]] = Vec4(rgb(w.group.error), records);
+        const Rgb light = rgb(w.group.light), kept = glm::max(light, least);
+        const BlendSums sums{w.group.spread[0].of[k], w.group.spread[1].of[k],
+                             static_cast<double>(w.group.spread[2].of[k])};
+        buffer_.light[w.pixel[k]] = Vec4(kept, weight);
+        buffer_.error[w.pixel[k]] =
+            Vec4(gloss_error(sums, weight, kept, light, rgb(w.group.error), buffer_.unit), records);
         w.pairs += static_cast<std::uint64_t>(records);
       }
     }
@@ -252,7 +261,9 @@ class GlossSplatter {
 
   /// All of a pixel but its light.
   void leave(const Vec4& place, std::size_t k, const Class& c, Worker& w) {
-    (*places_)[w.pixel[k]] = place;
+    left_->place[w.pixel[k]] = place;
+    for (std::size_t j = 0; j < w.valid.size(); ++j)
+      left_->spread[w.pixel[k]].add(w.weight[j].of[k], c.splat[w.valid[j]].shared, 0);
     Rgb variance(0);
     float records = 0;
     for (int l = 0; l < c.order; ++l) {
@@ -297,11 +308,17 @@ class GlossSplatter {
   const GlossKernel& kernel_ = best_gloss_kernel();
   std::vector<Class> classes_;
   const GlossRows* rows_ = nullptr;
-  std::vector<Vec4>* places_ = nullptr;
+  GlossLeft* left_ = nullptr;
   GlossBuffer buffer_;
 };
 
 }  // namespace
+
+Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb& light, const Rgb& error,
+                float unit) {
+  const double mean = static_cast<double>(luminance(light)) / static_cast<double>(weight * unit);
+  return weight * blended_error(sums, weight, kept / weight, error / weight, mean);
+}
 
 float steepness_per_m(const RadianceRecord& r) {
   const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
@@ -326,10 +343,10 @@ GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const R
 
 GlossBuffer splat_gloss_beside(const GlossCache& cache, double accuracy, const RayScene& rays,
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel,
-                               const GlossRows& rows, std::vector<Vec4>& places) {
+                               const GlossRows& rows, GlossLeft& left) {
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   GlossSplatter splatter(cache, accuracy, rays, gbuffer, camera, subpixel);
-  splatter.leave(rows, places);
+  splatter.leave(rows, left);
   return splatter.draw();
 }
 

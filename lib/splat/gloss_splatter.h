@@ -11,8 +11,10 @@ namespace phos {
 
 /// What blending leaves per pixel, before normalisation.
 struct GlossBuffer {
-  std::vector<Vec4> light;   ///< rgb = sum w L (cd/m2 towards the eye), w = sum w
-  std::vector<Vec4> error;   ///< rgb = sum w stderr (cd/m2), w = number of records
+  std::vector<Vec4> light;  ///< rgb = sum w L (cd/m2 towards the eye), w = sum w
+  /// rgb = sum w x standard error of their mean (blended_error, cd/m2), w = number of records.
+  std::vector<Vec4> error;
+  float unit = 1;            ///< of light, cd/m2, that keeps squares within the range of floats
   std::uint64_t pairs = 0;   ///< of a pixel and a record, that added light
   std::uint64_t turned = 0;  ///< pixels whose records had to be rotated: looked up instead of drawn
 };
@@ -24,6 +26,11 @@ struct GlossBuffer {
 /// ones), the lookup answers. Same bytes for any number of threads.
 GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const RayScene& rays,
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
+
+/// The error of a pixel: sums over its records of w, of w x light (`kept`: what harmonics ring below the
+/// least cut off) and of w x their errors; `sums` in squares of `unit`.
+Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb& light, const Rgb& error,
+                float unit);
 
 /// Of a record: steps by more than 1/this are shortened to that; 0: it takes none.
 float steepness_per_m(const RadianceRecord& record);

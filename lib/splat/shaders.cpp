@@ -118,12 +118,14 @@ layout(std140, binding = 0) uniform Record {
   vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y
 };
 uniform vec4 rule;                        // 1 / accuracy, least weight, first and end row of the class
+uniform vec4 unit;                        // x: 1 / that of light in squares
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
 layout(binding = 2) uniform sampler2D lobe_map;    // row, share of the next, cosine and sine of the azimuth
 layout(binding = 3) uniform sampler2D table;       // rows of lobes, l (l + 1) / 2 + m; first w: bands
 layout(location = 0) out vec4 light;
 layout(location = 1) out vec4 error;
+layout(location = 2) out vec4 spread;
 
 vec3 coefficient(int i, vec3 shares) {
   return shares.x * numbers[3 * i].rgb + shares.y * numbers[3 * i + 1].rgb + shares.z * numbers[3 * i + 2].rgb;
@@ -131,7 +133,7 @@ vec3 coefficient(int i, vec3 shares) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  light = vec4(0.0), error = vec4(0.0);
+  light = vec4(0.0), error = vec4(0.0), spread = vec4(0.0);
   vec4 lobe = texelFetch(lobe_map, pixel, 0);
   if (lobe.x < rule.z || lobe.x >= rule.w) return;
   vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
@@ -161,6 +163,8 @@ void main() {
     angle = vec2(angle.x * lobe.z - angle.y * lobe.w, angle.x * lobe.w + angle.y * lobe.z);
   }
   light = vec4(sum, w);
+  float value = dot(sum, vec3(0.2126, 0.7152, 0.0722)) * unit.x / w;
+  spread.z = w * value * value;
 }
 )";
 

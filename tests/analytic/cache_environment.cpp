@@ -131,7 +131,7 @@ TEST(Sensors, OnOpenGround) {
       const Reading& r = read.readings[0];
       EXPECT_NEAR(r.direct_lx, kPi * strength, 0.003f * kPi * strength) << metres << " " << strength;
       EXPECT_LT(r.stderr_lx, 0.03f * r.direct_lx);
-      EXPECT_GT(r.stderr_lx, 0.003f * r.direct_lx);  // as if the samples were independent
+      EXPECT_GT(r.stderr_lx, 0.002f * r.direct_lx);
     }
   }
 }

@@ -152,7 +152,9 @@ TEST(GlossPicture, TheRecordsErrorShows) {
   const double thrice =
       static_cast<double>(picture.render(records).image.rgb("stderr")[kSide * kSide / 2 + kSide / 2].y);
   EXPECT_GT(with, 0);
-  EXPECT_NEAR(thrice / with, 3, 1e-3);
+  // Where records disagree by more than their noise, that is in it too, and does not grow.
+  EXPECT_GT(thrice / with, 2.7);
+  EXPECT_LT(thrice / with, 3.001);
 }
 
 /// What lamps show in gloss does not come from records; whoever finds it, it is the same light.
