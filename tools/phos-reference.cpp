@@ -92,10 +92,10 @@ int main(int argc, char** argv) {
   tool.takes_frames(scene_options.frame);
   tool.fresh_each_frame(reference);
   options.section("Points");
-  options.file(
-      "points", points_path,
-      "measure illuminance at these points instead (CSV x,y,z,nx,ny,nz; the side that the normal faces); the "
-      "result goes to -o or stdout");
+  options.file("points", points_path,
+               "measure illuminance at these points instead (CSV with columns x,y,z,nx,ny,nz, or six numbers "
+               "a line; the side that the normal faces); the "
+               "result goes to -o or stdout");
   options.example("phos-reference room.glb --error 0.01 --samples 4096 -o room.exr",
                   "until the noise is 1 %");
   options.example("phos-reference room.glb --bounces 1 -o direct.exr", "direct light only");

@@ -27,10 +27,7 @@ struct Sensors {
   std::optional<float> level_m;       ///< of a workplane
 };
 
-/// Sensors from a text file, "-" is stdin. CSV whose first line names x,y,z (m) and nx,ny,nz, and perhaps id,
-/// in any order among other columns ("x [m]" and "x_m" are read as x); or six numbers a line, between blanks
-/// or commas, as Radiance has them. Lines that are empty or start with '#' are skipped. Throws
-/// Error(bad_input) naming line and column.
+/// Sensors from a text file (parse_points), "-" is stdin.
 Sensors read_sensors(const std::string& path);
 /// The same from text; `where` is its name in messages.
 Sensors parse_sensors(std::string_view text, const std::string& where);

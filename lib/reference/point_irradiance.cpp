@@ -1,13 +1,12 @@
 #include "reference/point_irradiance.h"
 
 #include <algorithm>
-#include <charconv>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/json.h"
 #include "core/parallel.h"
 #include "reference/moments.h"
+#include "scene/point_table.h"
 
 namespace phos {
 
@@ -97,48 +96,13 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
   return estimate_irradiance(rays, luminaires, p, n, options);
 }
 
-namespace {
-
-/// Up to six numbers, comma- or space-separated. Returns how many were read.
-int read_numbers(const std::string& line, float numbers[6]) {
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  int count = 0;
-  while (count < 6) {
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
-    const auto [rest, error] = std::from_chars(at, end, numbers[count]);
-    if (error != std::errc{} || !std::isfinite(numbers[count])) return count;
-    ++count;
-    at = rest;
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
-    if (at < end && (*at == ',' || *at == ';')) ++at;
-  }
-  return count;
-}
-
-}  // namespace
-
 std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where) {
-  std::vector<SensorPoint> points;
-  std::istringstream lines(csv);
-  std::string line;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || line[first] == '#') continue;
-    float v[6];
-    const int count = read_numbers(line, v);
-    if (count == 0 && points.empty() && line.find('x') != std::string::npos) continue;  // heading
-    const std::string place = text(where, ":", number);
-    if (count < 6)
-      throw Error(ExitCode::bad_input, place,
-                  text("needs six numbers x,y,z,nx,ny,nz; the ", count + 1, ". is missing or no number"));
-    const SensorPoint point{{v[0], v[1], v[2]}, normalized_or_zero({v[3], v[4], v[5]})};
-    if (point.normal == Vec3(0))
-      throw Error(ExitCode::bad_input, place, "the normal is zero; give the direction that the sensor faces");
-    points.push_back(point);
-  }
-  if (points.empty())
+  const PointTable table = parse_points(csv, where);
+  if (table.position.empty())
     throw Error(ExitCode::bad_input, where, "holds no points; give lines of x,y,z,nx,ny,nz");
+  std::vector<SensorPoint> points;
+  for (std::size_t i = 0; i < table.position.size(); ++i)
+    points.push_back({table.position[i], table.normal[i]});
   return points;
 }
 

@@ -44,9 +44,8 @@ struct SensorPoint {
   Vec3 position{0}, normal{0, 1, 0};
 };
 
-/// Reads `x,y,z,nx,ny,nz` lines (a first line of words is a heading; empty lines and lines from '#' are
-/// skipped; further columns are ignored). Normals are made unit. Throws Error(bad_input) with the line at
-/// fault.
+/// Points as parse_points() reads them. Throws Error(bad_input) with the line at fault, or where there are
+/// none.
 std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where);
 
 /// `x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx` and a line per point, shortest round-trip

@@ -155,11 +155,13 @@ TEST(ReferencePaths, NoLightIsBlack) {
 
 TEST(ReferencePaths, ReadsPoints) {
   const auto points = parse_sensor_points(
-      "x,y,z,nx,ny,nz\n# desk\n1,2,3,0,2,0\r\n\n 4 ; 5 ; 6 ; 0 ; 0 ; -1 ; name\n", "p.csv");
+      "id,x,y,z,note,nx,ny,nz\n# desk\na,1,2,3,,0,2,0\r\n\nb, 4 , 5 , 6 , 7 , 0 , 0 , -1\n", "p.csv");
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0].position, Vec3(1, 2, 3));
   EXPECT_EQ(points[0].normal, Vec3(0, 1, 0));
+  EXPECT_EQ(points[1].position, Vec3(4, 5, 6));
   EXPECT_EQ(points[1].normal, Vec3(0, 0, -1));
+  EXPECT_EQ(parse_sensor_points("1 2 3 0 1 0\n", "p.csv").size(), 1u);
 }
 
 TEST(ReferencePaths, RefusesBadPoints) {
