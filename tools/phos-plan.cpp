@@ -70,11 +70,12 @@ int main(int argc, char** argv) {
     piloted.error = goal.error.value_or(plan.usual_error);
     piloted.common = {"--threads", std::to_string(thread_count())};
     if (tool.verbose()) piloted.say = [&](const std::string& line) { tool.say(line); };
+    tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
     const Pilot pilot = [&] {
       const auto timer = tool.time("pilot");
       return run_pilot(task, piloted);
     }();
-    tool.say(text("pilot: ", duration(pilot.seconds)));
+    tool.say(text("pilot: took ", duration(pilot.seconds)));
     const Plan chosen = make_plan(task, pilot, goal);
     tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);

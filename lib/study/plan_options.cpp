@@ -37,7 +37,7 @@ void declare_options(Options& options, PlanOptions& p) {
   options.number("pilot", p.pilot_s, "S",
                  "time for the pilot, about: half of it goes into references, and what they cannot tell is "
                  "not known; 0: 10, "
-                 "and more for an error below 6 %",
+                 "and up to 60 for an error below 6 %",
                  kNotNegative);
   options.flag("sh", p.script, "print a shell script (this is usual)");
   options.flag("json", p.json, "print JSON");
@@ -68,9 +68,10 @@ double read_error(const std::string& word) {
 }
 
 double pilot_seconds(const PlanOptions& p, const PlanGoal& goal) {
-  constexpr double kUsual = 10, kOfError = 0.6;  // s: the noise of references falls slowly
+  // s: the noise of references falls slowly, and nobody waits for ever.
+  constexpr double kUsual = 10, kOfError = 0.6, kMost = 60;
   if (p.pilot_s > 0) return p.pilot_s;
-  return goal.error ? std::max(kUsual, kOfError / *goal.error) : kUsual;
+  return goal.error ? std::clamp(kOfError / *goal.error, kUsual, kMost) : kUsual;
 }
 
 PlanGoal goal_of(const Options& options, const PlanOptions& p) {
