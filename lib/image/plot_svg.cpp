@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/markup.h"
 #include "image/plot_pen.h"
 
 namespace phos {
@@ -17,21 +18,6 @@ std::string to_hundredth(double v) {
   char s[48];
   std::snprintf(s, sizeof s, "%.2f", v);
   return s;
-}
-
-std::string escaped(const std::string& words) {
-  std::string out;
-  for (const char c : words) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      out += c;
-  }
-  return out;
 }
 
 }  // namespace
@@ -60,7 +46,7 @@ void SvgPen::write(const PlotPoint& at, const std::string& words, Align align, b
   const std::string x = to_hundredth(at.x), y = to_hundredth(at.y);
   const std::string turn = upwards ? text(" transform=\"rotate(-90 ", x, " ", y, ")\"") : "";
   svg_ += text("<text x=\"", x, "\" y=\"", y, "\" dy=\"0.35em\" text-anchor=\"", anchor, "\" fill=\"",
-               hex(kInk), "\"", turn, ">", escaped(words), "</text>\n");
+               hex(kInk), "\"", turn, ">", markup_text(words), "</text>\n");
 }
 
 double SvgPen::width_of(const std::string& words) const {

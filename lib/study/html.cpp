@@ -1,6 +1,7 @@
 #include "study/html.h"
 
 #include "core/error.h"
+#include "core/markup.h"
 #include "core/options.h"
 #include "study/html_pictures.h"
 #include "study/html_text.h"
@@ -29,13 +30,13 @@ std::string plots(const PageInput& in, const std::string& part) {
 std::string heads(const PageInput& in, const std::string& unit) {
   std::string html = "<thead><tr><th>point</th>";
   if (several_views(in)) html += "<th>scene, camera</th>";
-  for (const Factor& f : in.study.factors) html += text("<th>", html_text(f.name()), "</th>");
+  for (const Factor& f : in.study.factors) html += text("<th>", markup_text(f.name()), "</th>");
   for (const std::string& name :
        {std::string("error, %"), std::string("bias, %"), std::string("99th percentile, %"),
         text("RMS, ", unit), std::string("stated, %"), std::string("within 2 s.e., %"),
         std::string("reference resolves, %"), std::string("time, s"), std::string("CPU, s"),
         std::string("memory"), std::string("files"), std::string("front"), std::string("commands")})
-    html += text("<th>", html_text(name), "</th>");
+    html += text("<th>", markup_text(name), "</th>");
   return html + "</tr></thead>\n";
 }
 
@@ -53,7 +54,7 @@ std::string commands(const PageInput& in, std::size_t setting, std::optional<std
     std::string lines;
     for (const std::string& line : in.work.stages.shell_lines(*(job.*last), text("p", setting)))
       lines.append(line).append("\n");
-    return text("<details><summary>show</summary><pre>", html_text(lines), "</pre></details>");
+    return text("<details><summary>show</summary><pre>", markup_text(lines), "</pre></details>");
   }
   return "";
 }
@@ -63,9 +64,9 @@ std::string row(const PageInput& in, const PointResult& p, const Summary& s,
   const Setting& setting = in.work.settings[p.setting];
   std::string html = text(s.best_in_time ? "<tr class=\"front\">" : "<tr>", "<td>", p.setting, "</td>");
   const std::size_t view = setting.scene * in.study.cameras.size() + setting.camera;
-  if (several_views(in)) html += text("<td>", html_text(view_title(in.study, view)), "</td>");
+  if (several_views(in)) html += text("<td>", markup_text(view_title(in.study, view)), "</td>");
   for (std::size_t i = 0; i < in.study.factors.size(); ++i)
-    html += text("<td>", html_text(in.study.factors[i].labels[setting.level[i]]), "</td>");
+    html += text("<td>", markup_text(in.study.factors[i].labels[setting.level[i]]), "</td>");
   const auto percent = [](const std::optional<double>& v) {
     return number_cell(v.value_or(NAN), v ? short_number(100 * *v) : "-");
   };
@@ -88,8 +89,8 @@ std::string table(const PageInput& in, Kind kind, std::optional<std::size_t> Job
     if (const Summary* s = p.own(kind)) unit = s->unit, rows += row(in, p, *s, last);
     if (!(p.*kind) && !p.failed.empty())
       failed += text("<p class=\"doubt\">point ", p.setting, " (",
-                     html_text(describe(in.study, in.work.settings[p.setting])),
-                     ") failed: ", html_text(p.failed), "</p>\n");
+                     markup_text(describe(in.study, in.work.settings[p.setting])),
+                     ") failed: ", markup_text(p.failed), "</p>\n");
   }
   return text("<div class=\"scroll\"><table class=\"sorts\">", heads(in, unit), "<tbody>\n", rows,
               "</tbody></table></div>\n", failed);
@@ -106,7 +107,7 @@ std::string effects(const PageInput& in, const std::vector<FactorEffect>& all) {
     for (std::size_t i = 0; i < e.levels.size(); ++i) {
       const Factor& f = in.study.factors[e.factor];
       const LevelEffect& l = e.levels[i];
-      html += text("<tr><td>", i == 0 ? html_text(f.name()) : "", "</td><td>", html_text(f.labels[i]),
+      html += text("<tr><td>", i == 0 ? markup_text(f.name()) : "", "</td><td>", markup_text(f.labels[i]),
                    "</td><td>", i == 0 ? "1" : interval_text(l.error), "</td><td>",
                    i == 0 ? "1" : interval_text(l.seconds), "</td><td>", l.pairs, "</td><td>", l.faint,
                    "</td></tr>\n");
@@ -119,7 +120,7 @@ std::string head(const PageInput& in) {
   std::string html = text(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>",
-      html_text(s.path), "</title><style>", kPageStyle, "</style></head><body>\n<h1>", html_text(s.path),
+      markup_text(s.path), "</title><style>", kPageStyle, "</style></head><body>\n<h1>", markup_text(s.path),
       "</h1>\n");
   html +=
       text("<p>", in.work.settings.size(), in.work.settings.size() == 1 ? " setting, " : " settings, ",
@@ -134,7 +135,7 @@ std::string head(const PageInput& in) {
            s.by_cpu ? "; fronts, plots and ratios are of processor time" : "",
            s.threads > 0 ? text(", on ", s.threads, s.threads == 1 ? " thread" : " threads") : "", ".</p>\n");
   for (const std::string& sentence : doubts(in.results))
-    html += text("<p class=\"doubt\">", html_text(sentence), "</p>\n");
+    html += text("<p class=\"doubt\">", markup_text(sentence), "</p>\n");
   return html;
 }
 
@@ -143,15 +144,15 @@ std::string head(const PageInput& in) {
 std::string study_page(const PageInput& in) {
   std::string html = head(in);
   if (in.study.makes_pictures()) {
-    html += text("<h2>Pictures: ", html_text(in.study.layer), "</h2>\n");
+    html += text("<h2>Pictures: ", markup_text(in.study.layer), "</h2>\n");
     html += plots(in, "picture-error-") + table(in, &PointResult::picture, &Job::picture);
     html += effects(in, in.results.picture_effects) + plots(in, "picture-effect-");
     for (std::size_t v = 0; v < in.work.pictures.size(); ++v)
       if (const std::string pictures = pictures_section(in, v); !pictures.empty())
-        html += text("<h2>", html_text(view_title(in.study, v)), "</h2>\n", pictures);
+        html += text("<h2>", markup_text(view_title(in.study, v)), "</h2>\n", pictures);
   }
   if (in.study.reads_sensors()) {
-    html += text("<h2>Illuminance at ", html_text(in.study.sensors.substr(in.study.sensors.rfind('/') + 1)),
+    html += text("<h2>Illuminance at ", markup_text(in.study.sensors.substr(in.study.sensors.rfind('/') + 1)),
                  "</h2>\n");
     html += plots(in, "lux-error-") + table(in, &PointResult::lux, &Job::lux);
     html += effects(in, in.results.lux_effects) + plots(in, "lux-effect-");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/markup.h"
 #include "image/false_colour.h"
 #include "image/layer_picture.h"
 #include "image/metrics.h"
@@ -78,7 +79,7 @@ std::string choice(const std::vector<Shown>& all, std::size_t selected) {
   std::string html = "<select>";
   for (std::size_t i = 0; i < all.size(); ++i)
     html += text("<option value=\"", all[i].id, "\"", i == selected ? " selected" : "", ">",
-                 html_text(all[i].caption), "</option>");
+                 markup_text(all[i].caption), "</option>");
   return html + "</select>";
 }
 
@@ -102,10 +103,10 @@ std::string pictures_section(const PageInput& in, std::size_t view) {
       "bright)</summary><div class=\"gallery\">\n";
   for (const Shown& s : all) {
     html +=
-        text("<figure><img id=\"", s.id, "\" alt=\"", html_text(s.caption), "\" src=\"", s.picture, "\">");
+        text("<figure><img id=\"", s.id, "\" alt=\"", markup_text(s.caption), "\" src=\"", s.picture, "\">");
     if (!s.difference.empty())
       html += text("<img id=\"", s.id, "d\" alt=\"difference\" src=\"", s.difference, "\">");
-    html += text("<figcaption>", html_text(s.caption), "</figcaption></figure>\n");
+    html += text("<figcaption>", markup_text(s.caption), "</figcaption></figure>\n");
   }
   return html + "</div></details>\n";
 }

@@ -6,26 +6,10 @@
 
 #include "core/error.h"
 #include "core/json.h"
+#include "core/markup.h"
 #include "image/formats.h"
 
 namespace phos {
-
-std::string html_text(std::string_view s) {
-  std::string out;
-  for (const char c : s) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string base64(std::string_view bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -67,7 +51,7 @@ std::string interval_text(const Interval& i, double scale) {
 }
 
 std::string number_cell(double sort_by, const std::string& words) {
-  return text("<td data-v=\"", std::isnan(sort_by) ? "" : shortest(sort_by), "\">", html_text(words),
+  return text("<td data-v=\"", std::isnan(sort_by) ? "" : shortest(sort_by), "\">", markup_text(words),
               "</td>");
 }
 

@@ -10,8 +10,6 @@
 
 namespace phos {
 
-/// Text with what HTML would read as its own replaced.
-std::string html_text(std::string_view s);
 /// RFC 4648.
 std::string base64(std::string_view bytes);
 /// "data:image/png;base64,..."

@@ -90,13 +90,7 @@ TEST(TemporalFilm, CameraCutLosesNoRecords) {
 TEST(TemporalFilm, RadianceFilmOfWhatIsGlossy) {
   Slabs slabs;
   slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});
-  Json waxed;
-  waxed["name"] = "waxed";
-  waxed["extras"]["phos"]["brdf"] = "phong";
-  waxed["extras"]["phos"]["kd"] = Json::Array{0.3, 0.3, 0.3};
-  waxed["extras"]["phos"]["ks"] = Json::Array{0.4, 0.4, 0.4};
-  waxed["extras"]["phos"]["exponent"] = 5;
-  slabs.slab("tray", 1, 0, 0.2f, 0, waxed);
+  slabs.slab("tray", 1, 0, 0.2f, 0, waxed());
   const std::string scene = slabs.write("temporal-gloss", 17), folder = scratch("temporal-gloss-out");
   const test::Run radiance =
       temporal(quick({scene, "--frames", "0:8", "--kind", "radiance", "-o", folder + "/f.radiance"}));
@@ -117,13 +111,7 @@ TEST(TemporalFilm, RadianceFilmOfOtherFramesIsRefused) {
   const auto with_lamp_to = [](float x, const std::string& name) {
     Slabs slabs;
     slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, x, 1, 0});
-    Json waxed;
-    waxed["name"] = "waxed";
-    waxed["extras"]["phos"]["brdf"] = "phong";
-    waxed["extras"]["phos"]["kd"] = Json::Array{0.3, 0.3, 0.3};
-    waxed["extras"]["phos"]["ks"] = Json::Array{0.4, 0.4, 0.4};
-    waxed["extras"]["phos"]["exponent"] = 5;
-    slabs.slab("tray", 1, 0, 0.2f, 0, waxed);
+    slabs.slab("tray", 1, 0, 0.2f, 0, waxed());
     return slabs.write(name, 17);
   };
   const std::string scene = with_lamp_to(0.5f, "film-this"), other = with_lamp_to(0.4f, "film-that");

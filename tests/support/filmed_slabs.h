@@ -24,6 +24,17 @@ inline std::vector<std::string> quick(std::vector<std::string> arguments) {
   return arguments;
 }
 
+/// A broad Phong lobe beside a Lambert one.
+inline Json waxed() {
+  Json m;
+  m["name"] = "waxed";
+  m["extras"]["phos"]["brdf"] = "phong";
+  m["extras"]["phos"]["kd"] = Json::Array{0.3, 0.3, 0.3};
+  m["extras"]["phos"]["ks"] = Json::Array{0.4, 0.4, 0.4};
+  m["extras"]["phos"]["exponent"] = 5;
+  return m;
+}
+
 /// Two grey slabs that face each other, a lamp between them, and a camera that sees both.
 struct Slabs : Animated {
   Slabs() {

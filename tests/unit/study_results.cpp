@@ -1,4 +1,5 @@
 // What a study makes of its measurements, by hand.
+#include "core/markup.h"
 #include "study/results.h"
 
 #include <gtest/gtest.h>
@@ -170,7 +171,7 @@ TEST(StudyResults, PlotsShowPointsFrontAndEffects) {
 }
 
 TEST(StudyPage, PiecesOfHtml) {
-  EXPECT_EQ(html_text("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
+  EXPECT_EQ(markup_text("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
   // RFC 4648, section 10.
   const char* const known[][2] = {{"", ""},
                                   {"f", "Zg=="},

@@ -1,0 +1,13 @@
+// Text within HTML and SVG.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace phos {
+
+/// With what markup would read as its own replaced, and control characters left out: fit for elements and
+/// quoted attributes.
+std::string markup_text(std::string_view s);
+
+}  // namespace phos
