@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
     if (!at.empty()) points = read_points(at);
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
-    resolve(placement, scene, source);
+    resolve(placement, scene, source, records.accuracy);
     const RayScene rays(scene, {isa});
     const ChosenEstimator estimator = [&] {
       const auto timer = tool.time("coarse records");

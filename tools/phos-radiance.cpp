@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
     if (!at.empty()) points = read_points(at);
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
-    resolve(placement, scene, source);
+    resolve(placement, scene, source, radiance.records.accuracy);
     tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
     if (tables.orders().empty()) {
       tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",

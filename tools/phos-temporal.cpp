@@ -93,7 +93,8 @@ int main(int argc, char** argv) {
     records.resolve(first->scene.bounds.diagonal_m());
     job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());
     job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
-    resolve_film_places(job.placement, first->scene);
+    resolve_film_places(job.placement, first->scene,
+                        (job.of_radiance ? job.light.radiance.records : records).accuracy);
     job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
     if (!files.radiance.empty())
       require_same_film(Container::open(files.radiance, "radiance"), job.survey);

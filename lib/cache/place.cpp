@@ -1,4 +1,7 @@
 // The modes of placement: options, what goes with what, and the choice.
+#include <algorithm>
+#include <limits>
+
 #include "cache/placement.h"
 #include "core/error.h"
 #include "file/shards.h"
@@ -9,7 +12,7 @@ namespace phos {
 namespace {
 
 View view_of(const PlacementOptions& p, const Scene& scene) {
-  return {find_camera(scene, p.camera), p.width, p.height, p.min_radius_pixels, p.max_radius_pixels};
+  return {find_camera(scene, p.camera), p.width, p.height, p.min_radius_pixels.value(), p.max_radius_pixels};
 }
 
 }  // namespace
@@ -37,7 +40,8 @@ void declare_place_options(Options& options, PlacementOptions& p) {
                   "with --place view: height; 0: from the width; both 0: 1000 on the longer side",
                   {0, 65536});
   options.number("min-radius-pixels", p.min_radius_pixels, "PIXELS",
-                 "with --place view: smallest radius as seen there (1.5 is usual); 0: no such bound",
+                 "with --place view: smallest radius as seen there; 0: no such bound (default: 1 / accuracy, "
+                 "so that no record serves less than a pixel)",
                  kNotNegative);
   options.number("max-radius-pixels", p.max_radius_pixels, "PIXELS",
                  "with --place view: largest radius as seen there (10 to 20 is usual); 0: no such bound",
@@ -51,7 +55,7 @@ void declare_options(Options& options, PlacementOptions& p) {
                Recorded::no);
 }
 
-void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& source) {
+void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& source, double accuracy) {
   const auto refuse = [](const char* option, const std::string& message) {
     throw Error(ExitCode::usage, option, message);
   };
@@ -68,13 +72,16 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
   if (!p.part.empty() && p.place != Place::every) refuse("--part", "goes with --place every alone; add that");
   parse_share("--part", p.part);
   if (p.place != Place::view) {
-    if (p.min_radius_pixels > 0 || p.max_radius_pixels > 0)
+    const bool least = p.min_radius_pixels.value_or(0) > 0;
+    if (least || p.max_radius_pixels > 0)
       refuse(
-          p.min_radius_pixels > 0 ? "--min-radius-pixels" : "--max-radius-pixels",
+          least ? "--min-radius-pixels" : "--max-radius-pixels",
           "goes with --place view alone, which knows pixels; give metres by --min-radius and --max-radius");
     return;
   }
-  if (p.max_radius_pixels > 0 && p.min_radius_pixels > p.max_radius_pixels)
+  const double most = p.max_radius_pixels > 0 ? p.max_radius_pixels : std::numeric_limits<double>::infinity();
+  if (!p.min_radius_pixels) p.min_radius_pixels = std::min(1 / accuracy, most);
+  if (*p.min_radius_pixels > most)
     refuse("--min-radius-pixels", "is more than --max-radius-pixels; give a smaller one");
   resolve_size(find_camera(scene, p.camera), kPictureSide, p.width, p.height);
 }

@@ -29,10 +29,12 @@ struct PlacementOptions {
   std::int64_t max_candidates = 0;  ///< photons tried; 0: all
   std::int64_t passes = 4;  ///< over the candidates; later ones cover what neighbour clamping uncovered
   Place place = Place::automatic;
-  std::string camera{};                                 ///< of view: "" = the scene's first
-  std::int64_t width = 0, height = 0;                   ///< of view, pixels; 0: as resolve_size() says
-  double min_radius_pixels = 0, max_radius_pixels = 0;  ///< of view; 0: no bound
-  std::string part{};                                   ///< of every: "k/n", or empty: all
+  std::string camera{};                ///< of view: "" = the scene's first
+  std::int64_t width = 0, height = 0;  ///< of view, pixels; 0: as resolve_size() says
+  /// Of view: as the camera sees it. Not given: 1 / accuracy, which makes no record serve less than a pixel.
+  std::optional<double> min_radius_pixels{};
+  double max_radius_pixels = 0;  ///< of view; 0: no bound
+  std::string part{};            ///< of every: "k/n", or empty: all
 };
 
 void declare_options(Options& options, PlacementOptions& placement);
@@ -49,9 +51,10 @@ struct PlacementSource {
   MaterialFilter wanted{};
 };
 
-/// Fills in place, and width and height of a view. Throws Error(usage) for what does not go together: photons
-/// or points that are not there, points that nobody reads, part without every, bounds the wrong way round.
-void resolve(PlacementOptions& placement, const Scene& scene, const PlacementSource& source);
+/// Fills in place, and width, height and least radius of a view, whose records have this accuracy. Throws
+/// Error(usage) for what does not go together: photons or points that are not there, points that nobody
+/// reads, part without every, bounds the wrong way round.
+void resolve(PlacementOptions& placement, const Scene& scene, const PlacementSource& source, double accuracy);
 
 struct PlacementReport {
   std::uint64_t candidates = 0, made = 0, kept = 0, uncovered = 0;

@@ -144,7 +144,7 @@ RadianceOptions radiance_options(const RecordOptions& given, const Options& opti
   return r;
 }
 
-void resolve_film_places(PlacementOptions& placement, const Scene& scene) {
+void resolve_film_places(PlacementOptions& placement, const Scene& scene, double accuracy) {
   if (placement.place == Place::automatic) placement.place = Place::view;
   if (placement.place == Place::given || placement.place == Place::every)
     throw Error(ExitCode::usage, "--place",
@@ -152,7 +152,7 @@ void resolve_film_places(PlacementOptions& placement, const Scene& scene) {
   PlacementSource own;
   const PhotonMap traced = PhotonMap::build({}, {});
   own.photons = &traced;  // there will be some
-  resolve(placement, scene, own);
+  resolve(placement, scene, own, accuracy);
 }
 
 }  // namespace phos

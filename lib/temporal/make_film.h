@@ -46,8 +46,9 @@ RadianceCache still_radiance(const FilmJob& job, std::span<const Key> keys);
 
 /// How a radiance film's records are made: as phos-radiance makes them, but for what is given.
 RadianceOptions radiance_options(const RecordOptions& given, const Options& options);
-/// Fills in places that come from the scene itself: view, photons or surface. Throws Error(usage) for others.
-void resolve_film_places(PlacementOptions& placement, const Scene& scene);
+/// Fills in places that come from the scene itself (view, photons or surface) for records of this accuracy.
+/// Throws Error(usage) for others.
+void resolve_film_places(PlacementOptions& placement, const Scene& scene, double accuracy);
 
 /// What the film's file says of it.
 FilmInfo info_of(const FilmJob& job);

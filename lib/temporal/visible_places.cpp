@@ -39,7 +39,7 @@ VisiblePlaces::Open VisiblePlaces::look(const FrameScene& at) {
   PlacementOptions size = placement_;
   const Camera& camera = find_camera(at.scene, placement_.camera);
   resolve_size(camera, kPictureSide, size.width, size.height);
-  const View view{camera, size.width, size.height, placement_.min_radius_pixels,
+  const View view{camera, size.width, size.height, placement_.min_radius_pixels.value(),
                   placement_.max_radius_pixels};
   const Candidates candidates = view_candidates(at.rays, view, wanted_);
   // One sample of each pixel, another one at each look.

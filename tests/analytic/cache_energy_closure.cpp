@@ -74,7 +74,7 @@ double by_reading(const Scene& room, std::uint64_t seed) {
   };
   PlacementSource where{.photons = &lit.photons, .seed = seed};
   PlacementOptions placement;
-  resolve(placement, room, where);
+  resolve(placement, room, where, wide.accuracy);
   place_radiance(cache, tables, estimator_of, *lit.rays, wide, placement, where, counters);
   GlossCache gloss(room.bounds, cache.accuracy, tables);
   for (const RadianceRecord& r : cache.records) gloss.insert(r);

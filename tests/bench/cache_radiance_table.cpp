@@ -70,7 +70,7 @@ struct Ground {
     RadianceCache cache;
     cache.accuracy = chosen.records.accuracy;
     PlacementOptions placement{.place = Place::view};
-    resolve(placement, scene, {});
+    resolve(placement, scene, {}, chosen.records.accuracy);
     Counters events;
     const auto start = std::chrono::steady_clock::now();
     const auto runs = place_radiance(

@@ -20,7 +20,7 @@ Placed place_in(const RayScene& rays, PlacementOptions placement, double min_rad
   RecordOptions options;
   options.min_radius_m = min_radius_m;
   options.resolve(rays.scene().bounds.diagonal_m());
-  resolve(placement, rays.scene(), source);
+  resolve(placement, rays.scene(), source, options.accuracy);
   Placed placed;
   placed.cache.accuracy = options.accuracy;
   Counters counters;

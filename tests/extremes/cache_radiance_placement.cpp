@@ -26,7 +26,7 @@ Placed placed_in(const Scene& scene, PlacementOptions placement, PlacementSource
   Placed placed;
   const GlossTables tables(scene, {}, GlossBy::automatic, {}, placed.counters);
   placed.cache.accuracy = options.accuracy;
-  resolve(placement, scene, source);
+  resolve(placement, scene, source, options.accuracy);
   placed.runs = place_radiance(
       placed.cache, tables,
       [&](int order) {

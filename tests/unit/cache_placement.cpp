@@ -34,7 +34,7 @@ struct Studio {
   IrradianceCache place(PlacementOptions placement, const PlacementSource& source = {}) {
     IrradianceCache cache;
     cache.accuracy = options.accuracy;
-    resolve(placement, scene, source);
+    resolve(placement, scene, source, options.accuracy);
     counters = {};
     report = phos::place(cache, estimator, rays, options, placement, source, counters);
     return cache;
@@ -235,6 +235,20 @@ TEST(ViewPlacement, PixelsBoundTheRadius) {
   EXPECT_GT(studio.report.clamped_to_least, 0u);
 }
 
+TEST(ViewPlacement, NoRecordServesLessThanAPixel) {
+  const Scene scene = test::cornell();
+  const auto least = [&](PlacementOptions placement, double accuracy) {
+    placement.place = Place::view;
+    resolve(placement, scene, {}, accuracy);
+    return *placement.min_radius_pixels;
+  };
+  EXPECT_EQ(least({}, 0.2), 5);
+  EXPECT_EQ(least({}, 1), 1);
+  EXPECT_EQ(least({.min_radius_pixels = 0}, 0.2), 0);
+  EXPECT_EQ(least({.min_radius_pixels = 2}, 0.2), 2);
+  EXPECT_EQ(least({.max_radius_pixels = 3}, 0.2), 3);
+}
+
 TEST(ViewPlacement, TheSizeFollowsTheCamera) {
   Camera camera;
   camera.aspect = 2;
@@ -303,7 +317,7 @@ TEST(Placement, TheFirstThatThereIs) {
   const PhotonMap photons = PhotonMap::build({}, {});
   const auto chosen = [&](const PlacementSource& source) {
     PlacementOptions placement;
-    resolve(placement, scene, source);
+    resolve(placement, scene, source, 0.2);
     return placement.place;
   };
   EXPECT_EQ(chosen({.photons = &photons, .points_given = true, .points = points}), Place::given);
@@ -316,7 +330,7 @@ TEST(Placement, WhatDoesNotGoTogether) {
   const PlacementSource none, points{.points_given = true};
   const auto refused = [&](PlacementOptions placement, const PlacementSource& source) {
     try {
-      resolve(placement, scene, source);
+      resolve(placement, scene, source, 0.2);
     } catch (const Error& e) {
       return e.where();
     }

@@ -35,7 +35,7 @@ struct Studio {
 
   RadianceCache place(PlacementOptions placement, PlacementSource source = {}, RadianceCache cache = {}) {
     cache.accuracy = options.accuracy;
-    resolve(placement, parlour.scene, source);
+    resolve(placement, parlour.scene, source, options.accuracy);
     runs = place_radiance(
         cache, tables, [&](int order) { return std::make_unique<FlatRadiance>(rays, order); }, rays, options,
         placement, source, counters);
