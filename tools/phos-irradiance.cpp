@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     cache.quantity = name_of(records.paths);
 
     std::vector<SurfaceSample> points;
-    if (!at.empty()) points = read_points(at);
+    if (!at.empty()) points = read_points(at, scene.origin_m);
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
     resolve(placement, scene, source, records.accuracy);

@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
     cache.scene_hash = scene.hash;
 
     std::vector<SurfaceSample> points;
-    if (!at.empty()) points = read_points(at);
+    if (!at.empty()) points = read_points(at, scene.origin_m);
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
     resolve(placement, scene, source, radiance.records.accuracy);

@@ -41,7 +41,7 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   if (rejected > 0) tool.counters().count("non-finite sample", rejected);
   tool.counters().require_at_most("non-finite sample", 1e-6, samples,
                                   "look for extreme values in materials and lights with phos-scene");
-  write_text(tool, sensor_csv(points, light));
+  write_text(tool, sensor_csv(points, light, rays.scene().origin_m));
 }
 
 void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminaires& luminaires,
@@ -114,13 +114,13 @@ int main(int argc, char** argv) {
       tool.set_provenance_reader(read_image_provenance);
       if (tool.up_to_date()) return;
     }
-    const std::vector<SensorPoint> points = points_path.empty()
-                                                ? std::vector<SensorPoint>{}
-                                                : parse_sensor_points(read_text(points_path), points_path);
     const Scene scene = [&] {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    std::vector<SensorPoint> points;
+    if (!points_path.empty())
+      points = parse_sensor_points(read_text(points_path), points_path, scene.origin_m);
     if (const auto frames = tool.frames()) require_frames(scene, *frames);
     if (points_path.empty()) resolve_size(reference, find_camera(scene, reference.camera));
     if (scene.light.empty()) tool.warn("the scene has no light: everything will be black");

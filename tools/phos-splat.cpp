@@ -136,8 +136,8 @@ int main(int argc, char** argv) {
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");
     write_exr(tool.output(), rendering.image, compression);
-    if (!misses.empty()) write_misses(misses, rendering.misses);
-    if (!gloss_misses.empty()) write_misses(gloss_misses, rendering.gloss_misses);
+    if (!misses.empty()) write_misses(misses, rendering.misses, scene.origin_m);
+    if (!gloss_misses.empty()) write_misses(gloss_misses, rendering.gloss_misses, scene.origin_m);
     report_picture(tool, render, rendering, gloss, misses, gloss_misses);
     tool.say(text(tool.output(), ": ", render.width, " x ", render.height, " from ",
                   caches.irradiance.records.size(), " records"));

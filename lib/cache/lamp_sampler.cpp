@@ -128,8 +128,7 @@ float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
     }
     return lamp.strength * facing * (height + r) / ((d + r) * (d2 + r * r));
   }
-  const float cone =
-      lamp.kind == Light::Kind::spot ? spot_falloff(lamp.spot, -glm::dot(way, lamp.front) / d) : 1.f;
+  const float cone = lamp.kind == Light::Kind::spot ? spot_falloff(lamp.spot, -DVec3(way)) : 1.f;
   return lamp.strength * cone * height / (d * d2);
 }
 

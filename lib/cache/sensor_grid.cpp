@@ -7,6 +7,7 @@
 
 #include "cache/direct_light.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
@@ -214,8 +215,11 @@ void check(const GridOptions& grid, const std::string& points_path) {
 }
 
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays) {
-  if (!points_path.empty()) return read_sensors(points_path);
-  return grid.mesh.empty() ? workplane(rays, grid) : mesh_grid(rays.scene(), grid);
+  const DVec3& origin_m = rays.scene().origin_m;
+  if (!points_path.empty()) return read_sensors(points_path, origin_m);
+  Sensors sensors = grid.mesh.empty() ? workplane(rays, grid) : mesh_grid(rays.scene(), grid);
+  sensors.origin_m = origin_m;
+  return sensors;
 }
 
 float floor_level_m(const Scene& scene, Axis up) {
@@ -285,7 +289,7 @@ Sensors workplane(const RayScene& rays, const GridOptions& grid) {
                          *grid.spacing_m, grid.margin_m);
   require_few(xs.count, ys.count, *grid.spacing_m);
   const auto level = static_cast<float>(static_cast<double>(floor_level_m(scene, grid.up)) + *grid.height_m);
-  sensors.level_m = level;
+  sensors.level_m = world_number(scene.origin_m[k], level);
   const std::size_t n = xs.count * ys.count;
   const auto place = [&](std::size_t i) {
     Vec3 p;

@@ -8,6 +8,7 @@
 #include "cache/radiance_cache.h"
 #include "cache/two_level.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 
@@ -247,8 +248,9 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
       const auto& [p, normal] = sensors.points[i];
       const Reading& r = readings[i];
       out += sensors.ids.empty() ? std::to_string(i) : quoted(sensors.ids[i]);
-      for (const float v : {p.x, p.y, p.z, normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx,
-                            r.direct_lx, r.indirect_lx})
+      for (int c = 0; c < 3; ++c) out += ',', out += world_text(sensors.origin_m[c], p[c]);
+      for (const float v :
+           {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})
         out += ',', out += shortest(v);
       out += '\n';
     }

@@ -24,13 +24,14 @@ struct Sensors {
   std::vector<SurfaceSample> points;  ///< m; unit normals
   std::vector<std::string> ids;       ///< one each, or empty: sensors are numbered from 0
   std::uint64_t left_out = 0;         ///< points of a grid where nobody could put a sensor
-  std::optional<float> level_m;       ///< of a workplane
+  std::optional<double> level_m;      ///< of a workplane, in the world
+  DVec3 origin_m{0};                  ///< of the scene: points are counted from there, tables are not
 };
 
-/// Sensors from a text file (parse_points), "-" is stdin.
-Sensors read_sensors(const std::string& path);
+/// Sensors from a text file (parse_points), "-" is stdin; `origin_m` is the scene's.
+Sensors read_sensors(const std::string& path, const DVec3& origin_m = DVec3(0));
 /// The same from text; `where` is its name in messages.
-Sensors parse_sensors(std::string_view text, const std::string& where);
+Sensors parse_sensors(std::string_view text, const std::string& where, const DVec3& origin_m = DVec3(0));
 
 struct Reading {
   float illuminance_lx = 0, stderr_lx = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 
 namespace phos {
@@ -258,6 +259,10 @@ std::string describe_text(const Container& file) {
   std::string out;
   line(out, "kind", text(brief(*all.find("kind")), ' ', all.find("version")->dump()));
   for (const char* name : {"tool", "command", "scene", "key"}) line(out, name, brief(*all.find(name)));
+  if (const DVec3 origin = origin_in(file.provenance().scene_parts); origin != DVec3(0))
+    line(out, "origin",
+         text(shortest(origin.x), ' ', shortest(origin.y), ' ', shortest(origin.z),
+              " m: positions below are counted from there"));
   block(out, "parameters", *all.find("parameters"), brief);
   block(out, "inputs", *all.find("inputs"), brief);
   if (!all.find("history")->as_array().empty()) out += "history:\n";

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/origin.h"
 #include "file/inspect.h"
 
 namespace phos {
@@ -81,6 +82,7 @@ struct Column {
   const Tensor* tensor;
   std::vector<std::string> names;
   bool decode;
+  DVec3 origin_m{0};  // of positions
 };
 
 Column make_column(const Container& file, const std::string& name, bool decode) {
@@ -102,8 +104,10 @@ Column make_column(const Container& file, const std::string& name, bool decode) 
     throw Error(ExitCode::usage, file.path(),
                 text("tensor \"", name, "\" has more than ", kMostColumns, " columns"));
   if (decode && is_octahedral(tensor) && tensor.shape.size() == 1)
-    return {&tensor, {name + ".x", name + ".y", name + ".z"}, true};
-  return {&tensor, column_names(name, tensor), false};
+    return {&tensor, {name + ".x", name + ".y", name + ".z"}, true, DVec3(0)};
+  const bool places = name == "position" && tensor.dtype == Dtype::f32 && columns == 3;
+  return {&tensor, column_names(name, tensor), false,
+          places ? origin_in(file.provenance().scene_parts) : DVec3(0)};
 }
 
 void append_cells(std::string& out, const Column& column, std::size_t row) {
@@ -117,6 +121,10 @@ void append_cells(std::string& out, const Column& column, std::size_t row) {
   const std::size_t n = column.names.size();
   for (std::size_t c = 0; c < n; ++c) {
     if (c > 0) out += ',';
+    if (column.origin_m != DVec3(0)) {
+      out += world_text(column.origin_m[static_cast<int>(c)], element<float>(*column.tensor, row * n + c));
+      continue;
+    }
     append_element(out, *column.tensor, row * n + c);
   }
 }
@@ -146,6 +154,7 @@ struct Points {
   const Tensor* coded_normal = nullptr;
   std::string quantity;
   float white = 0;
+  DVec3 origin_m{0};
 };
 
 Points points_of(const Container& file) {
@@ -153,6 +162,7 @@ Points points_of(const Container& file) {
     throw Error(ExitCode::bad_input, file.path(), "has no positions, so there are no points to write");
   Points p;
   p.position = file.vectors("position");
+  p.origin_m = origin_in(file.provenance().scene_parts);
   for (const char* quantity : {"irradiance", "flux"})
     if (file.has(quantity) && p.colour.empty()) p.colour = file.vectors(quantity), p.quantity = quantity;
   if (const auto normal = file.tensors().find("normal"); normal != file.tensors().end()) {
@@ -184,7 +194,9 @@ std::string ply_header(const Container& file, const Points& p, PlyFormat format)
   out += format == PlyFormat::ascii ? "ascii" : "binary_little_endian";
   out += " 1.0\ncomment phos " + file.provenance().kind + "\nelement vertex ";
   append_number(out, p.position.size());
-  out += "\nproperty float x\nproperty float y\nproperty float z\n";
+  const bool far = p.origin_m != DVec3(0);  // floats could not say the places
+  out += far ? "\nproperty double x\nproperty double y\nproperty double z\n"
+             : "\nproperty float x\nproperty float y\nproperty float z\n";
   if (p.coded_normal != nullptr || !p.normal.empty())
     out += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!p.quantity.empty()) {
@@ -203,13 +215,8 @@ class Record {
   }
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
-  void add(float v) {
-    static_assert(std::endian::native == std::endian::little);
-    if (ascii_) return add_text(v);
-    char bytes[sizeof v];
-    std::memcpy(bytes, &v, sizeof v);
-    out_.append(bytes, sizeof v);
-  }
+  void add(float v) { add_number(v); }
+  void add(double v) { add_number(v); }
   void add(std::uint8_t v) {
     if (ascii_) return add_text(v);
     out_ += static_cast<char>(v);
@@ -217,6 +224,14 @@ class Record {
   void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
 
  private:
+  template <class T>
+  void add_number(T v) {
+    static_assert(std::endian::native == std::endian::little);
+    if (ascii_) return add_text(v);
+    char bytes[sizeof v];
+    std::memcpy(bytes, &v, sizeof v);
+    out_.append(bytes, sizeof v);
+  }
   template <class T>
   void add_text(T v) {
     if (!first_) out_ += ' ';
@@ -229,7 +244,11 @@ class Record {
 
 void append_vertex(std::string& out, const Points& p, std::size_t i, PlyFormat format) {
   Record record(out, format);
-  record.add(p.position[i]);
+  if (p.origin_m == DVec3(0)) {
+    record.add(p.position[i]);
+  } else {
+    for (int c = 0; c < 3; ++c) record.add(world_number(p.origin_m[c], p.position[i][c]));
+  }
   if (const std::optional<Vec3> normal = normal_of(p, i)) record.add(*normal);
   if (p.quantity.empty()) return;
   const Vec3& c = p.colour[i];

@@ -27,23 +27,23 @@ struct Cone {
   double cap, ring, outer, rise;
 };
 
-Cone cone(float cos_inner, float cos_outer) {
-  const double outer = cos_outer, inner = std::max(outer, static_cast<double>(cos_inner));
+Cone cone(double cos_inner, double cos_outer) {
+  const double outer = cos_outer, inner = std::max(outer, cos_inner);
   return {1 - inner, (inner - outer) / 3, outer, inner - outer};
 }
 
 }  // namespace
 
-double spot_solid_angle_sr(float cos_inner, float cos_outer) {
+double spot_solid_angle_sr(double cos_inner, double cos_outer) {
   const Cone c = cone(cos_inner, cos_outer);
   return 2 * std::numbers::pi * (c.cap + c.ring);
 }
 
-float sample_spot_cosine(float cos_inner, float cos_outer, float u) {
+double sample_spot_cosine(double cos_inner, double cos_outer, float u) {
   const Cone c = cone(cos_inner, cos_outer);
   const double x = static_cast<double>(u) * (c.cap + c.ring);
   const double cosine = x < c.cap ? 1 - x : c.outer + c.rise * std::cbrt((x - c.cap) / c.ring);
-  return static_cast<float>(std::clamp(cosine, -1.0, 1.0));
+  return std::clamp(cosine, -1.0, 1.0);
 }
 
 Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed)
@@ -140,11 +140,12 @@ EmittedPhoton Emitter::from_point(const Light& light, RandomStream& random) cons
 
 EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const {
   const Vec2 u = random.uniform2();
-  const float cosine = sample_spot_cosine(light.cos_inner, light.cos_outer, u.x);
-  const float sine = std::sqrt(std::fmax(0.0f, 1 - cosine * cosine));
+  const double cosine = sample_spot_cosine(light.cos_inner, light.cos_outer, u.x);
+  const auto sine = static_cast<float>(std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine))));
   EmittedPhoton photon;
   photon.ray.origin = light.position;
-  photon.ray.direction = make_frame(light.direction).to_world(Vec3(sine * cos_sin(u.y), cosine));
+  photon.ray.direction =
+      make_frame(light.direction).to_world(Vec3(sine * cos_sin(u.y), static_cast<float>(cosine)));
   photon.source_normal = photon.ray.direction;
   photon.flux_lm =
       static_cast<float>(spot_solid_angle_sr(light.cos_inner, light.cos_outer)) * light.intensity;

@@ -60,8 +60,8 @@ class Emitter {
 
 /// Spot light of glTF (KHR_lights_punctual): intensity falls from I at cos_inner to 0 at cos_outer as the
 /// square of a linear ramp in the cosine. Solid angle by which I gives the flux, sr.
-double spot_solid_angle_sr(float cos_inner, float cos_outer);
+double spot_solid_angle_sr(double cos_inner, double cos_outer);
 /// Cosine to the axis with density proportional to the intensity.
-float sample_spot_cosine(float cos_inner, float cos_outer, float u);
+double sample_spot_cosine(double cos_inner, double cos_outer, float u);
 
 }  // namespace phos

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/json.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "reference/moments.h"
 #include "scene/point_table.h"
@@ -96,8 +97,9 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
   return estimate_irradiance(rays, luminaires, p, n, options);
 }
 
-std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where) {
-  const PointTable table = parse_points(csv, where);
+std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where,
+                                             const DVec3& origin_m) {
+  const PointTable table = parse_points(csv, where, origin_m);
   if (table.position.empty())
     throw Error(ExitCode::bad_input, where, "holds no points; give lines of x,y,z,nx,ny,nz");
   std::vector<SensorPoint> points;
@@ -106,15 +108,14 @@ std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::
   return points;
 }
 
-std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light) {
+std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light,
+                       const DVec3& origin_m) {
   PHOS_CHECK(points.size() == light.size(), points.size(), " points, ", light.size(), " values");
   std::string out = "x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 &p = points[i].position, &n = points[i].normal, &lux = light[i].irradiance_lx;
-    const float columns[] = {p.x,
-                             p.y,
-                             p.z,
-                             n.x,
+    for (int c = 0; c < 3; ++c) out.append(world_text(origin_m[c], p[c])).push_back(',');
+    const float columns[] = {n.x,
                              n.y,
                              n.z,
                              static_cast<float>(light[i].illuminance_lx),

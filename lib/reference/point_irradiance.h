@@ -46,10 +46,12 @@ struct SensorPoint {
 
 /// Points as parse_points() reads them. Throws Error(bad_input) with the line at fault, or where there are
 /// none.
-std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where);
+std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::string& where,
+                                             const DVec3& origin_m = DVec3(0));
 
 /// `x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx` and a line per point, shortest round-trip
-/// numbers.
-std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light);
+/// numbers. Points are counted from origin_m, the table's from the world's.
+std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light,
+                       const DVec3& origin_m = DVec3(0));
 
 }  // namespace phos

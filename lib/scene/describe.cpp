@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "scene/environment.h"
 #include "scene/merl.h"
 #include "scene/texture.h"
@@ -105,11 +106,11 @@ Json describe_light(const Scene& scene, const Light& light) {
     return j;
   }
   j[light.kind == Light::Kind::directional ? "illuminance_lx" : "intensity_cd"] = numbers(light.intensity);
-  if (light.kind != Light::Kind::directional) j["position_m"] = numbers(light.position);
+  if (light.kind != Light::Kind::directional) j["position_m"] = world_json(scene.origin_m, light.position);
   if (light.kind != Light::Kind::point) j["direction"] = numbers(light.direction);
   if (light.kind == Light::Kind::spot) {
-    j["inner_deg"] = glm::degrees(std::acos(light.cos_inner));
-    j["outer_deg"] = glm::degrees(std::acos(light.cos_outer));
+    j["inner_deg"] = static_cast<float>(glm::degrees(std::acos(light.cos_inner)));
+    j["outer_deg"] = static_cast<float>(glm::degrees(std::acos(light.cos_outer)));
   }
   return j;
 }
@@ -136,11 +137,11 @@ Json describe_material(const MaterialSummary& s) {
   return j;
 }
 
-Json describe_camera(const Camera& camera) {
+Json describe_camera(const Scene& scene, const Camera& camera) {
   Json j;
   j["name"] = camera.name;
   j["kind"] = camera.perspective ? "perspective" : "orthographic";
-  j["eye_m"] = numbers(Vec3(camera.to_world[3]));
+  j["eye_m"] = world_json(scene.origin_m, Vec3(camera.to_world[3]));
   j["direction"] = numbers(-Vec3(camera.to_world[2]));
   if (camera.perspective) j["yfov_deg"] = glm::degrees(camera.yfov_rad);
   if (!camera.perspective) j["ymag_m"] = camera.ymag_m;
@@ -232,7 +233,9 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
   j["vertices"] = scene.position.size();
   j["instances"] = scene.instance.size();
   j["memory_bytes"] = scene_bytes(scene);
-  j["bounds_m"] = Json::Array{numbers(scene.bounds.lo), numbers(scene.bounds.hi)};
+  j["bounds_m"] =
+      Json::Array{world_json(scene.origin_m, scene.bounds.lo), world_json(scene.origin_m, scene.bounds.hi)};
+  if (scene.origin_m != DVec3(0)) j["origin_m"] = origin_json(scene.origin_m);
   j["diagonal_m"] = scene.bounds.diagonal_m();
   double area = 0, lumens = 0;
   Json materials = Json::Array{}, lights = Json::Array{}, cameras = Json::Array{}, textures = Json::Array{};
@@ -244,7 +247,7 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
     lumens += luminance(light.flux_lm);
     lights.push_back(describe_light(scene, light));
   }
-  for (const Camera& camera : scene.camera) cameras.push_back(describe_camera(camera));
+  for (const Camera& camera : scene.camera) cameras.push_back(describe_camera(scene, camera));
   for (const Texture& t : scene.texture) {
     Json texture;
     texture["name"] = t.name;

@@ -31,6 +31,14 @@ std::string padded(std::string s, std::size_t width) {
   return s;
 }
 
+/// A place; all digits where it lies too far from the world's origin for four to tell it from others.
+std::string place(const Json& v, bool far) {
+  if (!far) return triple(v);
+  std::string out;
+  for (const Json& item : v.as_array()) out += text(out.empty() ? "" : " ", shortest(item.as_number()));
+  return out;
+}
+
 const Json& at(const Json& json, const char* key) {
   static const Json kNull;
   const Json* v = json.find(key);
@@ -65,9 +73,9 @@ std::string material_line(const Json& m) {
   return line;
 }
 
-std::string camera_line(const Json& c) {
+std::string camera_line(const Json& c, bool far) {
   std::string line = text("  ", padded(at(c, "name").as_string(), 24), " ",
-                          padded(at(c, "kind").as_string(), 12), " eye ", triple(at(c, "eye_m")));
+                          padded(at(c, "kind").as_string(), 12), " eye ", place(at(c, "eye_m"), far));
   if (const Json* yfov = c.find("yfov_deg")) line += text(", ", figure(*yfov), " deg high");
   line += text(", aspect ", figure(at(c, "aspect")), "\n");
   return line;
@@ -112,12 +120,14 @@ std::string describe_text(const Json& d) {
   std::string out = text(at(d, "path").as_string(), "\n  ", at(d, "triangles").as_integer(), " triangles, ",
                          at(d, "vertices").as_integer(), " vertices, ", at(d, "instances").as_integer(),
                          " instances, ", figure(at(d, "memory_bytes").as_number() / 1048576.0), " MiB\n");
-  out += text("  from ", triple(bounds[0]), " to ", triple(bounds[1]), " m, ", figure(at(d, "diagonal_m")),
-              " m across, ", figure(at(d, "surface_m2")), " m2 of surface\n");
+  const bool far = d.find("origin_m") != nullptr;
+  out += text("  from ", place(bounds[0], far), " to ", place(bounds[1], far), " m, ",
+              figure(at(d, "diagonal_m")), " m across, ", figure(at(d, "surface_m2")), " m2 of surface\n");
+  if (far) out += text("  positions in files are counted from ", place(at(d, "origin_m"), far), " m\n");
   out += text("  hash ", at(d, "hash").as_string(), "\n");
   out += list(d, "lights", text("Lights, ", figure(at(d, "total_lumens")), " lm together"), light_line);
   out += list(d, "materials", "Materials", material_line);
-  out += list(d, "cameras", "Cameras", camera_line);
+  out += list(d, "cameras", "Cameras", [&](const Json& c) { return camera_line(c, far); });
   if (!at(d, "animations").as_array().empty()) {
     out += list(d, "animations",
                 text("Animations, frames 0:", std::max<std::int64_t>(at(d, "frames").as_integer(), 1) - 1,

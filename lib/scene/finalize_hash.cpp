@@ -1,6 +1,7 @@
 #include <array>
 #include <map>
 
+#include "core/origin.h"
 #include "file/hash.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
@@ -65,6 +66,7 @@ void add_material(Hasher& hasher, const Material& m) {
 
 std::string hash_geometry(const Scene& scene) {
   Hasher hasher;
+  if (scene.origin_m != DVec3(0)) hasher.add_bytes(&scene.origin_m, sizeof scene.origin_m);
   add_vectors(hasher, scene.position);
   add_vectors(hasher, scene.normal);
   add_vectors(hasher, scene.uv0);
@@ -101,8 +103,11 @@ void add_light(Hasher& hasher, const Light& light) {
   add_vector(hasher, light.position);
   add_vector(hasher, light.direction);
   add_vector(hasher, light.intensity);
-  hasher.add(light.cos_inner);
-  hasher.add(light.cos_outer);
+  for (const double cosine : {light.cos_inner, light.cos_outer}) {
+    const auto rounded = static_cast<float>(cosine);
+    hasher.add(rounded);
+    if (static_cast<double>(rounded) != cosine) hasher.add_bytes(&cosine, sizeof cosine);
+  }
   add_vector(hasher, light.flux_lm);
 }
 
@@ -162,6 +167,7 @@ void fill_hash(Scene& scene) {
   parts["materials"] = materials;
   parts["lights"] = lights;
   if (!environment.empty()) parts["environment"] = environment;
+  if (scene.origin_m != DVec3(0)) parts["origin_m"] = origin_json(scene.origin_m);
   parts["time"] = scene.time_s + 0.0;
   if (Json nodes = hash_nodes(scene); !nodes.is_null()) parts["nodes"] = std::move(nodes);
   scene.parts = std::move(parts);

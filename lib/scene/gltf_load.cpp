@@ -13,6 +13,7 @@
 #include "scene/gltf_mesh.h"
 #include "scene/load_mesh.h"
 #include "scene/load_textures.h"
+#include "scene/node_extent.h"
 
 namespace phos {
 namespace {
@@ -23,12 +24,14 @@ class SceneReader {
 
   void read(const SceneOptions& options) {
     read_time(options);
-    std::vector<NodePose> poses = rest_poses(document_);
+    const std::vector<NodePose> rest = rest_poses(document_);
+    std::vector<NodePose> poses = rest;
     apply_animations(document_, scene_, poses);
     read_length();
     TexturePool textures;
     read_gltf_materials(document_, textures, scene_);
     textures.decode(scene_);
+    choose_origin(rest);
     place_nodes(poses);
     for (const std::size_t node : order_) read_node(node, poses[node]);
     if (skipped_primitives_) {
@@ -78,15 +81,38 @@ class SceneReader {
     return out;
   }
 
-  /// World transforms, depth first in file order. Every node has one parent, so that a second visit is a
-  /// mistake.
+  /// By the poses that the file states, so that it is the same at every time.
+  void choose_origin(const std::vector<NodePose>& rest) {
+    place_nodes(rest);
+    NodeExtent extent;
+    for (const std::size_t i : order_) {
+      const tinygltf::Node& node = document_.model->nodes[i];
+      if (node.mesh < 0) continue;
+      const auto mesh = static_cast<std::size_t>(node.mesh);
+      std::vector<glm::dmat4> to_world{world_[i]};
+      if (node.skin >= 0) to_world = joints(static_cast<std::size_t>(node.skin));
+      const std::vector<float> weights = weights_of(mesh, rest[i]);
+      for (std::size_t p = 0; p < document_.model->meshes[mesh].primitives.size(); ++p) {
+        const std::optional<MeshData>& data = primitive(mesh, p, weights);
+        if (!data) continue;
+        for (const glm::dmat4& m : to_world) extent.include(data->position, m, mesh_name(mesh));
+      }
+    }
+    scene_.origin_m = suitable_origin_m(extent.world());
+    if (std::string coarse = extent.coarse(); !coarse.empty()) scene_.warnings.push_back(std::move(coarse));
+  }
+
+  /// Transforms from the scene's origin, depth first in file order. Every node has one parent, so that a
+  /// second visit is a mistake.
   void place_nodes(const std::vector<NodePose>& poses) {
+    order_.clear();
+    const glm::dmat4 from_origin = glm::translate(glm::dmat4(1), -scene_.origin_m);
     const std::size_t n = document_.model->nodes.size();
     world_.assign(n, glm::dmat4(1));
     std::vector<bool> seen(n, false);
     std::vector<std::pair<std::size_t, glm::dmat4>> stack;
     const std::vector<std::size_t> first = roots();
-    for (auto it = first.rbegin(); it != first.rend(); ++it) stack.emplace_back(*it, glm::dmat4(1));
+    for (auto it = first.rbegin(); it != first.rend(); ++it) stack.emplace_back(*it, from_origin);
     while (!stack.empty()) {
       const auto [node, parent] = stack.back();
       stack.pop_back();
@@ -124,12 +150,9 @@ class SceneReader {
 
   void read_mesh(std::size_t node, std::size_t mesh, int skin, const NodePose& pose) {
     const tinygltf::Mesh& from = document_.model->meshes[mesh];
-    std::vector<float> weights = pose.weights;
-    if (weights.empty()) {
-      for (const double w : from.weights) weights.push_back(static_cast<float>(w));
-    }
+    const std::vector<float> weights = weights_of(mesh, pose);
     for (std::size_t p = 0; p < from.primitives.size(); ++p) {
-      const std::string what = text("mesh \"", from.name.empty() ? std::to_string(mesh) : from.name, "\"");
+      const std::string what = mesh_name(mesh);
       std::optional<MeshData> data = primitive(mesh, p, weights);
       if (!data) {
         ++skipped_primitives_;
@@ -146,9 +169,22 @@ class SceneReader {
     }
   }
 
+  std::string mesh_name(std::size_t mesh) const {
+    const std::string& name = document_.model->meshes[mesh].name;
+    return text("mesh \"", name.empty() ? std::to_string(mesh) : name, "\"");
+  }
+
+  std::vector<float> weights_of(std::size_t mesh, const NodePose& pose) const {
+    if (!pose.weights.empty()) return pose.weights;
+    std::vector<float> weights;
+    for (const double w : document_.model->meshes[mesh].weights) weights.push_back(static_cast<float>(w));
+    return weights;
+  }
+
   /// Meshes that many nodes share are read once.
-  std::optional<MeshData> primitive(std::size_t mesh, std::size_t p, const std::vector<float>& weights) {
-    if (!weights.empty()) return read_primitive(document_, mesh, p, weights);
+  const std::optional<MeshData>& primitive(std::size_t mesh, std::size_t p,
+                                           const std::vector<float>& weights) {
+    if (!weights.empty()) return morphed_ = read_primitive(document_, mesh, p, weights);
     const auto [it, fresh] = primitives_.try_emplace({mesh, p});
     if (fresh) it->second = read_primitive(document_, mesh, p, weights);
     return it->second;
@@ -267,8 +303,8 @@ class SceneReader {
       if (!(inner >= 0 && inner < outer && outer <= 0.5 * std::numbers::pi)) {
         fail("its cone angles must satisfy 0 <= inner < outer <= pi/2");
       }
-      light.cos_inner = static_cast<float>(std::cos(inner));
-      light.cos_outer = static_cast<float>(std::cos(outer));
+      light.cos_inner = std::cos(inner);
+      light.cos_outer = std::cos(outer);
     } else {
       fail("type \"" + type + "\" is not point, spot or directional");
     }
@@ -280,6 +316,7 @@ class SceneReader {
   std::vector<glm::dmat4> world_;
   std::vector<std::size_t> order_;
   std::map<std::pair<std::size_t, std::size_t>, std::optional<MeshData>> primitives_;
+  std::optional<MeshData> morphed_;  // the last that was read with weights
   std::optional<std::uint32_t> default_material_;
   std::uint64_t skipped_primitives_ = 0;
 };

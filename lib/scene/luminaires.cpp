@@ -26,11 +26,17 @@ Rgb background_luminance(const Scene& scene, const Vec3& direction) {
   return scene.environment ? scene.environment->luminance(direction) : Rgb(0);
 }
 
-float spot_falloff(const Light& light, float cos_angle) {
+float spot_falloff(const Light& light, double cos_angle) {
   if (cos_angle >= light.cos_inner) return 1;
   if (cos_angle <= light.cos_outer) return 0;
-  const float t = (cos_angle - light.cos_outer) / (light.cos_inner - light.cos_outer);
-  return t * t;
+  const double t = (cos_angle - light.cos_outer) / (light.cos_inner - light.cos_outer);
+  return static_cast<float>(t * t);
+}
+
+float spot_falloff(const Light& light, const DVec3& way) {
+  // 1 - cos from the chord, which keeps the digits of small angles.
+  const DVec3 chord = glm::normalize(way) - glm::normalize(DVec3(light.direction));
+  return spot_falloff(light, 1 - 0.5 * glm::dot(chord, chord));
 }
 
 namespace {
@@ -204,8 +210,7 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     return result.density > 0 && std::isfinite(result.density);
   }
   float share = 1;
-  if (light.kind == Light::Kind::spot)
-    share = spot_falloff(light, -glm::dot(result.direction, light.direction));
+  if (light.kind == Light::Kind::spot) share = spot_falloff(light, DVec3(from) - DVec3(light.position));
   result.value = light.intensity * (share / distance2_m2);
   return share > 0 && is_finite(result.value);
 }

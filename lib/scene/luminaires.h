@@ -17,7 +17,9 @@ Rgb background_luminance(const Scene& scene, const Vec3& direction);
 
 /// Factor of a spot light's intensity at an angle from its axis: glTF's ((c - outer) / (inner - outer))^2, 1
 /// inside the inner cone, 0 outside the outer one; a step where the two are equal.
-float spot_falloff(const Light& light, float cos_angle);
+float spot_falloff(const Light& light, double cos_angle);
+/// The same at a place that lies along `way` (of any length) from the lamp; good for cones down to 1e-6 rad.
+float spot_falloff(const Light& light, const DVec3& way);
 
 /// Light arriving at a point from a light's sample, visibility not yet tested.
 struct Illumination {

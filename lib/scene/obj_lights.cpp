@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
 #include "scene/gltf_document.h"
@@ -48,6 +49,13 @@ class Reader {
     return *value;
   }
 
+  /// A place in the world, from the scene's origin.
+  Vec3 place(const Json& from, const char* key) const {
+    vector(from, key);  // three finite numbers
+    const Json::Array& v = from.find(key)->as_array();
+    return from_world({v[0].as_number(), v[1].as_number(), v[2].as_number()}, scene_.origin_m);
+  }
+
   float number(const Json& from, const char* key, double absent, double lo, double hi) const {
     const double v = number_at(from, key, absent);
     if (!(v > lo && v <= hi)) fail(text("\"", key, "\" must be above ", lo, " and at most ", hi));
@@ -77,14 +85,14 @@ class Reader {
     light.kind = kind == "point"  ? Light::Kind::point
                  : kind == "spot" ? Light::Kind::spot
                                   : Light::Kind::directional;
-    if (kind != "directional") light.position = vector(from, "position");
+    if (kind != "directional") light.position = place(from, "position");
     if (kind != "point") light.direction = direction(from, "direction");
     if (kind == "spot") {
       const double outer = number(from, "outer_deg", 45, 0, 90);
       const double inner = number_at(from, "inner_deg", 0);
       if (!(inner >= 0 && inner < outer)) fail("\"inner_deg\" must be below \"outer_deg\"");
-      light.cos_inner = static_cast<float>(std::cos(glm::radians(inner)));
-      light.cos_outer = static_cast<float>(std::cos(glm::radians(outer)));
+      light.cos_inner = std::cos(glm::radians(inner));
+      light.cos_outer = std::cos(glm::radians(outer));
     }
     scene_.light.push_back(light);
   }
@@ -92,7 +100,7 @@ class Reader {
   void read_camera(const Json& from, std::size_t index) {
     if (!from.is_object()) fail("must be an object");
     const Vec3 up(0, 1, 0);
-    const Vec3 eye = vector(from, "eye"), target = vector(from, "target"), y = vector(from, "up", &up);
+    const Vec3 eye = place(from, "eye"), target = place(from, "target"), y = vector(from, "up", &up);
     const Vec3 back = normalized_or_zero(eye - target), right = normalized_or_zero(glm::cross(y, back));
     if (back == Vec3(0) || right == Vec3(0)) fail("eye, target and up must not lie on one line");
     Camera camera;

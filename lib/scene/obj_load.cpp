@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "file/atomic_file.h"
 #include "scene/gltf_uri.h"
 #include "scene/load_mesh.h"
@@ -41,9 +42,10 @@ std::optional<std::string> read_if_there(const std::string& path) {
   }
 }
 
-/// tinyobjloader reads a number it cannot parse, "nan" among them, as 0; such a vertex must not pass for a
-/// good one.
-void check_vertices(const std::string& path, std::string_view bytes) {
+/// Places of the vertices as the file states them. tinyobjloader reads a number it cannot parse, "nan" among
+/// them, as 0; such a vertex must not pass for a good one.
+std::vector<DVec3> check_vertices(const std::string& path, std::string_view bytes) {
+  std::vector<DVec3> vertices;
   constexpr std::string_view kBlank = " \t\r";
   for (std::size_t line = 1; !bytes.empty(); ++line) {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
@@ -56,10 +58,11 @@ void check_vertices(const std::string& path, std::string_view bytes) {
       return word;
     };
     if (next_word() != "v") continue;
+    DVec3& vertex = vertices.emplace_back(0);
     for (int k = 0; k < 3; ++k) {
       std::string_view word = next_word();
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-      double value = 0;
+      double& value = vertex[k];
       const auto [stop, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
       const bool whole = stop == word.data() + word.size();
       if (problem == std::errc() && whole && std::isfinite(static_cast<float>(value))) continue;
@@ -67,6 +70,7 @@ void check_vertices(const std::string& path, std::string_view bytes) {
                   text("line ", line, ": a vertex needs three finite numbers; mend it in the modeller"));
     }
   }
+  return vertices;
 }
 
 /// Hands tinyobjloader the text of each mtllib, from beside the .obj only.
@@ -95,7 +99,7 @@ class ObjReader {
   explicit ObjReader(Scene& scene) : scene_(scene) {}
 
   void read(std::string_view bytes) {
-    check_vertices(scene_.path, bytes);
+    std::vector<DVec3> vertices = check_vertices(scene_.path, bytes);
     MtlReader mtl(scene_.path);
     std::istringstream stream{std::string(bytes)};
     std::string warning, error;
@@ -107,6 +111,7 @@ class ObjReader {
                   why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
     }
     for (const std::string& name : mtl.missing) scene_.warnings.push_back("material file not found: " + name);
+    choose_origin(std::move(vertices));
     TexturePool textures;
     for (const tinyobj::material_t& m : materials_) add_material(m, textures);
     textures.decode(scene_);
@@ -116,6 +121,18 @@ class ObjReader {
   }
 
  private:
+  /// Far from the world's origin floats of tinyobjloader are coarse: the file's own numbers stand in.
+  void choose_origin(std::vector<DVec3> vertices) {
+    if (3 * vertices.size() != attrib_.vertices.size()) return;
+    DBounds world;
+    for (const DVec3& p : vertices) world.include(p);
+    scene_.origin_m = suitable_origin_m(world);
+    for (std::size_t i = 0; i < vertices.size() && scene_.origin_m != DVec3(0); ++i) {
+      const Vec3 p = from_world(vertices[i], scene_.origin_m);
+      for (int c = 0; c < 3; ++c) attrib_.vertices[3 * i + static_cast<std::size_t>(c)] = p[c];
+    }
+  }
+
   static Rgb colour(const tinyobj::real_t c[3]) {
     const auto clean = [](tinyobj::real_t v) {
       return std::isfinite(v) && v > 0 ? static_cast<float>(v) : 0.0f;

@@ -30,8 +30,8 @@ bool read_number(std::string_view s, float& v) {
 
 class Rows {
  public:
-  Rows(std::string_view text, const std::string& where, PointTable& table)
-      : reader_(text, where, CsvGap::by_line), where_(where), table_(table) {}
+  Rows(std::string_view text, const std::string& where, const DVec3& origin_m, PointTable& table)
+      : reader_(text, where, CsvGap::by_line), where_(where), origin_m_(origin_m), table_(table) {}
 
   void read() {
     if (!reader_.next(cells_)) throw Error(ExitCode::bad_input, where_, std::string("is empty; ") + kHint);
@@ -80,12 +80,27 @@ class Rows {
     }
     const Vec3 normal = normalized_or_zero({v[3], v[4], v[5]});
     if (normal == Vec3(0)) refuse("columns nx,ny,nz: the normal is zero");
-    table_.position.emplace_back(v[0], v[1], v[2]), table_.normal.push_back(normal);
+    table_.position.push_back(place(v)), table_.normal.push_back(normal);
     if (column_[kId] != kAbsent) table_.id.emplace_back(cells_[column_[kId]]);
+  }
+
+  /// Floats as they are; in double where digits that a float has not would be lost.
+  Vec3 place(const float* v) const {
+    Vec3 p(v[0], v[1], v[2]);
+    for (int c = 0; c < 3; ++c) {
+      if (origin_m_[c] == 0) continue;
+      double world = static_cast<double>(p[c]);
+      std::string_view s = cells_[column_[static_cast<std::size_t>(c)]];
+      if (!s.empty() && s.front() == '+') s.remove_prefix(1);
+      std::from_chars(s.data(), s.data() + s.size(), world);
+      p[c] = static_cast<float>(world - origin_m_[c]);
+    }
+    return p;
   }
 
   CsvReader reader_;
   const std::string& where_;
+  DVec3 origin_m_;
   PointTable& table_;
   bool exact_ = false;
   std::array<std::size_t, kColumns> column_{kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent};
@@ -94,9 +109,9 @@ class Rows {
 
 }  // namespace
 
-PointTable parse_points(std::string_view text, const std::string& where) {
+PointTable parse_points(std::string_view text, const std::string& where, const DVec3& origin_m) {
   PointTable table;
-  Rows(text, where, table).read();
+  Rows(text, where, origin_m, table).read();
   return table;
 }
 

@@ -17,7 +17,7 @@ struct PointTable {
 /// CSV whose first line names x,y,z (m) and nx,ny,nz, and perhaps id, in any order among other columns
 /// ("x [m]" and "x_m" are read as x); or six numbers a line, between blanks or commas, as Radiance has them.
 /// Lines that are empty or start with '#' are skipped. Throws Error(bad_input) naming line and column;
-/// `where` is the text's name in messages.
-PointTable parse_points(std::string_view text, const std::string& where);
+/// `where` is the text's name in messages. Positions are the world's, and come counted from `origin_m`.
+PointTable parse_points(std::string_view text, const std::string& where, const DVec3& origin_m = DVec3(0));
 
 }  // namespace phos

@@ -121,9 +121,11 @@ struct Light {
   Vec3 position{0};
   Vec3 direction{0, 0, -1};
   Rgb intensity{0};  ///< point, spot: cd (on the axis). directional: lx on a plane facing it. Others: unused
-  float cos_inner = 1, cos_outer = 0;  ///< spot cone, cosines of the half angles; glTF's smooth falloff
-  std::uint32_t instance = 0;          ///< area: which instance shines
-  float area_m2 = 0;                   ///< area: one side
+  /// Spot cone, cosines of the half angles; glTF's smooth falloff. In double: in float no cone is thinner
+  /// than 3e-4 rad.
+  double cos_inner = 1, cos_outer = 0;
+  std::uint32_t instance = 0;  ///< area: which instance shines
+  float area_m2 = 0;           ///< area: one side
   Rgb flux_lm{0};  ///< total emitted; directional, environment: through the scene's bounding disc (filled by
                    ///< finalize)
   /// Has an extent as seen from a point, so that more than one sample of it is worth while; else it lights
@@ -155,7 +157,11 @@ struct Animation {
 
 struct Scene {
   std::string path;
-  // Per vertex, world space.
+  /// Place in the world that all coordinates here, and in files made from them, are counted from, m. Zero for
+  /// scenes near the world's origin (core/origin.h); loaders choose it, the same at every time of an
+  /// animation.
+  DVec3 origin_m{0};
+  // Per vertex, world axes, from origin_m.
   std::vector<Vec3> position;
   std::vector<Vec3> normal;    ///< unit shading normals
   std::vector<Vec2> uv0, uv1;  ///< empty, or one per vertex
@@ -181,7 +187,7 @@ struct Scene {
   Bounds bounds;
   std::string hash;  ///< of everything that changes the light (not cameras, not names)
   Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}};
-                     ///< "environment":hash where there is one
+                     ///< "environment":hash and "origin_m":[x,y,z] where there is one
 
   const Material& material_of(std::uint32_t tri) const {
     return material[instance[triangle_instance[tri]].material];

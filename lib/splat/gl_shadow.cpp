@@ -115,8 +115,8 @@ ShadowSample punctual_sample(const Scene& scene, const GBuffer& gbuffer, const L
   if (spot) sample.kind = SampleKind::spot, sample.cone = Vec2(light.cos_outer, light.cos_inner);
   if (!spot) sample.forward = Vec3(0, 0, -1);
   // Cones up to 50 degrees off the axis in one map, a little wider than they are.
-  const bool narrow = spot && light.cos_outer > 0.64f;
-  const double cosine = std::min(static_cast<double>(light.cos_outer), 1 - 1e-6);
+  const bool narrow = spot && light.cos_outer > 0.64;
+  const double cosine = std::min(light.cos_outer, 1 - 1e-6);
   const double half_opening = narrow ? 1.02 * std::sqrt(1 - cosine * cosine) / cosine : 1.0;
   add_views(scene, sample, light.position, narrow ? 1 : 6, half_opening, -1, map_size);
   return sample;

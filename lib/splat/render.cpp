@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "file/atomic_file.h"
@@ -438,10 +439,10 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
   return result;
 }
 
-void write_misses(const std::string& path, const std::vector<Miss>& misses) {
+void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m) {
   std::string csv = "x,y,z,nx,ny,nz\n";
   for (const Miss& m : misses) {
-    for (int c = 0; c < 3; ++c) csv += shortest(m.position[c]) + ",";
+    for (int c = 0; c < 3; ++c) csv += world_text(origin_m[c], m.position[c]) + ",";
     for (int c = 0; c < 3; ++c) csv += shortest(m.normal[c]) + (c < 2 ? "," : "\n");
   }
   AtomicFile file(path);

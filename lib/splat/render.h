@@ -82,7 +82,7 @@ struct Rendering {
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render,
                        std::span<const BrdfTable> brdfs = {}, const GlossCache* gloss = nullptr);
 
-/// CSV: x,y,z (m), nx,ny,nz. What phos-irradiance --at reads. Atomic.
-void write_misses(const std::string& path, const std::vector<Miss>& misses);
+/// CSV: x,y,z (m, of the world), nx,ny,nz. What phos-irradiance --at reads. Atomic.
+void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m = DVec3(0));
 
 }  // namespace phos
