@@ -98,9 +98,11 @@ void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires&
 float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient)[3], float radius_m) {
   const float brightest = max_component(irradiance);
   for (int c = 0; c < 3; ++c) {
-    const float slope = glm::length(translation_gradient[c]);
-    if (irradiance[c] > kChannelCounts * brightest && slope * radius_m > irradiance[c])
-      radius_m = irradiance[c] / slope;
+    // In double: the square of a steep or a faint slope is beyond floats.
+    const double slope = glm::length(DVec3(translation_gradient[c])),
+                 light = static_cast<double>(irradiance[c]);
+    if (irradiance[c] > kChannelCounts * brightest && slope * static_cast<double>(radius_m) > light)
+      radius_m = static_cast<float>(light / slope);
   }
   return radius_m;
 }

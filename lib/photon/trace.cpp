@@ -21,6 +21,8 @@ constexpr std::size_t kPathChunk = 1024;
 // every thread busy, and no more, so that their memory is used again before it has left the cache.
 constexpr std::uint64_t kChunksPerThread = 16;
 constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
+// Of a chunk: more, and nothing absorbs the light, whose photons would fill any memory.
+constexpr std::uint64_t kMostTooLong = 16;
 
 // Without the not-a-number rules of fmax, which cost a call.
 float largest(const Rgb& c) { return std::max(c.x, std::max(c.y, c.z)); }
@@ -257,7 +259,15 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
     parallel_chunks(wave, kPathChunk, [&](std::size_t begin, std::size_t end) {
       Part& part = parts[begin / kPathChunk];
       part.restart();
-      for (std::size_t i = begin; i < end; ++i) tracer.trace_path(first + i, part);
+      for (std::size_t i = begin; i < end; ++i) {
+        tracer.trace_path(first + i, part);
+        if (part.too_long < kMostTooLong) continue;
+        throw Error(
+            ExitCode::numerical, "",
+            text(kTooLongEvent, ": ", kMostTooLong, " of ", i + 1 - begin,
+                 " paths; a closed part of the scene absorbs nothing, and its light has no end: lower "
+                 "the reflectance of its materials below 1"));
+      }
       progress.advance(end - begin);
     });
     done += wave;

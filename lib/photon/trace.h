@@ -32,7 +32,8 @@ inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended
 
 /// Photons of the paths that options.shard names, in path order: one at each hit on a surface that is not
 /// purely specular (black and glowing ones too), carrying the flux that arrives. A path ends when it escapes
-/// or by Russian roulette, which keeps the flux of the survivors about equal; there is no other limit.
+/// or by Russian roulette, which keeps the flux of the survivors about equal; there is no other limit but
+/// that of kTooLongEvent. Throws Error(numerical) once that happens to more than one path in a hundred.
 /// Unbiased: the expected flux stored on a piece of surface is its irradiance, all bounces, times its area.
 /// The same for any number of threads and any shards. Throws Error(bad_input) if nothing shines, unless there
 /// are no paths. `log`, if given, gets every ray that was traced.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestDiagonal_m = 300, kSmallestDiagonal_m = 0.01;
 constexpr double kDarkest_lx = 1, kBrightest_lx = 200000;
-constexpr double kHighReflectance = 0.95, kBackwardShare = 0.01;
+constexpr double kHighReflectance = 0.95, kAllReflectance = 0.99995, kBackwardShare = 0.01;
 
 class Linter {
  public:
@@ -161,6 +161,10 @@ class Linter {
       } else if (m.reflectance > 1.0001) {
         add(Level::warning, "reflectance-above-one", figure + ", more than it gets",
             "lower kd or ks until kd + ks is at most 1");
+      } else if (m.reflectance > kAllReflectance && m.diffuse) {
+        add(Level::warning, "absorbs-nothing",
+            figure + ": in a closed room of it light never ends, and has no finite mean",
+            "lower kd or ks; white paint reflects 0.8");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
         add(Level::info, "reflectance-high", figure + "; white paint reflects 0.8",
             "lower it unless it is meant");
