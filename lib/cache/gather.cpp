@@ -111,7 +111,7 @@ void GatherEstimator::sample(const RecordSite& site, std::int64_t rays, std::uin
   auto& [hits, sights, sight_count] = w.found_in[pass];
   hits.resize(h.size());
   const Hit* next = w.found.data();
-  each_in_tiles(h, [&](std::size_t i) { hits[i] = *next++; });
+  each_in_tiles(h, [&, &hits = hits](std::size_t i) { hits[i] = *next++; });
   impl_->light.shade(origin, hits, site.item, pass, h, *w.light);
   std::swap(sights, w.light->sights);
   sight_count = w.light->sight_count;

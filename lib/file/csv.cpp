@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 
 #include "core/error.h"
 
@@ -18,10 +19,11 @@ std::string_view trimmed(std::string_view s) {
 }
 
 void check_names(const CsvTable& table, std::size_t line) {
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (std::count(table.columns.begin(), table.columns.end(), table.columns[i]) > 1)
+  std::set<std::string_view> known;
+  for (const std::string& name : table.columns)
+    if (!known.insert(name).second)
       throw Error(ExitCode::bad_input, text(table.where, ":", line),
-                  text("names the column \"", table.columns[i], "\" twice"));
+                  text("names the column \"", name, "\" twice"));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/parallel.h"
+#include "image/exr_header.h"
 #include "image/formats.h"
 #include "image/primaries.h"
 
@@ -198,6 +199,7 @@ Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes) {
 Image decode_exr(std::string_view bytes, const std::string& where) {
   use_our_threads();
   try {
+    check_exr_header(bytes);
     MemoryIn stream(bytes, where);
     Imf::MultiPartInputFile file(stream, Imf::globalThreadCount(), false);
     if (file.parts() < 1) throw Iex::InputExc("the file holds no picture");

@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "photon/flann_stream.h"
+#include "photon/kd_tree_check.h"
 
 namespace phos {
 namespace {
@@ -18,6 +20,7 @@ using Tree = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
 // nothing.
 constexpr int kLeafSize = 16;
 constexpr std::size_t kCheckChunk = 1 << 16;
+constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<int>::max());
 
 // FLANN takes a mutable pointer but never writes through it (reorder = false).
 flann::Matrix<float> matrix(std::span<const Vec3> points) {
@@ -25,6 +28,16 @@ flann::Matrix<float> matrix(std::span<const Vec3> points) {
 }
 
 flann::KDTreeSingleIndexParams parameters() { return {kLeafSize, /*reorder=*/false}; }
+
+/// Is it a single kd-tree over floats, compressed? The enumerations may hold anything.
+bool is_our_kind(const flann::IndexHeader& header) {
+  int data, index;
+  static_assert(sizeof data == sizeof header.h.data_type && sizeof index == sizeof header.h.index_type);
+  std::memcpy(&data, &header.h.data_type, sizeof data);
+  std::memcpy(&index, &header.h.index_type, sizeof index);
+  return data == flann::flann_datatype_value<float>::value && index == flann::FLANN_INDEX_KDTREE_SINGLE &&
+         header.h.compression == 1;
+}
 
 /// Collects without sorting every point nearer than the limit.
 class Rows final : public flann::ResultSet<float> {
@@ -45,8 +58,8 @@ bool in_range(const Vec3& p) {
          a.z <= KdTree::kLargestCoordinate_m;
 }
 
-void require_in_range(std::span<const Vec3> points) {
-  const std::size_t bad = parallel_reduce<std::size_t>(
+std::size_t count_out_of_range(std::span<const Vec3> points) {
+  return parallel_reduce<std::size_t>(
       points.size(), kCheckChunk, 0,
       [&](std::size_t begin, std::size_t end) {
         std::size_t n = 0;
@@ -54,7 +67,10 @@ void require_in_range(std::span<const Vec3> points) {
         return n;
       },
       [](std::size_t& total, std::size_t n) { total += n; });
-  if (bad > 0)
+}
+
+void require_in_range(std::span<const Vec3> points) {
+  if (const std::size_t bad = count_out_of_range(points); bad > 0)
     throw Error(ExitCode::numerical, "",
                 text(bad, " of ", points.size(), " photon positions are not finite or beyond ",
                      KdTree::kLargestCoordinate_m, " m; check the scene with phos-scene"));
@@ -81,7 +97,7 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 KdTree KdTree::build(std::span<const Vec3> points) {
   KdTree result;
   if (points.empty()) return result;
-  if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  if (points.size() > kMostPoints)
     throw Error(ExitCode::numerical, "",
                 text(points.size(), " photons are more than one map can hold (2147483647); use fewer paths"));
   require_in_range(points);
@@ -105,6 +121,15 @@ KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> byt
     refuse("has another version of FLANN's format");
   if (header.h.rows != points.size() || header.h.cols != 3)
     refuse(text("is over ", header.h.rows, " points, but there are ", points.size(), " photons"));
+  if (!is_our_kind(header)) refuse("is of another kind");
+  if (points.size() > kMostPoints) refuse(text("cannot be over ", points.size(), " photons"));
+  if (const std::size_t bad = count_out_of_range(points); bad > 0)
+    refuse(text("cannot be over photons of which ", bad, " are nowhere in space"));
+  try {
+    check_tree(points, {bytes, sizeof header, header.h.first_block_size});
+  } catch (const FlannStream::Damaged& e) {
+    refuse(e.what());
+  }
   const File file(fmemopen(const_cast<std::byte*>(bytes.data()), bytes.size(), "rb"));
   PHOS_CHECK(file != nullptr, "fmemopen of ", bytes.size(), " bytes");
   result.impl_ = std::make_unique<Impl>(points);

@@ -28,9 +28,9 @@ class KdTree {
   /// larger than kLargestCoordinate_m, or for more than 2^31-1 points.
   static KdTree build(std::span<const Vec3> points);
 
-  /// The tree of save() over the same points. The caller must have verified the checksum of `bytes` and of
-  /// the points: FLANN trusts what it reads. Throws Error(bad_input) naming `where` if the tree is not one
-  /// over this many points.
+  /// The tree of save() over the same points. Whoever wrote `bytes`, FLANN, which trusts what it reads, sees
+  /// them only once they are known to be a tree over these points (kd_tree_check.h). Throws Error(bad_input)
+  /// naming `where` if they are not, or if a point is not finite.
   static KdTree load(std::span<const Vec3> points, std::span<const std::byte> bytes,
                      const std::string& where);
 

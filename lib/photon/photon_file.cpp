@@ -1,8 +1,10 @@
 #include "photon/photon_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace phos {
 namespace {
@@ -91,6 +93,35 @@ PhotonColumns columns_of(const Container& file) {
   return c;
 }
 
+namespace {
+
+/// nullptr: nothing.
+const char* what_is_wrong(const PhotonColumns& c, std::size_t i) {
+  if (!is_finite(c.position[i])) return "a position that is not finite";
+  if (!is_finite(c.flux[i])) return "a flux that is not finite";
+  if (!(c.distance[i] >= 0)) return "a distance that is not positive";
+  if (c.path[i] > static_cast<std::uint8_t>(PhotonPath::caustic)) return "a path of no known kind";
+  return nullptr;
+}
+
+}  // namespace
+
+void require_sound(const PhotonColumns& c, const std::string& path) {
+  const std::size_t n = c.position.size();
+  // In chunks, the first bad row wins: the same message for any number of threads.
+  const auto first_bad = parallel_reduce<std::size_t>(
+      n, 1 << 16, n,
+      [&](std::size_t begin, std::size_t end) {
+        while (begin < end && what_is_wrong(c, begin) == nullptr) ++begin;
+        return begin < end ? begin : n;
+      },
+      [](std::size_t& least, std::size_t part) { least = std::min(least, part); });
+  if (first_bad == n) return;
+  throw Error(ExitCode::bad_input, path,
+              text("photon ", first_bad, " has ", what_is_wrong(c, first_bad),
+                   "; the file is damaged or was made by a faulty program: make it again"));
+}
+
 void add_columns(ContainerWriter& writer, const PhotonColumns& c) {
   const Shape rows{c.position.size()};
   writer.add_vectors("position", c.position, "m");
@@ -141,12 +172,23 @@ PhotonTotals totals_of(const Container& file, std::size_t rows) {
   return t;
 }
 
+namespace {
+
+void add(FluxSum& sum, const FluxSum& more) {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (__builtin_add_overflow(sum.units[c], more.units[c], &sum.units[c]))
+      throw Error(ExitCode::bad_input, "",
+                  "the shards' totals of flux are greater than any run's; make the shards again");
+}
+
+}  // namespace
+
 void add_totals(PhotonTotals& totals, const PhotonTotals& other) {
   PHOS_CHECK(totals.flux_exponent == other.flux_exponent, totals.flux_exponent, " and ", other.flux_exponent);
   totals.stored += other.stored;
   totals.paths += other.paths;
-  totals.emitted_sum += other.emitted_sum, totals.stored_sum += other.stored_sum;
-  totals.escaped_sum += other.escaped_sum, totals.absorbed_sum += other.absorbed_sum;
+  add(totals.emitted_sum, other.emitted_sum), add(totals.stored_sum, other.stored_sum);
+  add(totals.escaped_sum, other.escaped_sum), add(totals.absorbed_sum, other.absorbed_sum);
   totals.settle();
 }
 

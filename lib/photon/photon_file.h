@@ -21,12 +21,16 @@ PhotonColumns columns_of(const Photons& photons);
 /// Columns of an open file, in place. Throws Error(bad_input) for a column that is absent or of another
 /// length.
 PhotonColumns columns_of(const Container& file);
+/// Throws Error(bad_input) for the first photon that cannot be: nowhere in space, of no finite flux, from a
+/// negative distance, or of an unknown path.
+void require_sound(const PhotonColumns& columns, const std::string& path);
 void add_columns(ContainerWriter& writer, const PhotonColumns& columns);
 
 Json totals_to_json(const PhotonTotals& totals);
 /// Throws Error(bad_input) if the header has no totals, or they contradict the number of rows.
 PhotonTotals totals_of(const Container& file, std::size_t rows);
-/// Joins the sums and counts of two disjoint sets of paths of the same run.
+/// Joins the sums and counts of two disjoint sets of paths of the same run. Throws Error(bad_input) if they
+/// are greater than 64 bits hold.
 void add_totals(PhotonTotals& totals, const PhotonTotals& other);
 /// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
 Json bounds_to_json(std::span<const Vec3> position);

@@ -87,6 +87,7 @@ PhotonMap PhotonMap::open(const std::string& path) {
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
   map.totals = totals_of(file, c.position.size());
   verify_all(file);
+  require_sound(c, path);
   impl.tree = KdTree::load(map.position, std::as_bytes(tree), path);
   return map;
 }

@@ -83,6 +83,7 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
   for (PhotonShard& open : shards) {
     const PhotonShard s = std::move(open);  // its mapping goes once it is copied
     s.shard.file.verify();
+    require_sound(s.columns, s.shard.file.path());
     const PhotonColumns& c = s.columns;
     add(p.position, c.position), add(p.flux, c.flux), add(p.direction, c.direction), add(p.normal, c.normal);
     add(p.distance, c.distance), add(p.source_normal, c.source_normal), add(p.path, c.path),

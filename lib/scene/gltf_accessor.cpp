@@ -8,8 +8,9 @@
 namespace phos {
 namespace {
 
-/// An accessor without bytes of its own is all zeros, and nothing but this bounds it.
-constexpr std::uint64_t kMaxZeroElements = 1u << 24;
+/// An accessor without bytes of its own is all zeros. It belongs to others that have some (a vertex that a
+/// target moves has a position), so that there cannot be more of it than this and the bytes there are.
+constexpr std::uint64_t kZeroElements = 1u << 16;
 
 struct View {
   const unsigned char* data = nullptr;  ///< null: zeros
@@ -136,8 +137,11 @@ std::size_t element_count(const GltfDocument& document, int index) {
   const tinygltf::Accessor& accessor = document.model->accessors[static_cast<std::size_t>(index)];
   const std::string where = text("accessors[", index, "]");
   if (accessor.bufferView < 0) {
-    if (accessor.count > kMaxZeroElements) {
-      document.fail(text(where, " has no bufferView and a count of ", accessor.count));
+    std::uint64_t most = kZeroElements;
+    for (const std::string& buffer : document.buffer) most += buffer.size();
+    if (accessor.count > most) {
+      document.fail(text(where, " has no bufferView and a count of ", accessor.count,
+                         ", more than there are bytes in the buffers"));
     }
     return accessor.count;
   }

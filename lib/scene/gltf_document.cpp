@@ -117,7 +117,7 @@ std::string buffer_bytes(const GltfDocument& document, std::size_t i, const Chun
   } else {
     const std::optional<std::string> file = uri_file(document.path, uri);
     if (!file) document.fail(text("buffers[", i, "].uri must be a relative path, not \"", uri, "\""));
-    bytes = read_text(*file);
+    bytes = read_referred(*file);
   }
   if (bytes.size() < length) {
     document.fail(text("buffers[", i, "] is truncated: ", bytes.size(), " of ", length, " bytes are there"));

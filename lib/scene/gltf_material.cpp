@@ -39,7 +39,7 @@ ImageBytes image_bytes(const GltfDocument& document, std::size_t i) {
     out.name = uri.empty() ? out.name : uri;
     const std::optional<std::string> file = uri_file(document.path, uri);
     try {
-      if (file) out.bytes = read_text(*file);
+      if (file) out.bytes = read_referred(*file);
       if (!file) out.missing = "is not a relative path";
     } catch (const Error&) {
       out.missing = "cannot be read beside the scene";

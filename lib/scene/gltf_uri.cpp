@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "core/error.h"
+#include "file/atomic_file.h"
+
 namespace phos {
 namespace {
 
@@ -59,6 +62,14 @@ std::optional<std::string> decode_data_uri(const std::string& uri) {
     out += static_cast<char>(bits >> held & 0xff);
   }
   return out;
+}
+
+std::string read_referred(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Error(ExitCode::bad_input, path, "is referred to by a scene, but is no file; put a file there");
+  return read_text(path);
 }
 
 std::string beside(const std::string& scene_path, const std::string& name) {

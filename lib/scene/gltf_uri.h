@@ -15,6 +15,9 @@ std::optional<std::string> decode_data_uri(const std::string& uri);
 std::optional<std::string> uri_file(const std::string& scene_path, const std::string& uri);
 /// The same for a file in the scene's folder or below it: nothing for one that climbs out ("../x").
 std::optional<std::string> file_below(const std::string& scene_path, const std::string& uri);
+/// Bytes of a file that a scene refers to. Throws Error(bad_input) if it cannot be read, or is no regular
+/// file: a device would be read for ever.
+std::string read_referred(const std::string& path);
 /// Path of `name` in the folder of `scene_path`.
 std::string beside(const std::string& scene_path, const std::string& name);
 

@@ -14,6 +14,9 @@ namespace {
 
 /// A side longer than this, or more pixels (1 GiB of texels), is a damaged header or a mistake.
 constexpr std::int64_t kMaxSide = 1 << 15, kMaxPixels = 1 << 26;
+/// A byte holds no more than this (PNG: a bit a pixel, deflated 1032-fold); decoders would fill the rest of a
+/// file that is cut off.
+constexpr std::int64_t kPixelsPerByte = 8256, kPixelsOfAnyFile = 1 << 20;
 
 struct Size {
   std::int64_t width = 0, height = 0;
@@ -81,6 +84,8 @@ std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) 
   if (size.width > kMaxSide || size.height > kMaxSide || size.width * size.height > kMaxPixels) {
     return text("has ", size.width, " x ", size.height, " pixels, which is too large");
   }
+  if (size.width * size.height > kPixelsOfAnyFile + kPixelsPerByte * static_cast<std::int64_t>(bytes.size()))
+    return text("is too short for ", size.width, " x ", size.height, " pixels");
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return "is larger than 2 GiB";
   tinygltf::Image image;
   std::string error, warning;

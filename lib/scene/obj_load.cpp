@@ -36,7 +36,7 @@ std::string texture_path(const std::string& obj_path, std::string name) {
 /// Text of a file, nothing if it cannot be read.
 std::optional<std::string> read_if_there(const std::string& path) {
   try {
-    return read_text(path);
+    return read_referred(path);
   } catch (const Error&) {
     return std::nullopt;
   }
