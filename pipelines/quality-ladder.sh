@@ -40,6 +40,8 @@ step() { # name, share of the width, reach of a record when read, samples of a p
   local place=$((width / $2)) earlier=(--estimate gather --accuracy "$accuracy" --rays "$rays")
   ((place > 0)) || place=1
   [[ ! -f $base.irradiance ]] || earlier=(--add-to "$base.irradiance")
+  # The least reach of a record is a pixel of the final picture, for that will read it too.
+  earlier+=(--min-radius-pixels "$(awk -v a="$accuracy" -v n="$2" 'BEGIN { print 1 / (a * n) }')")
   phos-irradiance "$scene" "$base.photons" --place view "${name[@]}" --width "$place" "${earlier[@]}" --quiet --stats "$stats" \
     -o "$base.irradiance"
   local records fresh

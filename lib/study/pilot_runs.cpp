@@ -44,6 +44,7 @@ PilotRuns::PilotRuns(const PlanTask& task, const PilotOptions& options)
   const double scale = std::min(1.0, std::sqrt(kPilotPixels / std::max(pixels, 1.0)));
   small_.width = std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(task.width)));
   small_.height = std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(task.height)));
+  small_.pixels_of_final = scale;
   if (task.lux) set_out_sensors();
 }
 

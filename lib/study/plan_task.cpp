@@ -52,6 +52,8 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   add(words, {photons, "--place", "view"});
   add(words, view(task));
   add(words, gathered(knobs));
+  if (task.pixels_of_final < 1)
+    add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
   return {"phos-irradiance", words, out};
 }
 
