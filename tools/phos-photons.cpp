@@ -31,9 +31,7 @@ void report(Tool& tool, const PhotonTotals& totals) {
 
 void check_events(const Counters& counters, const PhotonTotals& totals) {
   const std::uint64_t trials = totals.stored + totals.paths;
-  counters.require_at_most(kNonFiniteEvent, 1e-6, trials, "check the powers of the lights and the materials");
-  counters.require_at_most(kTooLongEvent, 1e-6, trials,
-                           "a material reflects all of its light: lower its reflectance");
+  for (const char* event : {kNonFiniteEvent, kTooLongEvent}) counters.require_allowed(event, trials);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "cache/sensor_grid.h"
 #include "cache/sensors.h"
 #include "file/atomic_file.h"
+#include "file/mapped_file.h"
 #include "file/tool.h"
 #include "reference/point_irradiance.h"
 #include "scene/film.h"
@@ -20,6 +21,7 @@ struct Inputs {
 
   void sort_out() {
     for (const std::string& path : paths) {
+      require_bytes(path);
       if (is_container(path))
         caches.push_back(path);
       else if (!scene.empty())
@@ -156,8 +158,7 @@ int main(int argc, char** argv) {
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
     tool.counters().merge(report.counters);
-    tool.counters().require_at_most("non-finite sample", 1e-6, samples,
-                                    "look for extreme values in materials and lights with phos-scene");
+    tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");
     write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings));
     report_on(tool, inputs, sensors, readings, report);

@@ -67,7 +67,7 @@ struct Projected {
   int order = 0;
   float error = 0, albedo = 0;
   bool resolved = true;
-  std::size_t rejected = 0;
+  std::size_t rejected = 0, evaluated = 0;
 };
 
 Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis,
@@ -86,6 +86,7 @@ Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& 
       project_lobe([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, scouts, basis);
   Projected p;
   p.resolved = lobe.resolved && lobe.magnitude >= kFound * expected, p.rejected = lobe.rejected;
+  p.evaluated = lobe.evaluated;
   p.albedo = max_component(lobe.albedo + bsdf.diffuse_reflectance());
   p.order = lobe.lowest_order(options.error, p.error);
   if (p.order == 0 && options.too_sharp == TooSharp::cut) p.order = basis.order();
@@ -161,13 +162,14 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
   for (const Projected& p : projected) table.order = std::max(table.order, p.order);
   const std::size_t stride = 3 * static_cast<std::size_t>(harmonic_count(table.order));
   table.coefficients.assign(entries * stride, 0.f);
-  std::size_t intricate = 0, gaining = 0, rejected = 0;
+  std::size_t intricate = 0, gaining = 0, rejected = 0, evaluated = 0;
   for (std::size_t e = 0; e < entries; ++e) {
     const std::size_t from = source(e);
     const Projected& p = projected[from];
     table.orders[e] = static_cast<std::uint8_t>(p.order), table.error[e] = p.error;
     table.albedo = std::max(table.albedo, p.albedo);
     intricate += !p.resolved, gaining += p.albedo > kMostAlbedo, rejected += p.rejected;
+    evaluated += p.evaluated;
     std::vector<float> coefficients = p.coefficients;
     if (from != e) mirror(coefficients, p.order, from % side != e % side, from / side != e / side);
     if (table.isotropic) drop_sines(coefficients, p.order);
@@ -176,7 +178,13 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
   }
   if (intricate > 0) counters.count(kIntricateLobeEvent, intricate);
   if (gaining > 0) counters.count(kGainsEnergyEvent, gaining);
-  if (rejected > 0) counters.count("non-finite BRDF value", rejected);
+  if (rejected > 0) {
+    Counters own;
+    own.count("non-finite BRDF value", rejected);
+    own.require_allowed("non-finite BRDF value", evaluated);
+    counters.merge(own);
+  }
+
   return table;
 }
 

@@ -193,7 +193,7 @@ class Builder {
 
   LobePoints collect(const std::vector<Cell>& cells, bool resolved) const {
     LobePoints out;
-    out.resolved = resolved, out.rejected = points_.rejected;
+    out.resolved = resolved, out.rejected = points_.rejected, out.evaluated = points_.size();
     std::array<double, 3> albedo{};
     for (const Cell& c : cells) {
       out.energy += c.energy;

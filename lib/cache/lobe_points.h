@@ -20,6 +20,7 @@ struct LobePoints {
   double energy = 0;                        ///< integral of (f cos)^2, summed over RGB
   bool resolved = true;                     ///< false: the lobe had to be left with too few points
   std::size_t rejected = 0;                 ///< values of f that were not finite, taken as 0
+  std::size_t evaluated = 0;                ///< values of f in all, with those of cells that were halved
   std::size_t size() const { return x.size(); }
 };
 

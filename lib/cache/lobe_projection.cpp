@@ -51,8 +51,8 @@ std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float
 LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts,
                             const HarmonicBasis<float>& basis) {
   const LobePoints points = lobe_points(f, scouts, basis.order());
-  return {integrate(points, basis), points.magnitude, points.energy, points.albedo,
-          points.resolved,          points.rejected};
+  return {integrate(points, basis), points.magnitude, points.energy,   points.albedo,
+          points.resolved,          points.rejected,  points.evaluated};
 }
 
 int LobeProjection::lowest_order(double tolerance, float& error) const {

@@ -13,6 +13,7 @@ struct LobeProjection {
   Rgb albedo{0};                    ///< integral of f cos
   bool resolved = true;             ///< false: no figure here can be relied on
   std::size_t rejected = 0;         ///< values of f that were not finite
+  std::size_t evaluated = 0;        ///< values of f in all
 
   /// The lowest order whose bands leave out at most the share `tolerance` of the energy, or 0; `error`
   /// receives that share, or what all bands leave out.

@@ -1,6 +1,7 @@
 #include "core/counters.h"
 
 #include "core/error.h"
+#include "core/events.h"
 #include "core/json.h"
 
 namespace phos {
@@ -10,13 +11,13 @@ std::uint64_t Counters::operator[](const std::string& event) const {
   return found == counts_.end() ? 0 : found->second;
 }
 
-void Counters::require_at_most(const std::string& event, double fraction, std::uint64_t trials,
-                               const std::string& remedy) const {
-  const std::uint64_t n = (*this)[event];
-  if (static_cast<double>(n) <= fraction * static_cast<double>(trials)) return;
+void Counters::require_allowed(const std::string& name, std::uint64_t trials) const {
+  const Event& event = event_named(name);
+  const std::uint64_t n = (*this)[name], allowed = allowed_count(trials, event.share);
+  if (event.share == 1 || n <= allowed) return;
   throw Error(ExitCode::numerical, "",
-              text(event, ": ", n, " of ", trials, ", more than the allowed share of ", shortest(fraction),
-                   "; ", remedy));
+              text(name, ": ", n, " in ", trials, ' ', event.trials, ", where at most ", allowed,
+                   " are allowed (a share of ", shortest(event.share), "); ", event.remedy));
 }
 
 }  // namespace phos

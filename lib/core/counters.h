@@ -1,4 +1,4 @@
-// Numerical events: what happened, how often, out of how many, and how often it may.
+// Numerical events: what happened, how often, out of how many. How often each may is in core/events.h.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,9 @@ class Counters {
   std::uint64_t operator[](const std::string& event) const;
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
-  /// Throws Error(numerical) if the event happened in more than `fraction` of `trials`; says how often and
-  /// `remedy`.
-  void require_at_most(const std::string& event, double fraction, std::uint64_t trials,
-                       const std::string& remedy) const;
+  /// Throws Error(numerical) if the event, which is one of core/events.h, happened more often than it may in
+  /// this many trials; says how often, how often it may, and what to do.
+  void require_allowed(const std::string& event, std::uint64_t trials) const;
 
  private:
   std::map<std::string, std::uint64_t> counts_;

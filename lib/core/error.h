@@ -15,6 +15,7 @@ enum class ExitCode : int {
   bad_input = 3,      ///< an input is unreadable, malformed or damaged; or an output cannot be written
   mismatch = 4,       ///< inputs do not belong together
   numerical = 5,      ///< a numerical guard tripped more often than it may
+  no_memory = 6,      ///< memory ran out
   interrupted = 130,  ///< Ctrl-C, SIGTERM or SIGHUP
 };
 

@@ -1,21 +1,25 @@
 #include "core/interrupt.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 
 #include "core/error.h"
+#include "core/last_words.h"
 
 namespace phos {
 
 namespace {
 
 std::atomic<bool> asked_to_stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> not_to_be_stopped{0};  // calls that do not look whether they should stop
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+constexpr const char* kSaid = "interrupted; nothing was written, what was there before is unchanged";
 
 void on_signal(int) {
-  if (asked_to_stop.exchange(true)) _exit(static_cast<int>(ExitCode::interrupted));
+  const bool again = asked_to_stop.exchange(true);
+  if (not_to_be_stopped.load() > 0) end_now(ExitCode::interrupted, kSaid);
+  if (again) end_now(ExitCode::interrupted, "interrupted twice; what was there before is unchanged");
 }
 
 }  // namespace
@@ -24,15 +28,23 @@ void install_interrupt_handler() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&action.sa_mask, signal);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
 bool interrupted() { return asked_to_stop.load(std::memory_order_relaxed); }
 
 void throw_if_interrupted() {
-  if (interrupted())
-    throw Error(ExitCode::interrupted, "",
-                "interrupted; nothing was written, what was there before is unchanged");
+  if (interrupted()) throw Error(ExitCode::interrupted, "", kSaid);
 }
+
+StopAtOnce::StopAtOnce() {
+  ++not_to_be_stopped;
+  if (!interrupted()) return;
+  --not_to_be_stopped;
+  throw_if_interrupted();
+}
+
+StopAtOnce::~StopAtOnce() { --not_to_be_stopped; }
 
 }  // namespace phos

@@ -3,10 +3,22 @@
 
 namespace phos {
 
-/// First signal: work stops at the next check. Second signal: the process ends at once.
+/// First signal: work stops at the next check. Second signal: the process ends at once, without its temporary
+/// files.
 void install_interrupt_handler();
 bool interrupted();
 /// Throws Error(interrupted) if a signal has come.
 void throw_if_interrupted();
+
+/// While one of these lives, in any thread, the first signal ends the process at once: for a long call into a
+/// package that cannot be stopped, where nothing is being written but temporary files. One that has come
+/// before throws Error(interrupted).
+class StopAtOnce {
+ public:
+  StopAtOnce();
+  ~StopAtOnce();
+  StopAtOnce(const StopAtOnce&) = delete;
+  StopAtOnce& operator=(const StopAtOnce&) = delete;
+};
 
 }  // namespace phos

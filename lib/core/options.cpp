@@ -98,6 +98,7 @@ constexpr std::pair<int, const char*> kExitCodes[] = {
     {3, "an input is unreadable, malformed or damaged, or the output cannot be written"},
     {4, "inputs do not belong together"},
     {5, "a numerical guard tripped more often than it may"},
+    {6, "memory ran out; what was there before is unchanged"},
     {130, "interrupted; what was there before is unchanged"},
 };
 

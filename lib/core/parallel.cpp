@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/float_traps.h"
 #include "core/interrupt.h"
 
 #ifdef __SANITIZE_THREAD__
@@ -18,6 +19,11 @@
 namespace phos {
 
 namespace {
+
+#ifdef PHOS_TRAP_FPE
+/// The main thread traps from before main() on, in tests too.
+[[maybe_unused]] const int kTrapped = FloatTraps::set(FE_INVALID | FE_DIVBYZERO);
+#endif
 
 struct Threads {
   int count = 0;
@@ -77,7 +83,8 @@ void parallel_chunks(std::size_t n, std::size_t chunk,
       tbb::blocked_range<std::size_t>(0, chunks, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         order.enter();
-        set_flush_to_zero();  // a worker may be new
+        set_flush_to_zero();     // a worker may be new
+        const FloatTraps traps;  // and next it may work for a package that does not bear them
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
           throw_if_interrupted();
           body(c * chunk, std::min(n, (c + 1) * chunk));

@@ -1,6 +1,7 @@
 #include "file/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -8,7 +9,10 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <mutex>
+#include <set>
 
 #include "core/error.h"
 #include "file/mapped_file.h"
@@ -45,7 +49,15 @@ std::string without_links(const std::string& path) {
 struct Temporary {
   int fd;
   std::string path;
+  GoesWithProcess goes;
 };
+
+/// True once the file is ours alone and still has its name; a file system without locks counts as that.
+bool held(int fd) {
+  struct stat info {};
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  return ::fstat(fd, &info) == 0 && info.st_nlink > 0;
+}
 
 /// An empty new file beside `path`. The name is short, so that it is legal wherever `path` is.
 Temporary make_temporary(const std::string& path) {
@@ -53,8 +65,31 @@ Temporary make_temporary(const std::string& path) {
   for (;;) {
     std::string name = text(folder_of(path), ".phos-", ::getpid(), "-", number++, ".tmp");
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd >= 0) return {fd, std::move(name)};
+    if (fd >= 0) {
+      GoesWithProcess goes(name);
+      if (held(fd)) return {fd, std::move(name), std::move(goes)};
+      ::close(fd);  // a process that tidies up took it for abandoned
+      continue;
+    }
     if (errno != EEXIST && errno != EINTR) fail(path, errno);
+  }
+}
+
+/// Removes the temporaries that nobody holds (their process was killed). Looks once at each folder.
+void remove_abandoned(const std::string& path) {
+  static std::mutex mutex;
+  static std::set<std::string> tidied;
+  const std::string folder = folder_of(path).empty() ? "./" : folder_of(path);
+  const std::lock_guard lock(mutex);
+  if (!tidied.insert(folder).second) return;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(".phos-") || !name.ends_with(".tmp")) continue;
+    const int fd = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (fd < 0) continue;
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+    ::close(fd);
   }
 }
 
@@ -88,15 +123,16 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     if (fd_ < 0) fail(path_, errno);
     return;
   }
+  remove_abandoned(path_);
   Temporary temporary = make_temporary(path_);
   fd_ = temporary.fd;
-  temporary_ = std::move(temporary.path);
+  temporary_ = std::move(temporary.path), goes_ = std::move(temporary.goes);
   if (mode != 0) static_cast<void>(::fchmod(fd_, mode));  // keep the rights of the file that is replaced
 }
 
 AtomicFile::~AtomicFile() {
-  if (fd_ >= 0) ::close(fd_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (fd_ >= 0) ::close(fd_);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
@@ -116,12 +152,17 @@ void AtomicFile::commit() {
   // Some file systems cannot sync and say so; that is no failure to write.
   if (atomic && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
     fail(path_, errno);
+  if (atomic) {
+    // A close tells what some file systems found out late. Our own descriptor stays: it holds the lock.
+    if (const int copy = ::fcntl(fd_, F_DUPFD_CLOEXEC, 0); copy >= 0 && ::close(copy) != 0 && errno != EINTR)
+      fail(path_, errno);
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
+    temporary_.clear(), goes_.release();
+  }
   const int fd = fd_;
   fd_ = -1;
-  if (::close(fd) != 0 && errno != EINTR) fail(path_, errno);
+  if (::close(fd) != 0 && errno != EINTR && !atomic) fail(path_, errno);
   if (!atomic) return;
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
-  temporary_.clear();
   const std::string folder = folder_of(path_);
   const int folder_fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_fd >= 0) {
@@ -134,9 +175,10 @@ void require_writable(const std::string& path) {
   if (standard_stream(path) >= 0) return;
   const std::string real = without_links(path);
   if (in_place(real, nullptr)) return;
+  remove_abandoned(real);
   const Temporary temporary = make_temporary(real);
-  ::close(temporary.fd);
   ::unlink(temporary.path.c_str());
+  ::close(temporary.fd);
 }
 
 std::string read_text(const std::string& path) {

@@ -6,13 +6,16 @@
 #include <string>
 #include <string_view>
 
+#include "core/last_words.h"
+
 namespace phos {
 
 /// Writes to a temporary file beside `path`; commit() syncs and renames it into place. Destroyed without
 /// commit(), it removes the temporary and leaves what was at `path`. Every failure (no folder, no right, full
 /// disk) throws Error(bad_input) with the reason, which the system gives at the call that fails. A `path`
-/// that is not a regular file
-/// (/dev/stdout, a pipe) is written directly.
+/// that is not a regular file (/dev/stdout, a pipe) is written directly. The temporary is locked while its
+/// writer lives: one that nobody holds was left by a process killed outright, and the next that writes into
+/// that folder removes it.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -27,10 +30,12 @@ class AtomicFile {
 
  private:
   std::string path_, temporary_;
+  GoesWithProcess goes_;
   int fd_ = -1;
 };
 
 /// Throws Error(bad_input) at once if nothing could be written at `path` (before hours of work are spent).
+/// Removes from its folder the temporaries of killed processes.
 void require_writable(const std::string& path);
 /// Whole file as text. Throws Error(bad_input).
 std::string read_text(const std::string& path);

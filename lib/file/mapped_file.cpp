@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/last_words.h"
 
 namespace phos {
 
@@ -28,7 +31,43 @@ struct Descriptor {
               "cannot read: " + system_message(error) + (error == ENOENT ? "; check the path" : ""));
 }
 
+/// Mappings as a signal handler can read them. Beyond this many a failing file is not named.
+constexpr int kWatched = 64;
+struct Watch {
+  std::atomic<const std::byte*> begin{nullptr};
+  std::atomic<std::size_t> size{0};
+  char path[512];
+};
+Watch watches[kWatched];
+std::atomic<bool> taken[kWatched];
+
+void on_read_error(int, siginfo_t* info, void*) {
+  const auto* at = static_cast<const std::byte*>(info->si_addr);
+  const char* path = "an input";
+  for (const Watch& w : watches) {
+    const std::byte* begin = w.begin;
+    if (begin != nullptr && at >= begin && at < begin + w.size) path = w.path;
+  }
+  end_now(ExitCode::bad_input,
+          "cannot be read any more: its disk failed, or another program cut it short; make it again", path);
+}
+
 }  // namespace
+
+void install_read_error_handler() {
+  struct sigaction action = {};
+  action.sa_sigaction = on_read_error;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGBUS, &action, nullptr);
+}
+
+void require_bytes(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) fail(path, errno);
+  if (S_ISREG(info.st_mode) && info.st_size == 0)
+    throw Error(ExitCode::bad_input, path, "the file is empty; make it again");
+}
 
 std::string system_message(int error) { return std::system_category().message(error); }
 
@@ -44,6 +83,7 @@ MappedFile::MappedFile(const std::string& path) {
     if (mapping != MAP_FAILED) {
       mapping_ = mapping;
       bytes_ = {static_cast<const std::byte*>(mapping), size};
+      watch(path);
       return;
     }
   }
@@ -72,7 +112,18 @@ void MappedFile::read_all(int fd, const std::string& path) {
   }
 }
 
+void MappedFile::watch(const std::string& path) {
+  for (int i = 0; i < kWatched; ++i) {
+    if (taken[i].exchange(true)) continue;
+    std::strncpy(watches[i].path, path.c_str(), sizeof watches[i].path - 1);
+    watches[i].size = bytes_.size(), watches[i].begin = bytes_.data();
+    watched_ = i;
+    return;
+  }
+}
+
 MappedFile::~MappedFile() {
+  if (watched_ >= 0) watches[watched_].begin = nullptr, taken[watched_] = false;
   if (mapping_ != nullptr) ::munmap(mapping_, bytes_.size());
 }
 

@@ -9,7 +9,8 @@
 namespace phos {
 
 /// Read-only bytes of a file: mapped, or read into memory where it cannot be mapped (a pipe). Aligned to 64
-/// bytes.
+/// bytes. Where a mapped file fails later (its disk does, or another program cut it short), the process ends
+/// with one line that names it and ExitCode::bad_input, once install_read_error_handler() was called.
 class MappedFile {
  public:
   /// Throws Error(bad_input): missing, a folder, unreadable.
@@ -24,10 +25,16 @@ class MappedFile {
     std::byte bytes[64];
   };
   void read_all(int fd, const std::string& path);
+  void watch(const std::string& path);
   std::span<const std::byte> bytes_;
   std::unique_ptr<Block[]> copy_;
   void* mapping_ = nullptr;
+  int watched_ = -1;
 };
+
+void install_read_error_handler();
+/// Throws Error(bad_input) for a file without bytes, which could be of any kind, and for one that is missing.
+void require_bytes(const std::string& path);
 
 /// "No space left on device" and so on for an errno.
 std::string system_message(int error);

@@ -11,9 +11,11 @@
 #include <new>
 
 #include "core/interrupt.h"
+#include "core/last_words.h"
 #include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
+#include "file/mapped_file.h"
 #include "file/reuse.h"
 
 namespace phos {
@@ -111,9 +113,18 @@ int Tool::report(const std::string& where, const std::string& message, ExitCode 
   return static_cast<int>(code);
 }
 
+int Tool::out_of_memory() const {
+  const std::uint64_t mebibytes = peak_memory_bytes() >> 20;
+  return report("", text("out of memory (", mebibytes, " MiB in use); ask for less, or use a larger machine"),
+                ExitCode::no_memory);
+}
+
 int Tool::run(int argc, const char* const* argv, const std::function<void()>& body) {
   const auto start = std::chrono::steady_clock::now();
   occupy_standard_streams();
+  set_program_name(name_);
+  install_last_words();
+  install_read_error_handler();
   try {
     declare_common();
     if (options_.parse(argc, argv)) {
@@ -129,10 +140,7 @@ int Tool::run(int argc, const char* const* argv, const std::function<void()>& bo
   } catch (const Error& e) {
     return report(e.where(), e.what(), e.code());
   } catch (const std::bad_alloc&) {
-    const std::uint64_t mebibytes = peak_memory_bytes() >> 20;
-    return report("",
-                  text("out of memory (", mebibytes, " MiB in use); ask for less, or use a larger machine"),
-                  ExitCode::bad_input);
+    return out_of_memory();
   } catch (const std::exception& e) {
     return report("", text("internal error: ", e.what(), "; please report it with the command"),
                   ExitCode::bad_input);

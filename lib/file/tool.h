@@ -130,6 +130,7 @@ class Tool {
   void require_frames_of_pattern() const;
   void run_frames(const std::function<void()>& body);
   void begin_frame(std::int64_t frame, const FramePattern& names);
+  int out_of_memory() const;
   int report(const std::string& where, const std::string& message, ExitCode code) const;
   void tell(const std::string& kind, const std::string& line) const;
   void write_stats(double seconds) const;

@@ -206,6 +206,8 @@ Image decode_exr(std::string_view bytes, const std::string& where) {
     return read_parts(file, bytes.size());
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // the sizes in the header are possible: memory is short
   } catch (const std::exception& e) {
     std::string why = e.what();
     for (char& c : why)

@@ -28,6 +28,8 @@ std::optional<Provenance> read_image_provenance(const std::string& path) {
       const std::string name = a.name();
       if (s != nullptr && name.starts_with(kPrefix)) metadata[name.substr(kPrefix.size())] = s->value();
     }
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     throw Error(ExitCode::bad_input, path, "not a readable OpenEXR file; make it again");
   }

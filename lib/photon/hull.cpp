@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/float_traps.h"
 
 namespace phos {
 namespace {
@@ -103,8 +104,11 @@ void convex_hull(std::span<const Vec2> points, Hull& hull) {
     scratch.points[i] = Kernel::Point_2(q.x, q.y);
   }
   try {
+    const NoFloatTraps traps;  // CGAL's intervals may be unbounded
     CGAL::convex_hull_2(scratch.outer.begin(), scratch.outer.end(), std::back_inserter(scratch.extreme),
                         Traits(CGAL::make_property_map(scratch.points)));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw Error(ExitCode::numerical, "",
                 text("convex hull of ", points.size(), " photons failed: ", e.what()));

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/float_traps.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "photon/flann_stream.h"
 #include "photon/kd_tree_check.h"
@@ -102,6 +104,8 @@ KdTree KdTree::build(std::span<const Vec3> points) {
                 text(points.size(), " photons are more than one map can hold (2147483647); use fewer paths"));
   require_in_range(points);
   result.impl_ = std::make_unique<Impl>(points);
+  const NoFloatTraps traps;  // FLANN divides by the spread of coincident points
+  const StopAtOnce stop;     // and does not look
   result.impl_->tree.buildIndex();
   return result;
 }

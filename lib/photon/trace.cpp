@@ -277,7 +277,7 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
     try {
       join_photons(traced, photons, expected);
     } catch (const std::bad_alloc&) {
-      throw Error(ExitCode::bad_input, "",
+      throw Error(ExitCode::no_memory, "",
                   text("no memory for the about ", expected, " photons that ", range.count,
                        " paths will store here; emit fewer (--photons)"));
     }

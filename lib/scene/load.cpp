@@ -55,7 +55,7 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(ExitCode::bad_input, path, "the scene does not fit into memory");
+    throw Error(ExitCode::no_memory, path, "the scene does not fit into memory; use a larger machine");
   } catch (const std::exception& e) {
     throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
   }

@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/float_traps.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
@@ -57,7 +59,7 @@ void throw_if_failed(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_NONE) return;
   if (code == RTC_ERROR_OUT_OF_MEMORY) {
-    throw Error(ExitCode::bad_input, "",
+    throw Error(ExitCode::no_memory, "",
                 "not enough memory for the ray tracing structure; use a smaller scene");
   }
   throw Error(
@@ -113,12 +115,15 @@ void RayScene::Impl::make_device(const std::string& isa) {
                 text("unknown instruction set \"", isa, "\"; use sse2, sse4.2, avx, avx2 or avx512"));
   }
   const std::string config = "isa=" + isa;
+  const NoFloatTraps traps;
   device = rtcNewDevice(isa.empty() ? nullptr : config.c_str());
   if (device) return;
-  throw Error(
-      ExitCode::usage, isa.empty() ? "" : "isa",
-      text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"", " (error ",
-           static_cast<int>(rtcGetDeviceError(nullptr)), "); use one that this machine has, such as sse2"));
+  const RTCError error = rtcGetDeviceError(nullptr);
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ExitCode::no_memory, "", "not enough memory to start the ray tracer; use a larger machine");
+  throw Error(ExitCode::usage, isa.empty() ? "" : "isa",
+              text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"",
+                   " (error ", static_cast<int>(error), "); use one that this machine has, such as sse2"));
 }
 
 void RayScene::Impl::make_facets() {
@@ -194,6 +199,8 @@ void RayScene::Impl::build() {
       if (!triangle_of[id].empty()) attach(id, &triangle_of[id]);
     }
   }
+  const NoFloatTraps traps;  // Embree divides by zero extents
+  const StopAtOnce stop;     // and does not look
   rtcCommitScene(tree);
   throw_if_failed(device);
 }
@@ -215,6 +222,7 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   alignas(16) RTCRayHit query = embree_ray(ray);
+  const NoFloatTraps traps;  // Embree divides by zero components of directions
   rtcIntersect1(impl_->tree, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.distance_m = query.ray.tfar;
@@ -245,6 +253,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
       packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
+    const NoFloatTraps traps;  // Embree divides by zero components of directions
     rtcIntersect16(valid, impl_->tree, &context, &packet);
     for (std::size_t i = 0; i < count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -258,6 +267,7 @@ bool RayScene::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = embree_ray(ray);
+  const NoFloatTraps traps;  // Embree divides by zero components of directions
   rtcOccluded1(impl_->tree, &context, &query.ray);
   return query.ray.tfar < 0;
 }

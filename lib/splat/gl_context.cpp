@@ -30,11 +30,11 @@ void refuse_narrow_vectors() {
 #endif
 }
 
-template <class Function>
-void look_up(Function& function, const char* name) {
+template <class Pointer>
+void look_up(GlFunction<Pointer>& function, const char* name) {
   const OSMESAproc found = OSMesaGetProcAddress(name);
   if (found == nullptr) no_context(text("it lacks ", name));
-  function = reinterpret_cast<Function>(found);
+  function.set(reinterpret_cast<Pointer>(found));
 }
 
 }  // namespace
@@ -60,6 +60,7 @@ GlContext::GlContext() : native_(std::make_unique<Native>()) {
                             OSMESA_CONTEXT_MINOR_VERSION,
                             5,
                             0};
+  const NoFloatTraps traps;
   native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (native_->context == nullptr) no_context("it refuses to make one (is GALLIUM_DRIVER set?)");
   make_current();
@@ -83,6 +84,7 @@ GlContext::~GlContext() = default;
 
 void GlContext::make_current() const {
   if (OSMesaGetCurrentContext() == native_->context) return;
+  const NoFloatTraps traps;
   if (OSMesaMakeCurrent(native_->context, native_->dummy.data(), GL_UNSIGNED_BYTE, 16, 16) == GL_FALSE) {
     no_context("it cannot be made current");
   }
@@ -91,7 +93,7 @@ void GlContext::make_current() const {
 void GlContext::check(const char* doing) const {
   const GLenum error = gl_.GetError();
   if (error == GL_OUT_OF_MEMORY) {
-    throw Error(ExitCode::bad_input, "",
+    throw Error(ExitCode::no_memory, "",
                 text("OpenGL ran out of memory ", doing, "; make the picture smaller or pass --splat cpu"));
   }
   PHOS_CHECK(error == GL_NO_ERROR, doing, ": OpenGL error ", error);

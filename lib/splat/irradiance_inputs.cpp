@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "file/hash.h"
+#include "file/mapped_file.h"
 #include "temporal/film_inputs.h"
 
 namespace phos {
@@ -20,6 +21,7 @@ IrradianceFiles sort_inputs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!is_container(path)) {
       hash_file(path);  // a missing file is said to be missing
+      require_bytes(path);
       take(files.scene, path, "scene");
       continue;
     }

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "core/interrupt.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
+#include "study/scratch_folder.h"
 
 extern char** environ;
 
@@ -34,23 +34,6 @@ File scratch_file() {
   if (!file) throw Error(ExitCode::bad_input, "temporary file", std::strerror(errno));
   return file;
 }
-
-/// A file's name that goes with it.
-class ScratchName {
- public:
-  ScratchName() : path_((std::filesystem::temp_directory_path() / "phos-stats-XXXXXX").string()) {
-    const int fd = ::mkstemp(path_.data());
-    if (fd < 0) throw Error(ExitCode::bad_input, path_, std::strerror(errno));
-    ::close(fd);
-  }
-  ~ScratchName() { std::remove(path_.c_str()); }
-  ScratchName(const ScratchName&) = delete;
-  ScratchName& operator=(const ScratchName&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::string contents(std::FILE* file) {
   std::rewind(file);
@@ -124,12 +107,13 @@ CommandRun CommandRunner::run(const Command& command) const {
   throw_if_interrupted();
   const std::string program = folder_ + "/" + command.tool;
   const File out = scratch_file(), err = scratch_file();
-  const ScratchName stats;
+  const ScratchFolder scratch;
+  const std::string stats = scratch.file("stats.json");
   std::vector<std::string> words{program};
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
   words.insert(words.end(), common_.begin(), common_.end());
   if (!command.output.empty()) words.insert(words.end(), {"-o", command.output});
-  words.insert(words.end(), {"--stats", stats.path()});
+  words.insert(words.end(), {"--stats", stats});
 
   const auto begun = std::chrono::steady_clock::now();
   const pid_t pid = start(program, std::move(words), ::fileno(out.get()), ::fileno(err.get()));
@@ -152,8 +136,7 @@ CommandRun CommandRunner::run(const Command& command) const {
   run.out = contents(out.get());
   run.message = last_line(contents(err.get()));
   throw_if_interrupted();
-  if (const std::string json = read_text(stats.path()); !json.empty())
-    run.stats = parse_json(json, command.tool);
+  if (std::filesystem::exists(stats)) run.stats = parse_json(read_text(stats), command.tool);
   return run;
 }
 
@@ -162,7 +145,9 @@ CommandRun CommandRunner::require(const Command& command) const {
   if (run.code == 0) return run;
   std::string message = run.message.empty() ? text("ended with code ", run.code) : run.message;
   if (message.starts_with(command.tool + ": ")) message.erase(0, command.tool.size() + 2);
-  throw Error(run.code <= 5 || run.code == 130 ? static_cast<ExitCode>(run.code) : ExitCode::bad_input,
+  throw Error(run.code <= static_cast<int>(ExitCode::no_memory) || run.code == 130
+                  ? static_cast<ExitCode>(run.code)
+                  : ExitCode::bad_input,
               command.tool, message);
 }
 

@@ -7,7 +7,7 @@
 
 #include "study/command.h"
 #include "study/pilot.h"
-#include "study/pilot_folder.h"
+#include "study/scratch_folder.h"
 #include "study/plan_separate.h"
 
 namespace phos {

@@ -5,7 +5,8 @@
 
 namespace phos {
 
-/// A folder that goes with it, with all that is in it.
+/// A folder that goes with it, with all that is in it. It is locked while it lives: one that nobody holds was
+/// left by a killed process, and the first that is made in a process removes it.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -17,6 +18,7 @@ class ScratchFolder {
 
  private:
   std::string path_;
+  int lock_ = -1;
 };
 
 }  // namespace phos

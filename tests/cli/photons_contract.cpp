@@ -165,7 +165,7 @@ TEST_F(PhotonsCli, TooManyPathsForTheMemoryAreSaidAtOnce) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer ends a program that asks for too much memory";
 #endif
-  expect_refused({cornell_, "-o", out_, "--photons", "900000000000"}, 3, "no memory for the about");
+  expect_refused({cornell_, "-o", out_, "--photons", "900000000000"}, 6, "no memory for the about");
 }
 
 TEST_F(PhotonsCli, IsaIsRecorded) {

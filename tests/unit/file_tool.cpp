@@ -87,7 +87,7 @@ TEST(Tool, ErrorsAreOneLineAndACode) {
 
 TEST(Tool, OtherExceptionsAreReportedToo) {
   const Result memory = throwing([] { throw std::bad_alloc(); }).run({});
-  EXPECT_EQ(memory.code, 3);
+  EXPECT_EQ(memory.code, 6);
   EXPECT_EQ(memory.err.find("phos-test: out of memory"), 0u);
   EXPECT_TRUE(test::is_one_line(memory.err));
   const Result other = throwing([] { throw std::runtime_error("odd"); }).run({});

@@ -1,0 +1,117 @@
+#include "core/last_words.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+namespace phos {
+
+namespace {
+
+constexpr int kRoom = 256;
+constexpr std::size_t kLittle = std::size_t{32} << 20;  // bytes; a process that cannot get them has run out
+
+std::atomic<char*> doomed[kRoom];
+static_assert(std::atomic<char*>::is_always_lock_free);
+char program[64] = "phos";
+
+constexpr const char* kOutOfMemory =
+    "out of memory; ask for less, allow more (ulimit -v), or use a larger machine";
+
+void say(const char* words) {
+  for (std::size_t left = std::strlen(words); left > 0;) {
+    const ssize_t n = ::write(STDERR_FILENO, words, left);
+    if (n <= 0) return;
+    words += n, left -= static_cast<std::size_t>(n);
+  }
+}
+
+bool memory_ran_out() {
+  void* some = ::mmap(nullptr, kLittle, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (some == MAP_FAILED) return true;
+  ::munmap(some, kLittle);
+  return false;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+void watch_for_crashes() {}  // the sanitizers tell more of them
+#else
+/// Where memory is to be had the same comes again to the system's own handler, as this one returns.
+void on_crash(int signal) {
+  if (memory_ran_out()) end_now(ExitCode::no_memory, kOutOfMemory);
+  static_cast<void>(::raise(signal));
+}
+
+void watch_for_crashes() {
+  struct sigaction action = {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_RESETHAND;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGSEGV, SIGABRT}) sigaction(signal, &action, nullptr);
+}
+#endif
+
+[[noreturn]] void on_terminate() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    end_now(ExitCode::no_memory, kOutOfMemory);
+  } catch (const Error& e) {
+    end_now(e.code(), e.what(), e.where().c_str());
+  } catch (const std::exception& e) {
+    if (memory_ran_out()) end_now(ExitCode::no_memory, kOutOfMemory);
+    say(program), say(": internal error: "), say(e.what()), say("; please report it with the command\n");
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+GoesWithProcess::GoesWithProcess(const std::string& path) {
+  char* own = ::strdup(path.c_str());
+  if (own == nullptr) throw std::bad_alloc();
+  for (int i = 0; i < kRoom; ++i) {
+    char* none = nullptr;
+    if (!doomed[i].compare_exchange_strong(none, own)) continue;
+    slot_ = i;
+    return;
+  }
+  std::free(own);
+}
+
+void GoesWithProcess::release() {
+  if (slot_ >= 0) std::free(doomed[slot_].exchange(nullptr));
+  slot_ = -1;
+}
+
+GoesWithProcess& GoesWithProcess::operator=(GoesWithProcess&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  slot_ = other.slot_, other.slot_ = -1;
+  return *this;
+}
+
+void set_program_name(const std::string& name) { std::strncpy(program, name.c_str(), sizeof program - 1); }
+
+void end_now(ExitCode code, const char* message, const char* where) noexcept {
+  for (std::atomic<char*>& path : doomed)
+    if (char* own = path.exchange(nullptr)) ::unlink(own);
+  say(program), say(": ");
+  if (*where != '\0') say(where), say(": ");
+  say(message), say("\n");
+  _exit(static_cast<int>(code));
+}
+
+void install_last_words() {
+  std::set_terminate(on_terminate);
+  watch_for_crashes();
+}
+
+}  // namespace phos
