@@ -1,0 +1,11 @@
+// Pictures of light: OpenEXR.
+#include "image/formats.h"
+#include "reading.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace phos;
+  return fuzz::answers([&] {
+    const Image image = decode_exr(fuzz::characters(data, size), "input");
+    for (const auto& [name, values] : image.channels()) PHOS_CHECK(values.size() == image.pixels(), name);
+  });
+}
