@@ -203,7 +203,7 @@ TEST(Tree, OfManyBlocksIsTaken) {
 std::string refusal_of_map(const char* column, float value) {
   const std::string folder = test::scratch("photon_damage"), path = folder + "/a.photons";
   std::vector<Vec3> places = some_points(30);
-  test::photons_on_floor(places).write(path, {.tool = "test"});
+  test::photons_on_floor(places).write(path, Provenance());
   const Container file = Container::open(path);
   ContainerWriter writer;
   std::vector<std::vector<std::byte>> kept;

@@ -1,26 +1,8 @@
 // What fuzzers found, in every reader below studies, and small files that ask for much.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <functional>
-
-#include "support/films.h"
-#include "support/gltf.h"
+#include "support/greedy_files.h"
+#include "support/little_memory.h"
 #include "support/run.h"
-
-// The address sanitizer needs an address space without end.
-#if defined(__SANITIZE_ADDRESS__)
-#define PHOS_ADDRESS_SANITIZER 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define PHOS_ADDRESS_SANITIZER 1
-#endif
-#endif
-#ifndef PHOS_ADDRESS_SANITIZER
-#define PHOS_ADDRESS_SANITIZER 0
-#endif
 
 // Each fuzzer is a function here: it aborts where a reader does what none may.
 #define LLVMFuzzerTestOneInput read_brdf_bytes
@@ -75,6 +57,8 @@
 namespace phos {
 namespace {
 
+using namespace test;
+
 using Reader = int (*)(const std::uint8_t*, std::size_t);
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> all{{"brdf", read_brdf_bytes},
@@ -112,197 +96,6 @@ TEST(Regression, WhatFuzzersFoundIsAnswered) {
     ++read;
   }
   EXPECT_GT(read, 0);
-}
-
-/// What a child process that may take this much memory beyond what it has says of `body`: its exit code, or
-/// 128 and the signal that ended it; and the memory that it took, kB.
-struct Child {
-  int code;
-  long peak_kb;
-};
-
-Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::function<int()>& body) {
-  std::fflush(nullptr);
-  const pid_t pid = fork();
-  if (pid == 0) {
-#if !PHOS_ADDRESS_SANITIZER
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
-    const rlimit limit{most, most};
-    setrlimit(RLIMIT_AS, &limit);
-#endif
-    int code = 1;
-    try {
-      code = body();
-    } catch (...) {
-      code = 100;
-    }
-    _exit(code);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(pid, &status, 0, &usage);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), usage.ru_maxrss};
-}
-
-std::string word(std::uint64_t v, int bytes) {
-  std::string s;
-  for (int i = 0; i < bytes; ++i) s += static_cast<char>(v >> 8 * i & 255);
-  return s;
-}
-
-std::string big_endian(std::uint32_t v) {
-  std::string s = word(v, 4);
-  std::reverse(s.begin(), s.end());
-  return s;
-}
-
-std::string scene_of_buffer(const Json& buffer) {
-  Json scene;
-  scene["asset"]["version"] = "2.0";
-  scene["buffers"] = Json::Array{buffer};
-  return scene.dump();
-}
-
-/// A scene of one triangle, in which this is another accessor, buffer or picture.
-std::string scene_with(const std::string& list, const Json& member, bool as_position = false) {
-  test::Gltf g;
-  Json material;
-  material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-  Json p = g.square();
-  if (list == "images") {
-    Json texture;
-    texture["source"] = 0;
-    g.json["textures"] = Json::Array{texture};
-    p["material"] = g.material(material);
-  }
-  g.json[list].push_back(member);
-  if (as_position) {
-    Json::Object attributes;
-    attributes["POSITION"] = static_cast<int>(g.size(list.c_str())) - 1;
-    p = Json();
-    p["attributes"] = attributes;
-  }
-  Json n;
-  n["mesh"] = g.mesh(p);
-  g.node(n);
-  return g.bytes();
-}
-
-Json accessor_of(double count) {
-  Json a;
-  a["componentType"] = 5126, a["count"] = count, a["type"] = "VEC3";
-  return a;
-}
-
-std::string base64(const std::string& s) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < s.size(); i += 3) {
-    std::uint32_t v = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      v = v << 8 | (i + k < s.size() ? static_cast<unsigned char>(s[i + k]) : 0u);
-    for (int shift = 18; shift >= 0; shift -= 6) out += kDigits[v >> shift & 63];
-  }
-  return out;
-}
-
-Json image_of(const std::string& bytes) {
-  Json image;
-  image["uri"] = "data:image/png;base64," + base64(bytes);
-  return image;
-}
-
-std::string targa(int width, int height, bool runs) {
-  std::string s(18, '\0');
-  s[2] = runs ? 10 : 2, s[16] = 32;
-  s.replace(12, 4, word(static_cast<std::uint64_t>(width), 2) + word(static_cast<std::uint64_t>(height), 2));
-  return s + "abcdefgh";
-}
-
-std::string png(std::uint32_t width, std::uint32_t height) {
-  return "\x89PNG\r\n\x1a\n" + big_endian(13) + "IHDR" + big_endian(width) + big_endian(height) +
-         std::string("\x08\x06\0\0\0", 5) + big_endian(0) + big_endian(0) + "IDAT" + big_endian(0);
-}
-
-std::string exr_attribute(const std::string& name, const std::string& type, const std::string& value,
-                          std::uint64_t size) {
-  return name + '\0' + type + '\0' + word(size, 4) + value;
-}
-
-/// An OpenEXR header alone, with a window of that size.
-std::string exr(std::int32_t side, const std::string& more = "", bool tiled = false) {
-  const std::string box = word(0, 8) + word(static_cast<std::uint32_t>(side - 1), 4) +
-                          word(static_cast<std::uint32_t>(side - 1), 4);
-  const std::string channel =
-      std::string("R\0", 2) + word(2, 4) + word(0, 4) + word(1, 4) + word(1, 4) + '\0';
-  return word(20000630, 4) + word(tiled ? 0x202 : 2, 4) +
-         exr_attribute("channels", "chlist", channel, channel.size()) +
-         exr_attribute("compression", "compression", std::string(1, '\0'), 1) +
-         exr_attribute("dataWindow", "box2i", box, 16) + exr_attribute("displayWindow", "box2i", box, 16) +
-         exr_attribute("lineOrder", "lineOrder", std::string(1, '\0'), 1) +
-         exr_attribute("pixelAspectRatio", "float", word(0x3f800000, 4), 4) +
-         exr_attribute("screenWindowCenter", "v2f", word(0, 8), 8) +
-         exr_attribute("screenWindowWidth", "float", word(0x3f800000, 4), 4) + more + '\0';
-}
-
-/// A cache's file of no rows whose header says this more.
-std::string cache_of(const std::string& kind, const Json& extra,
-                     const std::vector<std::pair<std::string, Shape>>& columns) {
-  Provenance p;
-  p.kind = kind, p.tool = "test", p.extra = extra;
-  ContainerWriter file;
-  static const std::vector<float> zeros(4096);
-  for (const auto& [name, shape] : columns) {
-    std::uint64_t n = 1;
-    for (const std::uint64_t extent : shape) n *= extent;
-    file.add<float>(name, std::span(zeros).first(static_cast<std::size_t>(n)), shape, "1");
-  }
-  const std::string path = test::scratch("sizes") + "/file";
-  file.write(path, p);
-  return test::slurp(path);
-}
-
-std::string brdf_of_much() {
-  Json table;
-  table["material"] = "paint", table["index"] = 0, table["isotropic"] = false, table["resolution"] = 1024;
-  table["order"] = 30, table["albedo"] = 0.5;
-  Json extra;
-  extra["materials"] = Json::Array{table};
-  return cache_of("brdf", extra, {{"0.coefficients", {1, 900, 3}}});
-}
-
-std::string film_of_much() {
-  Json extra, film;
-  film["frames"] = Json::Array{0, 2147483646}, film["temporal_accuracy"] = 0.1, film["max_life"] = 10;
-  film["fade"] = 2147483646, film["gradients"] = "none", film["scene_hash"] = Json::Array{"a"};
-  extra["film"] = film, extra["accuracy"] = 0.3, extra["quantity"] = "all";
-  return cache_of("irradiance", extra, {{"position", {0, 3}}});
-}
-
-std::string radiance_of_much() {
-  Json extra;
-  extra["accuracy"] = 0.3, extra["order"] = 30;
-  return cache_of("radiance", extra, {{"position", {1000, 3}}, {"coefficients", {1, 3, 900}}});
-}
-
-std::string photons_of_much() {
-  Json extra, totals;
-  totals["emitted"] = INT64_MAX, totals["stored"] = INT64_MAX, totals["first_path"] = 0,
-  totals["paths"] = INT64_MAX;
-  totals["flux_exponent"] = 0;
-  for (const char* sum : {"emitted_units", "stored_units", "escaped_units", "absorbed_units"})
-    totals[sum] = Json::Array{INT64_MAX, INT64_MAX, INT64_MAX};
-  extra["totals"] = totals;
-  return cache_of("photons", extra, {{"position", {2, 3}}, {"flux", {2, 3}}});
-}
-
-std::string container(const std::string& shape, std::uint64_t end) {
-  const std::string header =
-      text(R"({"__metadata__":{"format":"phos/photons/1","checksums":"{}","units":"{}"},)",
-           R"("position":{"dtype":"F32","shape":)", shape, R"(,"data_offsets":[0,)", end, "]}}");
-  return word(header.size(), 8) + header;
 }
 
 struct Case {

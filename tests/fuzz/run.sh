@@ -1,5 +1,6 @@
 #!/bin/bash
-# Builds the fuzzers, makes corpora, runs each fuzzer for SECONDS of CPU time, and prints a table. usage: tests/fuzz/run.sh [SECONDS] [FUZZER...]
+# Builds the fuzzers, makes corpora, runs each fuzzer for SECONDS of CPU time (default: 600), and prints a table.
+# usage: tests/fuzz/run.sh [SECONDS] [FUZZER...]
 #   FUZZ_BUILD   build folder (build/fuzz)      FUZZ_BUILT   not empty: it is built
 #   FUZZ_WORK    corpora and findings, kept between runs (BUILD/fuzz)
 # Exit code 1 if anything was found; each finding lies in WORK/found and is replayed by giving it to the fuzzer.
@@ -15,7 +16,7 @@ fuzzers=${*:-$all}
 [ -f "$build/build.ninja" ] || cmake --preset fuzz -B "$build" >/dev/null
 [ -n "${FUZZ_BUILT:-}" ] || nice cmake --build "$build" --target fuzzers >&2
 mkdir -p "$work/found"
-export ASAN_OPTIONS=detect_leaks=0:symbolize=0:${ASAN_OPTIONS:-}
+export ASAN_OPTIONS=detect_leaks=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
 "$build/tests/fuzz_corpora" "$work/seeds"
 
@@ -50,28 +51,39 @@ for kind in photons irradiance radiance brdf film; do
 done
 unset IFS
 
-# cpu COMMAND...: runs it and says the seconds of CPU time that it took.
-cpu() {
-  local TIMEFORMAT='%U %S'
-  { time "$@" >"$log" 2>&1; } 2>&1 | awk '{printf "%d", $1 + $2 + 0.5}'
+# for_cpu SECONDS COMMAND...: asks the command to end (USR1) after so much CPU time; its output goes to $log, and
+# $took is set to what it took.
+per_second=$(getconf CLK_TCK)
+for_cpu() {
+  local most=$(($1 * per_second)) ticks=0 now
+  shift
+  "$@" >"$log" 2>&1 &
+  local pid=$!
+  while now=$(awk '{print $14 + $15}' /proc/$pid/stat 2>/dev/null) && [ -n "$now" ] && [ "$now" -ge "$ticks" ]; do
+    ticks=$now
+    kill -0 $pid 2>/dev/null || break
+    [ "$ticks" -ge "$most" ] && kill -USR1 $pid
+    sleep 1
+  done
+  wait $pid || true
+  took=$(((ticks + per_second - 1) / per_second))
 }
-limits="-rss_limit_mb=3072 -malloc_limit_mb=2048 -timeout=25 -max_len=65536"
-# A finding does not end a run; one that asks for too much memory, or hangs, is one.
-onward="-fork=1 -ignore_crashes=1 -ignore_ooms=1 -ignore_timeouts=1"
+limits="-rss_limit_mb=3072 -malloc_limit_mb=2048 -timeout=60 -max_len=65536"
 status=0
 printf '%-12s %12s %8s %8s %9s %6s\n' fuzzer inputs cpu_s edges features found
 for f in $fuzzers; do
   corpus=$work/corpus/$f log=$work/$f.log
   mkdir -p "$corpus"
   before=$(find "$work/found" -name "$f-*" | wc -l)
-  spent=0 inputs=0
-  for round in 1 2 3 4 5 6; do # the clock on the wall runs faster than the CPU's where others work too
+  spent=0 inputs=0 edges=- features=-
+  # A finding ends a round.
+  for round in 1 2 3 4 5 6 7 8 9 10; do
     [ $spent -ge "$seconds" ] && break
-    took=$(cpu nice -n 10 "$build/tests/fuzz_$f" $limits $onward -max_total_time=$((seconds - spent)) \
-      -artifact_prefix="$work/found/$f-" "$corpus" "$work/seeds/$f")
+    for_cpu $((seconds - spent)) nice -n 10 "$build/tests/fuzz_$f" $limits -print_funcs=0 -print_final_stats=1 \
+      -artifact_prefix="$work/found/$f-" "$corpus" "$work/seeds/$f"
     spent=$((spent + took))
-    last=$(grep -aE '^#[0-9]+: cov:' "$log" | tail -1)
-    inputs=$((inputs + $(echo "$last" | sed -E 's/^#([0-9]+).*/\1/;s/^$/0/')))
+    inputs=$((inputs + $(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -1 | grep . || echo 0)))
+    last=$(grep -aE '^#[0-9]+.*cov: ' "$log" | tail -1)
     edges=$(echo "$last" | sed -E 's/.*cov: ([0-9]+).*/\1/') features=$(echo "$last" | sed -E 's/.*ft: ([0-9]+).*/\1/')
     [ "$took" -eq 0 ] && break
   done
