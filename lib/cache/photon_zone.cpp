@@ -55,7 +55,7 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, std::uint32_t 
   decode_octahedral(std::span(gathered.codes).first(near), zone.direction);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < near; ++i) {
-    if (!(glm::dot(zone.direction[i], place.frame.z) > 0)) continue;
+    if (!(glm::dot(zone.direction[i], place.frame.z) > kLeastRise)) continue;
     const std::uint32_t row = gathered.rows[i];
     zone.offset_m[kept] = zone.offset_m[i], gathered.height_m[kept] = gathered.height_m[i];
     zone.flux_lm[kept] = zone.flux_lm[i], zone.direction[kept] = zone.direction[i];

@@ -29,6 +29,9 @@ inline bool is_wanted(const PhotonMap& photons, std::uint32_t row, Quantity path
 float slab_m(const ZonePlace& place, float radius_m);
 /// Cosine between normals from which two places count as one surface.
 inline constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
+/// A photon that came from above has at least this: stored directions are rounded by as much
+/// (encode_octahedral), and one that grazes the surface seems to come from below it.
+inline constexpr float kLeastRise = -1e-4f;
 
 /// Photons of a zone as they are gathered, and the memory for that.
 struct GatheredPhotons {

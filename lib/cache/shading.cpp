@@ -21,6 +21,12 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
   return l > 0 ? l / (l + g) : 0.f;
 }
 
+/// Of n values, by the sum of their squares and their mean.
+DVec3 variance_of_mean(const DVec3& squares, const Rgb& mean, int n) {
+  const auto count = static_cast<double>(n);
+  return glm::max(squares / count - DVec3(mean) * DVec3(mean), DVec3(0)) / (count - 1);
+}
+
 }  // namespace
 
 Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
@@ -67,7 +73,8 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
     if (out_of_sight(extent_[i], point)) continue;
     if (!environment && lights_[i].kind == Light::Kind::environment) continue;
     const int n = extended ? samples.count : 1;
-    Rgb mean(0), square(0);
+    Rgb mean(0);
+    DVec3 square(0);  // beyond the range of floats where light is within
     for (int s = 0; s < n; ++s) {
       Illumination light;
       const int k = samples.first + s;
@@ -90,12 +97,12 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       }
       const Rgb value = f * arriving;
       mean += value;
-      square += value * value;
+      square += DVec3(value) * DVec3(value);
     }
     const auto count = static_cast<float>(n);
     mean /= count;
     sum.radiance += mean;
-    if (n > 1) sum.variance += glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
+    if (n > 1) sum.variance += variance_of_mean(square, mean, n);
   }
   return sum;
 }
@@ -104,7 +111,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
                           const SampleRange& samples, int light_samples, int depth, RandomStream& sequence,
                           RandomStream& random, ShadingLog& log, bool environment) const {
   GlossLight sum;
-  Rgb square(0);
+  DVec3 square(0);
   const Vec2 shift = sequence.uniform2();
   for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
@@ -117,7 +124,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
                               (1.f - light_weight(light_samples, density, samples.count, sample.density));
       sum.from_lamps += from_beyond;
-      square += from_beyond * from_beyond;
+      square += DVec3(from_beyond) * DVec3(from_beyond);
       continue;
     }
     Rgb from_lamp(0);
@@ -133,13 +140,13 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     const Rgb rest = sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
     sum.from_lamps += from_lamp;
     sum.radiance += rest;
-    square += (from_lamp + rest) * (from_lamp + rest);
+    square += DVec3(from_lamp + rest) * DVec3(from_lamp + rest);
   }
   const auto count = static_cast<float>(std::max(samples.count, 1));
   sum.from_lamps /= count;
   sum.radiance /= count;
   const Rgb mean = sum.from_lamps + sum.radiance;
-  if (samples.count > 1) sum.variance = glm::max(square / count - mean * mean, Rgb(0)) / (count - 1);
+  if (samples.count > 1) sum.variance = variance_of_mean(square, mean, samples.count);
   return sum;
 }
 

@@ -36,7 +36,7 @@ struct SampleRange {
 /// Direct light at a point.
 struct DirectLight {
   Rgb radiance{0};     ///< cd/m2 towards the viewer
-  Rgb variance{0};     ///< of radiance; 0 if no light has more than one sample
+  DVec3 variance{0};   ///< of radiance; 0 if no light has more than one sample
   Rgb illuminance{0};  ///< lx on the shading normal's side
 };
 
@@ -44,7 +44,7 @@ struct DirectLight {
 struct GlossLight {
   Rgb radiance{0};    ///< cd/m2 towards the viewer, all but from_lamps
   Rgb from_lamps{0};  ///< cd/m2: lamps that the rays hit, with the weight that direct() leaves them
-  Rgb variance{0};    ///< of the sum of both; 0 if there is one ray only
+  DVec3 variance{0};  ///< of the sum of both; 0 if there is one ray only
 };
 
 /// A visible point without a valid record.

@@ -62,7 +62,7 @@ float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out,
         continue;
       if (glm::dot(decode_octahedral(photons_.normal[row]), place.frame.z) < kSameFacing) continue;
       const Vec3 w = place.frame.to_local(decode_octahedral(photons_.direction[row]));
-      if (!(w.z > 0)) continue;
+      if (!(w.z > kLeastRise)) continue;
       near.radii.push_back(away), near.directions.push_back(w);
       near.weights.push_back(luminance(photons_.flux[row])), near.distances.push_back(photons_.distance[row]);
     }

@@ -1,6 +1,7 @@
 #include "image/exr_header.h"
 
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -40,20 +41,64 @@ class Walker {
   std::string_view rest_;
 };
 
+/// Sizes of the values that the library reads whatever size is stated (OpenEXR file layout, "Attribute
+/// types").
+std::size_t fixed_size(std::string_view type) {
+  static const std::map<std::string_view, std::size_t> sizes{{"box2i", 16},
+                                                             {"box2f", 16},
+                                                             {"chromaticities", 32},
+                                                             {"compression", 1},
+                                                             {"deepImageState", 1},
+                                                             {"double", 8},
+                                                             {"envmap", 1},
+                                                             {"float", 4},
+                                                             {"int", 4},
+                                                             {"keycode", 28},
+                                                             {"lineOrder", 1},
+                                                             {"m33f", 36},
+                                                             {"m33d", 72},
+                                                             {"m44f", 64},
+                                                             {"m44d", 128},
+                                                             {"rational", 8},
+                                                             {"tiledesc", 9},
+                                                             {"timecode", 8},
+                                                             {"v2i", 8},
+                                                             {"v2f", 8},
+                                                             {"v2d", 16},
+                                                             {"v3i", 12},
+                                                             {"v3f", 12},
+                                                             {"v3d", 24}};
+  const auto found = sizes.find(type);
+  return found == sizes.end() ? 0 : found->second;
+}
+
+/// A value must end where its attribute does: the library goes on where it thinks that the value ends.
+void walk_value(std::string_view type, Walker value) {
+  if (type == "chlist") {
+    while (!value.name().empty()) value.take(16);
+  } else if (type == "stringvector") {
+    while (!value.done()) value.take(value.word());
+  } else if (type == "floatvector") {
+    while (!value.done()) value.take(4);
+  } else if (type == "preview") {
+    const std::uint64_t pixels = std::uint64_t{value.word()} * value.word();
+    if (pixels > (std::uint64_t{1} << 40)) throw std::runtime_error("the preview is too large");
+    value.take(static_cast<std::size_t>(4 * pixels));
+  } else if (const std::size_t size = fixed_size(type); size > 0) {
+    value.take(size);
+  } else {
+    return;  // as long as it says
+  }
+  if (!value.done()) throw std::runtime_error("an attribute is of another size than its type");
+}
+
 /// Attributes up to an empty name; false if there is none.
 bool walk_header(Walker& in) {
   bool any = false;
   for (;; any = true) {
     if (in.name().empty()) return any;
     const std::string_view type = in.name();
-    Walker value(in.take(in.word()));
-    if (type == "stringvector")
-      while (!value.done()) value.take(value.word());
-    if (type == "preview") {
-      const std::uint64_t pixels = std::uint64_t{value.word()} * value.word();
-      if (pixels > (std::uint64_t{1} << 40)) throw std::runtime_error("the preview is too large");
-      value.take(static_cast<std::size_t>(4 * pixels));
-    }
+    walk_value(type, Walker(in.take(in.word())));
   }
 }
 

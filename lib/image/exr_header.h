@@ -5,9 +5,9 @@
 
 namespace phos {
 
-/// Passes if every attribute of every header lies within the file, and every text within its attribute: the
-/// library takes the memory that an attribute asks for before it looks how much there is. Throws
-/// std::runtime_error. What else is wrong with a header, the library finds.
+/// Passes if every attribute of every header lies within the file, and its value fills it: the library takes
+/// the memory that an attribute asks for before it looks how much there is. Throws std::runtime_error. What
+/// else is wrong with a header, the library finds.
 void check_exr_header(std::string_view file);
 
 }  // namespace phos

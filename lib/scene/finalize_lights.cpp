@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/texture.h"
@@ -99,6 +100,11 @@ void fill_lights(Scene& scene) {
     if (light.kind == Light::Kind::directional) light.flux_lm = light.intensity * disc_m2;
     if (light.kind == Light::Kind::environment)
       light.flux_lm = Rgb(scene.environment->integral_lx()) * disc_m2;
+  }
+  for (const Light& light : scene.light) {
+    if (is_finite(light.flux_lm)) continue;
+    throw Error(ExitCode::bad_input, scene.path,
+                text("light \"", light.name, "\" emits more than numbers can say; give it a finite power"));
   }
   std::erase_if(scene.light, [&](const Light& light) {
     if (max_component(light.flux_lm) > 0) return false;

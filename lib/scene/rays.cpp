@@ -3,7 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <iterator>
 
 #include "core/error.h"
@@ -67,11 +67,22 @@ void throw_if_failed(RTCDevice device) {
       text("Embree reports error ", static_cast<int>(code), " while building the ray tracing structure"));
 }
 
-RTCRayHit embree_ray(const Ray& ray) {
+/// Lengths of a scene in units of the tree, a power of two so that nothing is rounded. Embree takes triangles
+/// of less than 1e-18 square units for points; scenes that metres suit are left in metres.
+float tree_units_per_m(const Scene& scene) {
+  Bounds bounds;
+  for (const Vec3& p : scene.position) bounds.include(p);
+  const float size_m = max_component(bounds.size());
+  if (!(size_m > 0) || !std::isfinite(size_m) || (size_m >= 0x1p-8f && size_m <= 0x1p20f)) return 1;
+  return std::ldexp(1.f, std::clamp(-std::ilogb(size_m), -126, 126));
+}
+
+RTCRayHit embree_ray(const Ray& ray, float units_per_m) {
   RTCRayHit query;
-  query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
+  const Vec3 origin = units_per_m * ray.origin;
+  query.ray.org_x = origin.x, query.ray.org_y = origin.y, query.ray.org_z = origin.z;
   query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
-  query.ray.tnear = ray.t_min_m, query.ray.tfar = ray.t_max_m;
+  query.ray.tnear = units_per_m * ray.t_min_m, query.ray.tfar = units_per_m * ray.t_max_m;
   query.ray.time = 0;
   query.ray.mask = 0xffffffffu;
   query.ray.id = 0;
@@ -91,6 +102,7 @@ struct RayScene::Impl {
   }
 
   const Scene& scene;
+  float units_per_m = 1, m_per_unit = 1;
   RTCDevice device = nullptr;
   RTCScene tree = nullptr;
   std::vector<std::uint32_t> triangle_of[2];  // per Embree geometry; empty where primitive i is triangle i
@@ -162,7 +174,8 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
   auto* indices = static_cast<Triangle*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), count));
   if (vertices && indices) {
-    std::memcpy(vertices, scene.position.data(), scene.position.size() * sizeof(Vec3));
+    std::transform(scene.position.begin(), scene.position.end(), static_cast<Vec3*>(vertices),
+                   [this](const Vec3& p) { return units_per_m * p; });
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t t = triangles ? (*triangles)[i] : static_cast<std::uint32_t>(i);
       const auto& v = scene.triangle[t].v;
@@ -182,6 +195,7 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
 }
 
 void RayScene::Impl::build() {
+  units_per_m = tree_units_per_m(scene), m_per_unit = 1 / units_per_m;
   tree = rtcNewScene(device);
   throw_if_failed(device);
   rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
@@ -221,11 +235,11 @@ void* RayScene::native() const { return impl_->tree; }
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  alignas(16) RTCRayHit query = embree_ray(ray);
+  alignas(16) RTCRayHit query = embree_ray(ray, impl_->units_per_m);
   const NoFloatTraps traps;  // Embree divides by zero components of directions
   rtcIntersect1(impl_->tree, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.distance_m = query.ray.tfar;
+  hit.distance_m = impl_->m_per_unit * query.ray.tfar;
   hit.triangle = impl_->triangle(query.hit.geomID, query.hit.primID);
   hit.u = query.hit.u, hit.v = query.hit.v;
   return true;
@@ -244,11 +258,12 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     for (std::size_t i = 0; i < count; ++i) {
       const Ray& ray = rays[first + i];
       valid[i] = -1;
-      packet.ray.org_x[i] = ray.origin.x, packet.ray.org_y[i] = ray.origin.y;
-      packet.ray.org_z[i] = ray.origin.z;
+      const Vec3 origin = impl_->units_per_m * ray.origin;
+      packet.ray.org_x[i] = origin.x, packet.ray.org_y[i] = origin.y, packet.ray.org_z[i] = origin.z;
       packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y;
       packet.ray.dir_z[i] = ray.direction.z;
-      packet.ray.tnear[i] = ray.t_min_m, packet.ray.tfar[i] = ray.t_max_m;
+      packet.ray.tnear[i] = impl_->units_per_m * ray.t_min_m;
+      packet.ray.tfar[i] = impl_->units_per_m * ray.t_max_m;
       packet.ray.time[i] = 0, packet.ray.mask[i] = 0xffffffffu;
       packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -257,7 +272,8 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     rtcIntersect16(valid, impl_->tree, &context, &packet);
     for (std::size_t i = 0; i < count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      hits[first + i] = {packet.ray.tfar[i], impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]),
+      hits[first + i] = {impl_->m_per_unit * packet.ray.tfar[i],
+                         impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]),
                          packet.hit.u[i], packet.hit.v[i]};
     }
   }
@@ -266,7 +282,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 bool RayScene::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRayHit query = embree_ray(ray);
+  RTCRayHit query = embree_ray(ray, impl_->units_per_m);
   const NoFloatTraps traps;  // Embree divides by zero components of directions
   rtcOccluded1(impl_->tree, &context, &query.ray);
   return query.ray.tfar < 0;

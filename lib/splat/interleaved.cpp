@@ -30,17 +30,20 @@ struct Receiver {
 /// What a pixel's own rays to one lamp found.
 struct Sight {
   float seen = 0,
-        sent = 0;  ///< sums of projected solid angles over density, of the rays that arrive and of all
-  Rgb light{0}, light2{0};  ///< lx: sums of what rays brought, and of its squares (lamps without closed form)
+        sent = 0;   ///< sums of projected solid angles over density, of the rays that arrive and of all
+  Rgb light{0};     ///< lx: sum of what rays brought (lamps without closed form)
+  DVec3 light2{0};  ///< and of its squares
   std::uint16_t rays = 0;
 };
 
 /// The same of several pixels, weighted.
 struct Finding {
   float seen = 0, sent = 0, rays = 0, rays2 = 0;
-  Rgb light{0}, light2{0};
+  Rgb light{0};
+  DVec3 light2{0};
   void add(const Sight& s, float weight) {
-    seen += weight * s.seen, sent += weight * s.sent, light += weight * s.light, light2 += weight * s.light2;
+    seen += weight * s.seen, sent += weight * s.sent, light += weight * s.light;
+    light2 += static_cast<double>(weight) * s.light2;
     rays += weight * static_cast<float>(s.rays), rays2 += weight * weight * static_cast<float>(s.rays);
   }
   float share() const { return seen / sent; }
@@ -172,7 +175,7 @@ class Interleaved {
       if (!visible(p, light)) continue;
       sight.seen += weight;
       const Rgb brought = light.value * weight;
-      sight.light += brought, sight.light2 += brought * brought;
+      sight.light += brought, sight.light2 += DVec3(brought) * DVec3(brought);
     }
   }
 
@@ -211,7 +214,8 @@ class Interleaved {
       shared_[i].illuminance += mean;
       if (all.independent() > 1)
         shared_[i].variance +=
-            glm::max(all.light2 / all.rays - mean * mean, Rgb(0)) / (all.independent() - 1);
+            glm::max(all.light2 / static_cast<double>(all.rays) - DVec3(mean) * DVec3(mean), DVec3(0)) /
+            static_cast<double>(all.independent() - 1);
       return;
     }
     if (!(all.seen > 0)) return;
@@ -224,7 +228,7 @@ class Interleaved {
       variance = variance_near;
     }
     shared_[i].illuminance += whole * share;
-    shared_[i].variance += whole * whole * variance;
+    shared_[i].variance += DVec3(whole) * DVec3(whole) * static_cast<double>(variance);
   }
 
   /// What the pixels about one found that show its surface: within one pixel, and within reach.

@@ -10,7 +10,8 @@ namespace phos {
 
 /// Illuminance of a diffuse visible surface, and the variance of that, lx and lx^2.
 struct SharedLight {
-  Rgb illuminance{0}, variance{0};
+  Rgb illuminance{0};
+  DVec3 variance{0};
 };
 
 /// Interleaved sampling (Keller and Heidrich 2001): the pixels of each 4 x 4 block send different rays of one

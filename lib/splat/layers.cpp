@@ -77,7 +77,7 @@ void Layers::add(std::size_t i, const PixelSample& s) {
   add_to(albedo_, i, s.albedo);
   add_to(variance_, i, s.variance);
   add_to(noisy_, i, s.noisy);
-  add_to(noisy_square_, i, s.noisy * s.noisy);
+  add_to(noisy_square_, i, DVec3(s.noisy) * DVec3(s.noisy));
   add_to(indirect_error_, i, s.indirect_error);
   add_to(illuminance_, i, s.illuminance_lx);
   add_to(weight_, i, s.weight);
@@ -90,14 +90,14 @@ void Layers::set_surface(std::size_t i, const Vec3& position, const Vec3& normal
 }
 
 Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
-  const auto n = static_cast<float>(samples);
-  Rgb variance = variance_[i] / (n * n);
+  const auto n = static_cast<double>(samples);
+  DVec3 variance = variance_[i] / (n * n);
   if (samples >= std::max(spread_from, 2)) {
-    const Rgb mean = noisy_[i] / n;
-    variance = glm::max(noisy_square_[i] / n - mean * mean, Rgb(0)) / (n - 1);
+    const DVec3 mean = DVec3(noisy_[i]) / n;
+    variance = glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1);
   }
-  const Rgb shared = indirect_error_[i] / n;
-  return glm::sqrt(variance + shared * shared);
+  const DVec3 shared = DVec3(indirect_error_[i]) / n;
+  return Rgb(glm::sqrt(variance + shared * shared));
 }
 
 Image Layers::image(std::span<const std::uint16_t> samples, int spread_from) const {

@@ -47,7 +47,7 @@ class LayerSet {
 struct PixelSample {
   Rgb direct{0}, indirect{0}, glossy{0}, specular{0}, emission{0};
   Rgb albedo{0};
-  Rgb variance{0};        ///< of direct light and gloss, by their rays
+  DVec3 variance{0};      ///< of direct light and gloss, by their rays
   Rgb noisy{0};           ///< the part of direct light and gloss that is subject to noise
   Rgb indirect_error{0};  ///< of the records' part; samples share records, so that it does not average out
   float illuminance_lx = 0, weight = 0;
@@ -72,7 +72,8 @@ class Layers {
   LayerSet wanted_;
   // One entry per pixel; empty where not asked for.
   std::vector<Rgb> beauty_, direct_, indirect_, glossy_, specular_, emission_, albedo_, normal_, position_;
-  std::vector<Rgb> variance_, noisy_, noisy_square_, indirect_error_;
+  std::vector<Rgb> noisy_, indirect_error_;
+  std::vector<DVec3> variance_, noisy_square_;  // beyond the range of floats where light is within
   std::vector<float> illuminance_, weight_, depth_;
 };
 

@@ -127,7 +127,7 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
     if (!diffuse) return;
     const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
     light.direct += shared->illuminance * reflected;
-    light.variance += shared->variance * reflected * reflected;
+    light.variance += shared->variance * DVec3(reflected) * DVec3(reflected);
     if (options_.direct == DirectBy::interleaved) light.noisy += shared->illuminance * reflected;
     light.illuminance_lx += luminance(shared->illuminance);
     return;

@@ -126,7 +126,7 @@ bool whole(const Columns& all) {
 std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
   Choice choice(seed);
   std::optional<Columns> all = take_apart(characters(data, size));
-  if (!all || choice.once_in(50)) return LLVMFuzzerMutate(data, size, most);
+  if (!all || choice.once_in(12)) return LLVMFuzzerMutate(data, size, most);
   for (std::size_t times = 1 + choice.below(3); times > 0; --times) {
     const auto tree = all->column.find("kdtree");
     if (tree != all->column.end() && choice.once_in(2)) {
