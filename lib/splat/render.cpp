@@ -361,7 +361,7 @@ class Painter {
     const PixelShader::Splat splat{pass_.splats.at(*j)};
     // Where a lamp is seen in part, its shadow may have an edge here.
     const bool test = sample.index < kEdgeTests;
-    if (even && !test && shared.variance == Rgb(0))
+    if (even && !test && shared.variance == DVec3(0))
       return shader_.shade(sample, ray, point, splat, &shared, result);
     const PixelSample light = shader_.shade(sample, ray, point, splat, nullptr, result);
     if (test) {
