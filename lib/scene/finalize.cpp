@@ -138,6 +138,15 @@ Bounds bounds_of(const Scene& scene, bool with_area) {
   return bounds;
 }
 
+/// Between these, estimates hold (tests/extremes/LIMITS.md); beyond, squares of slopes and of distances begin
+/// to be lost. What has no size at this time is not looked at.
+void require_size(const Scene& scene) {
+  constexpr float kLeast_m = 1e-9f, kMost_m = 1e10f;
+  const float size_m = scene.bounds.diagonal_m();
+  if (!(size_m <= kMost_m)) fail(scene, "the scene is larger than 1e10 m; scale it down");
+  if (size_m > 0 && size_m < kLeast_m) fail(scene, "the scene is smaller than 1e-9 m; scale it up");
+}
+
 }  // namespace
 
 Vec3 geometric_normal(const Scene& scene, std::uint32_t tri) {
@@ -159,8 +168,7 @@ void finalize(Scene& scene) {
   repair_normals(scene);
   scene.bounds = bounds_of(scene, true);
   if (scene.bounds.empty()) scene.bounds = bounds_of(scene, false);
-  if (!std::isfinite(scene.bounds.diagonal_m()))
-    fail(scene, "the scene is larger than numbers can say; scale it down");
+  require_size(scene);
   fill_lights(scene);
   fill_hash(scene);
 }
