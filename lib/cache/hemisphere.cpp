@@ -55,7 +55,8 @@ float harmonic_distance_m(const Hemisphere& h) {
   double weights = 0, nearness = 0;
   for (std::size_t i = 0; i < h.size(); ++i) {
     const auto weight = static_cast<double>(h.projected_sr[i]);
-    weights += weight, nearness += weight / std::fabs(static_cast<double>(h.distance_m[i]));  // -0 is 0
+    const auto distance_m = static_cast<double>(h.distance_m[i]);
+    weights += weight, nearness += distance_m != 0 ? weight / distance_m : HUGE_VAL;
   }
   return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
 }

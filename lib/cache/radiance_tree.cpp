@@ -66,7 +66,8 @@ struct RadianceTree::Impl {
     const Vec3 step = p - r.position;
     const float steep = steepness_per_m[record];
     if (!(steep > 0) || std::isinf(steep)) return Vec2(0);
-    const float shorter = std::min(1.f, 1 / (steep * glm::length(step)));
+    const float lengths = steep * glm::length(step);
+    const float shorter = lengths > 1 ? 1 / lengths : 1.f;
     return shorter * Vec2(glm::dot(step, r.frame.x), glm::dot(step, r.frame.y));
   }
   /// sum += w (c + dx g_x + dy g_y), as far as `sum` goes.

@@ -48,7 +48,8 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
     sum += weight * DVec3(irradiance_of(h));
     variance += error * error;
     source += weight * h.source.total();  // the same for all passes
-    nearness += weight / static_cast<double>(harmonic_distance_m(h));
+    const auto distance_m = static_cast<double>(harmonic_distance_m(h));
+    nearness += distance_m > 0 ? weight / distance_m : HUGE_VAL;
     least_m = std::min(least_m, least_distance_m(h));
     add(light.gradients, ray_gradients(h, mode, static_cast<float>(*resolved.min_radius_m)),
         static_cast<float>(weight));
@@ -56,7 +57,8 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   light.irradiance = Rgb(sum);
   light.stderr_lx = Rgb(glm::sqrt(variance + source));
   light.shared_lx2 = source;
-  light.distance_m = resolved.radius == RadiusRule::least ? least_m : static_cast<float>(1 / nearness);
+  const float mean_m = nearness > 0 ? static_cast<float>(1 / nearness) : kInfinity;
+  light.distance_m = resolved.radius == RadiusRule::least ? least_m : mean_m;
   return light;
 }
 

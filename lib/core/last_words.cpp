@@ -65,7 +65,7 @@ void watch_for_crashes() {
   } catch (const Error& e) {
     end_now(e.code(), e.what(), e.where().c_str());
   } catch (const std::exception& e) {
-    if (memory_ran_out()) end_now(ExitCode::no_memory, kOutOfMemory);
+    if (for_want_of_memory(e.what())) end_now(ExitCode::no_memory, kOutOfMemory);
     say(program), say(": internal error: "), say(e.what()), say("; please report it with the command\n");
   } catch (...) {
   }
@@ -107,6 +107,12 @@ void end_now(ExitCode code, const char* message, const char* where) noexcept {
   if (*where != '\0') say(where), say(": ");
   say(message), say("\n");
   _exit(static_cast<int>(code));
+}
+
+bool for_want_of_memory(const char* what) noexcept {
+  for (const char* sign : {"pthread_create", "Resource temporarily unavailable"})
+    if (std::strstr(what, sign) != nullptr) return true;
+  return memory_ran_out();
 }
 
 void install_last_words() {

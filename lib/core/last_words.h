@@ -35,4 +35,8 @@ void set_program_name(const std::string& name);
 /// that got no memory (told by whether some can still be had). Other crashes stay what they are.
 void install_last_words();
 
+/// Whether an error that a package describes so comes from a lack of memory: it says that no thread can be
+/// started, or next to nothing is to be had now.
+bool for_want_of_memory(const char* what) noexcept;
+
 }  // namespace phos

@@ -142,6 +142,7 @@ int Tool::run(int argc, const char* const* argv, const std::function<void()>& bo
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   } catch (const std::exception& e) {
+    if (for_want_of_memory(e.what())) return out_of_memory();
     return report("", text("internal error: ", e.what(), "; please report it with the command"),
                   ExitCode::bad_input);
   }

@@ -55,6 +55,7 @@ class Rows final : public flann::ResultSet<float> {
 };
 
 bool in_range(const Vec3& p) {
+  if (!is_finite(p)) return false;
   const Vec3 a = glm::abs(p);
   return a.x <= KdTree::kLargestCoordinate_m && a.y <= KdTree::kLargestCoordinate_m &&
          a.z <= KdTree::kLargestCoordinate_m;

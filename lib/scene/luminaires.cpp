@@ -239,7 +239,9 @@ std::vector<double> Luminaires::power_shares(double minimum_share) const {
   std::vector<double> shares(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double even = 1 / static_cast<double>(n);
-    const double own = total > 0 ? static_cast<double>(luminance(scene_->light[i].flux_lm)) / total : even;
+    const double own = total > 0 && std::isfinite(total)
+                           ? static_cast<double>(luminance(scene_->light[i].flux_lm)) / total
+                           : even;
     shares[i] = minimum_share * even + (1 - minimum_share) * own;
   }
   return shares;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "core/interrupt.h"
+#include "core/last_words.h"
 #include "core/parallel.h"
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
@@ -55,18 +56,6 @@ bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
   return alpha < (material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : 0.5f);
 }
 
-void throw_if_failed(RTCDevice device) {
-  const RTCError code = rtcGetDeviceError(device);
-  if (code == RTC_ERROR_NONE) return;
-  if (code == RTC_ERROR_OUT_OF_MEMORY) {
-    throw Error(ExitCode::no_memory, "",
-                "not enough memory for the ray tracing structure; use a smaller scene");
-  }
-  throw Error(
-      ExitCode::bad_input, "",
-      text("Embree reports error ", static_cast<int>(code), " while building the ray tracing structure"));
-}
-
 /// Lengths of a scene in units of the tree, a power of two so that nothing is rounded. Embree takes triangles
 /// of less than 1e-18 square units for points; scenes that metres suit are left in metres.
 float tree_units_per_m(const Scene& scene) {
@@ -109,7 +98,10 @@ struct RayScene::Impl {
   std::vector<Facet> facet;                   // per triangle
   std::vector<Reads> reads;                   // per material
 
+  std::string trouble;  // what Embree said last
+
   void make_device(const std::string& isa);
+  void throw_if_failed() const;
   void make_facets();
   void attach(unsigned geometry, const std::vector<std::uint32_t>* triangles);
   void build();
@@ -129,13 +121,30 @@ void RayScene::Impl::make_device(const std::string& isa) {
   const std::string config = "isa=" + isa;
   const NoFloatTraps traps;
   device = rtcNewDevice(isa.empty() ? nullptr : config.c_str());
-  if (device) return;
+  if (device) {
+    const auto listen = [](void* own, RTCError, const char* said) {
+      static_cast<Impl*>(own)->trouble = said;
+    };
+    rtcSetDeviceErrorFunction(device, listen, this);
+    return;
+  }
   const RTCError error = rtcGetDeviceError(nullptr);
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ExitCode::no_memory, "", "not enough memory to start the ray tracer; use a larger machine");
   throw Error(ExitCode::usage, isa.empty() ? "" : "isa",
               text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"",
                    " (error ", static_cast<int>(error), "); use one that this machine has, such as sse2"));
+}
+
+void RayScene::Impl::throw_if_failed() const {
+  const RTCError code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_NONE) return;
+  if (code == RTC_ERROR_OUT_OF_MEMORY || for_want_of_memory(trouble.c_str()))
+    throw Error(ExitCode::no_memory, "",
+                "not enough memory for the ray tracing structure; use a smaller scene or a larger machine");
+  throw Error(
+      ExitCode::bad_input, "",
+      text("Embree cannot build the ray tracing structure (", trouble, "); check the scene with phos-scene"));
 }
 
 void RayScene::Impl::make_facets() {
@@ -191,13 +200,13 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
     rtcAttachGeometryByID(tree, geometry, id);
   }
   rtcReleaseGeometry(geometry);
-  throw_if_failed(device);
+  throw_if_failed();
 }
 
 void RayScene::Impl::build() {
   units_per_m = tree_units_per_m(scene), m_per_unit = 1 / units_per_m;
   tree = rtcNewScene(device);
-  throw_if_failed(device);
+  throw_if_failed();
   rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
   std::vector<std::uint32_t> triangles[2];
   for (std::size_t i = 0; i < scene.triangle.size(); ++i) {
@@ -216,7 +225,7 @@ void RayScene::Impl::build() {
   const NoFloatTraps traps;  // Embree divides by zero extents
   const StopAtOnce stop;     // and does not look
   rtcCommitScene(tree);
-  throw_if_failed(device);
+  throw_if_failed();
 }
 
 RayScene::RayScene(const Scene& scene, const RayOptions& options) : impl_(std::make_unique<Impl>(scene)) {
@@ -273,8 +282,8 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     for (std::size_t i = 0; i < count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
       hits[first + i] = {impl_->m_per_unit * packet.ray.tfar[i],
-                         impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]),
-                         packet.hit.u[i], packet.hit.v[i]};
+                         impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]), packet.hit.u[i],
+                         packet.hit.v[i]};
     }
   }
 }

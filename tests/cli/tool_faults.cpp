@@ -17,13 +17,14 @@ int moments() {
 TEST(Faults, LeaveTheOldOutputOrTheWholeNewOne) {
   FaultBench bench;
   std::mt19937_64 random(20250301);
-  const char* only = std::getenv("PHOS_FAULT_STAGE");
+  const char *only = std::getenv("PHOS_FAULT_STAGE"), *one = std::getenv("PHOS_FAULT");
   for (const FaultStage& stage : bench.stages()) {
     if (only != nullptr && stage.name != only) continue;
     const bool slow = !stage.same_bytes;
     if (slow && moments() < 5) continue;  // seconds each
     bench.learn(stage);
     for (const auto& [fault, name] : kFaults) {
+      if (one != nullptr && name != std::string(one)) continue;
       if (stage.name == "plan" && fault == Fault::two_at_once) continue;
       const int n = slow ? moments() / 5 : moments();
       int lost = 0, wrong = 0, other = 0;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every stage, hit by every fault at random moments of its run: tests/extremes/faults.sh [MOMENTS] [STAGE]
+# Every stage, hit by every fault at random moments of its run: tests/extremes/faults.sh [MOMENTS] [STAGE] [FAULT]
 # Faults: SIGKILL, SIGINT, SIGTERM, a full disk (a small tmpfs where one may be mounted, else a limit to the size of
 # files), a folder made unwritable, an input cut short, address space that runs out, two runs with one output. For each
 # stage and fault it prints how many moments were tried and after how many the old output was lost, the bytes were
@@ -10,4 +10,5 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export PHOS_FAULT_MOMENTS=${1:-100}
 [[ -z ${2:-} ]] || export PHOS_FAULT_STAGE=$2
+[[ -z ${3:-} ]] || export PHOS_FAULT=$3
 exec "${BUILD:-build/release}/tests/cli_tool_faults"
