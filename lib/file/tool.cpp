@@ -65,7 +65,10 @@ Tool::Tool(const std::string& name, const std::string& summary, const std::strin
       options_(name, summary, description),
       algorithm_(algorithm),
       wants_output_(output),
-      stats_(Json::Object{}) {}
+      stats_(Json::Object{}) {
+  set_program_name(name_);
+  install_last_words();
+}
 
 void Tool::declare_common() {
   options_.section("Common options");
@@ -122,8 +125,6 @@ int Tool::out_of_memory() const {
 int Tool::run(int argc, const char* const* argv, const std::function<void()>& body) {
   const auto start = std::chrono::steady_clock::now();
   occupy_standard_streams();
-  set_program_name(name_);
-  install_last_words();
   install_read_error_handler();
   try {
     declare_common();
