@@ -77,8 +77,7 @@ TEST(FarAway, EveryStageGivesTheSameLight) {
   spill(far.file("csv"), points + "1048576.1,-524287.8,2097152.3,0,1,0\n1048575.75,-524288,2097152,0,1,0\n");
   // 0.1 and 1048576.1 - 1048576 are not the same float: shown to the digits that they share.
   const auto reference = [](const Stages& s) {
-    return table_of(
-        Stages::run({"reference", s.scene(), "--isa", "sse2", "--points", s.file("csv"), "--samples", "64"}));
+    return table_of(Stages::run({"reference", s.scene(), "--points", s.file("csv"), "--samples", "64"}));
   };
   const auto a = reference(home), b = reference(far);
   ASSERT_EQ(b.size(), 3u);
