@@ -51,7 +51,7 @@ void on_crash(int signal) {
 void watch_for_crashes() {
   struct sigaction action = {};
   action.sa_handler = on_crash;
-  action.sa_flags = SA_RESETHAND;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGSEGV, SIGABRT}) sigaction(signal, &action, nullptr);
 }
