@@ -34,7 +34,8 @@ TEST(AlbedoOne, ClosedRoomIsRefusedAtOnce) {
 TEST(AlbedoOne, TheLintSaysSo) {
   for (const float albedo : {0.999f, 1.f}) {
     bool found = false;
-    for (const Finding& f : lint_scene(uniform_box(albedo).scene)) found = found || f.code == "absorbs-nothing";
+    for (const Finding& f : lint_scene(uniform_box(albedo).scene))
+      found = found || f.code == "absorbs-nothing";
     EXPECT_EQ(found, albedo == 1) << albedo;
   }
 }
