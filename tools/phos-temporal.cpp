@@ -96,8 +96,7 @@ int main(int argc, char** argv) {
     resolve_film_places(job.placement, first->scene,
                         (job.of_radiance ? job.light.radiance.records : records).accuracy);
     job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
-    if (!files.radiance.empty())
-      require_same_film(Container::open(files.radiance, "radiance"), job.survey);
+    if (!files.radiance.empty()) require_same_film(Container::open(files.radiance, "radiance"), job.survey);
     if (job.of_radiance || job.covered_by_radiance)
       job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), gloss, {}, tool.counters());
     tell_of_film(tool, job);
