@@ -45,12 +45,10 @@ void require_finite(const Image& image) {
 int main(int argc, char** argv) {
   Tool tool("phos-splat", "renders a scene from its caches",
             "Draws every record of the caches over the visible surface, adds direct light by shadow rays and "
-            "what mirrors, "
-            "glass and glossy surfaces reflect, and writes an OpenEXR image with the layers beauty (R G B), "
-            "direct, "
-            "indirect, glossy, specular, emission, stderr, albedo in cd/m2, illuminance.Y in lx, weight, "
-            "normal, position "
-            "and Z. Another camera, size or --accuracy needs no new cache.",
+            "what mirrors, glass and glossy surfaces reflect, and writes an OpenEXR image with the layers "
+            "beauty (R G B), direct, indirect, glossy, specular, emission, stderr, albedo in cd/m2, "
+            "illuminance.Y in lx, weight, normal, position (m, counted from the scene's origin where "
+            "phos-scene tells of one) and Z. Another camera, size or --accuracy needs no new cache.",
             3);
   Options& options = tool.options();
   std::string scene_path, misses_path, gloss_misses_path;
