@@ -40,9 +40,11 @@ TEST(Faults, LeaveTheOldOutputOrTheWholeNewOne) {
         ADD_FAILURE() << stage.name << ": " << why;
         ++wrong;
       }
-      if (moments() > 1)
+      if (moments() > 1) {
         std::printf("%-11s %-12s moments %4d  lost %d  wrong %d  else %d\n", stage.name.c_str(), name, n,
                     lost, wrong, other);
+        std::fflush(stdout);
+      }
     }
   }
 }
