@@ -107,7 +107,7 @@ TEST(Interleaved, HasNoNoiseWhereTheLampIsSeenWhole) {
   for (std::size_t i = 0; i < shared.light.size(); ++i) {
     const Vec3 p(shared.gbuffer.position[i]), normal(shared.gbuffer.normal[i]);
     if (!shared.gbuffer.covered(i) || normal.y < 0.5f || p.y > 0.1f) continue;
-    if (shared.light[i].variance != Rgb(0)) continue;
+    if (shared.light[i].variance != DVec3(0)) continue;
     const double truth = s.irradiance_lx(p, normal);
     EXPECT_NEAR(shared.value[i], truth, 1e-4 * truth);
     ++whole;

@@ -109,7 +109,7 @@ TEST_F(Sequence, ErrorsNameTheFrameAndKeepWhatIsDone) {
   EXPECT_EQ(files(), 2u);
   const Result memory =
       run({at("scene"), "--frames", "7:9", "-o", at("%d")}, [](Tool&, double) { throw std::bad_alloc(); });
-  EXPECT_EQ(memory.code, 3);
+  EXPECT_EQ(memory.code, 6);
   EXPECT_NE(memory.err.find("frame 7: "), std::string::npos) << memory.err;
 }
 
