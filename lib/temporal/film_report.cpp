@@ -8,6 +8,9 @@
 namespace phos {
 namespace {
 
+/// Of the frames that records live through: from this share that was computed on, a film is hardly worth it.
+constexpr double kHardlyWorth = 1. / 3;
+
 double rounded(double v) { return std::round(100 * v) / 100; }
 
 }  // namespace
@@ -55,6 +58,12 @@ void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& r) {
         r.estimates, " estimates at ", r.frames_with_light.size(), " frames",
         r.estimates > 0 ? text(", ", rounded(1e3 * r.making_s / static_cast<double>(r.estimates)), " ms each")
                         : ""));
+    const double computed = frames > 0 ? static_cast<double>(r.estimates) / frames : 0;
+    tool.stat("computed_share", computed);
+    if (computed > kHardlyWorth)
+      tool.say(text("at most places light changes from frame to frame: ", std::round(100 * computed),
+                    " % of all frames were computed, and a cache for each may be as fast; raise "
+                    "--temporal-accuracy or --max-life to compute fewer"));
   }
   if (r.records == 0)
     tool.warn("no place wants a record (see --place, --camera): the file is empty");

@@ -109,13 +109,25 @@ TEST(Temporal, FadingLampIsFollowed) {
   slabs.animate("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 16}, {20, 100});
   const std::string scene = slabs.write("temporal-fade", 17),
                     film = scratch("temporal-fading") + "/f.irradiance";
-  ASSERT_EQ(temporal(quick({scene, "--frames", "0:16", "-o", film})).code, 0);
+  const test::Run run = temporal(quick({scene, "--frames", "0:16", "-o", film}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err.find("a cache for each"), std::string::npos) << run.err;
   const double last = lux(scene, film, 16);
   ASSERT_GT(last, 0);
   for (const int frame : {0, 3, 8, 13}) {
     const double due = last * (20 + 5 * frame) / 100;
     EXPECT_NEAR(lux(scene, film, frame), due, 0.01 * due) << frame;
   }
+}
+
+TEST(Temporal, SaysWhereAFilmIsHardlyWorthIt) {
+  const std::string film = scratch("temporal-restless") + "/f.irradiance";
+  const test::Run run =
+      temporal(quick({data("cube-in-a-box.glb"), "--frames", "100:103", "--max-life", "1", "-o", film}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("a cache for each may be as fast; raise --temporal-accuracy or --max-life"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST(Temporal, LivesAreNoLongerThanAsked) {
