@@ -218,7 +218,6 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
     const std::vector<float>& error = middle.radiance->stderr_light;
     for (std::size_t i = 0; i < error.size(); ++i)
       noise2 += static_cast<double>(2 * (i / 3) + 1) * static_cast<double>(error[i] * error[i]);
-    noise2 *= 1 - static_cast<double>(middle.radiance->shared);
   } else {
     const Rgb& value = middle.record.irradiance;
     missed2 = norm2(value - glm::mix(from.record.irradiance, to.record.irradiance, static_cast<float>(t)));
@@ -229,7 +228,8 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
   if (missed2 == 0) return share = 0, true;
   share = allowed > 0 ? std::sqrt(missed2) / allowed : kInfinity;
   // What noise alone would do (of the three estimates: 3/2 of its variance; twice its deviation) is no
-  // change. What they have in common of it, that of the photons behind them, does nothing.
+  // change. What they have in common of it, that of the photons behind them, does nothing;
+  // how much that is of each band of radiance is not known.
   return missed2 <= allowed * allowed + 6 * noise2;
 }
 
