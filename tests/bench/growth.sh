@@ -44,21 +44,22 @@ steps() { # first, most
   ((n / 10 >= $2)) || ((n / 10 == $2)) || [[ $1 -gt $2 ]] || echo "$2"
 }
 
-# Walls reflect enough for about three photons a path.
+# About 1.6 photons land of each path.
 for n in $(steps 10000 "$photons"); do
   map=$folder/n.photons
-  stage photons "$n" photons phos-photons "$room" --photons "$((n / 3))" -o "$map"
+  stage photons "$n" photons phos-photons "$room" --photons "$((n * 64 / 100))" -o "$map"
   stage photons "$n" hull phos-irradiance "$room" "$map" --estimate hull --max-candidates 2000 -o "$folder/n.irradiance"
   stage photons "$n" gather phos-irradiance "$room" "$map" --estimate gather --rays 64 --max-candidates 2000 -o "$folder/n.irradiance"
 done
 
-# Records at points of the floor, each of its own.
+# Records at points of the floor, each of its own; their reach shrinks with the way between them.
 phos-photons "$room" --photons 10000 --quiet -o "$folder/few.photons"
 for n in $(steps 100 "$records"); do
   perl -e 'srand 1; print "x,y,z,nx,ny,nz\n"; printf "%.7f,0,%.7f,0,1,0\n", 0.5 * rand() - 0.25, 0.5 * rand() - 0.25 for 1 .. $ARGV[0]' "$n" \
     >"$folder/n.csv"
+  reach=$(awk -v n="$n" 'BEGIN { print 2.5 / sqrt(n) }')
   stage records "$n" records phos-irradiance "$room" "$folder/few.photons" --estimate hull --place every --at "$folder/n.csv" \
-    --max-radius 0.05 --min-radius 0.0005 -o "$folder/n.irradiance"
+    --max-radius "$reach" --min-radius "$(awk -v r="$reach" 'BEGIN { print r / 10 }')" -o "$folder/n.irradiance"
   stage records "$n" picture phos-splat "$room" "$folder/n.irradiance" --width 200 --splat cpu --direct none --gloss-samples 0 \
     -o "$folder/n.exr"
 done
