@@ -88,7 +88,7 @@ PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, 
                             Counters& counters, const MaterialFilter& wanted = {});
 
 /// Covers every surface that is not purely specular, from both sides, but for sides inside of solids.
-/// Triangles are cut in four until each piece lies within the reach of one record or is small beside it; a
+/// Triangles are halved until each piece lies within the reach of one record or is small beside it; a
 /// record is made at the middle of a piece that nothing covers. Repeated, since neighbours shrink each
 /// other's reach, until a pass finds less than kSurfaceShare of the area open, or `passes` are done. With
 /// `wanted`, surfaces of other materials are none.

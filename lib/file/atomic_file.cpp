@@ -15,6 +15,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "file/hash.h"
 #include "file/mapped_file.h"
 
 namespace phos {
@@ -59,11 +60,18 @@ bool held(int fd) {
   return ::fstat(fd, &info) == 0 && info.st_nlink > 0;
 }
 
+/// How the names of this machine's temporaries begin: another one's locks may not be seen in a shared folder.
+std::string own_prefix() {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  return text(".phos-", hash_text(host).hex().substr(0, 8), "-");
+}
+
 /// An empty new file beside `path`. The name is short, so that it is legal wherever `path` is.
 Temporary make_temporary(const std::string& path) {
   static std::atomic<unsigned> number{0};
   for (;;) {
-    std::string name = text(folder_of(path), ".phos-", ::getpid(), "-", number++, ".tmp");
+    std::string name = text(folder_of(path), own_prefix(), ::getpid(), "-", number++, ".tmp");
     const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0) {
       GoesWithProcess goes(name);
@@ -75,17 +83,19 @@ Temporary make_temporary(const std::string& path) {
   }
 }
 
-/// Removes the temporaries that nobody holds (their process was killed). Looks once at each folder.
+/// Removes this machine's temporaries that nobody holds (their process was killed). Looks once at each
+/// folder.
 void remove_abandoned(const std::string& path) {
   static std::mutex mutex;
   static std::set<std::string> tidied;
   const std::string folder = folder_of(path).empty() ? "./" : folder_of(path);
   const std::lock_guard lock(mutex);
   if (!tidied.insert(folder).second) return;
+  const std::string prefix = own_prefix();
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(".phos-") || !name.ends_with(".tmp")) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(".tmp")) continue;
     const int fd = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (fd < 0) continue;
     if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());

@@ -14,8 +14,8 @@ namespace phos {
 /// commit(), it removes the temporary and leaves what was at `path`. Every failure (no folder, no right, full
 /// disk) throws Error(bad_input) with the reason, which the system gives at the call that fails. A `path`
 /// that is not a regular file (/dev/stdout, a pipe) is written directly. The temporary is locked while its
-/// writer lives: one that nobody holds was left by a process killed outright, and the next that writes into
-/// that folder removes it.
+/// writer lives: one that nobody holds was left by a process killed outright, and the next on the same
+/// machine that writes into that folder removes it.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);

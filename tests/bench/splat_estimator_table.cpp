@@ -3,11 +3,10 @@
 // stated standard error. Errors are in percent of the truth; where it is dark, in percent of the brightest
 // check of the scene. Each seed has photons, coarse cache and rays of its own; what is independent is the
 // seed, so that its mean over the checks is one sample of the bias. '!' marks a bias beyond its interval (by
-// chance: one row in twenty). Of a bias of photons, "curvature" is known: the mean of the closed form over
+// chance: one row in twenty). Of a bias of kernels, "curvature" is known: the mean of the closed form over
 // their zone is not what it is in the middle; '!' in "unexplained" marks what is left when that is
-// subtracted. The last columns tell of the check of which most is left (by chance: one check in twenty is
-// marked). What rays state is their own error: noise of the photons behind their coarse cache is in the root
-// mean square, not in it. All checks are well inside of surfaces and far from shadow edges:
+// subtracted. Hulls subtract it themselves. The last columns tell of the check of which most is left (by
+// chance: one check in twenty is marked). All checks are well inside of surfaces and far from shadow edges:
 // photon_border_table tells what happens there.
 //   build/tests/splat_estimator_table > estimators.csv
 #include <algorithm>
@@ -114,7 +113,7 @@ double photon_flux_lm(const PhotonMap& photons, const test::Check& check) {
   return 0;
 }
 
-/// Mean of the closed form over the zone of a record from photons, weighted by the kernel, less its value at
+/// Mean of the closed form over the disc of a record from photons, weighted by the kernel, less its value at
 /// the check, lx. Of k photons of flux F in a disc of radius R, E = k F / (pi R2) and its variance is w k F2
 /// / (pi R2)2, w the mean square of the kernel's weight, so that R2 = w F E / (pi variance).
 double curvature_lx(const test::AnalyticScene& s, const test::Check& check, const IrradianceRecord& r,
@@ -175,10 +174,9 @@ void measure(const test::AnalyticScene& s) {
         const double unit = e.dark ? brightest : check.irradiance_lx;
         e.error.push_back((static_cast<double>(r.irradiance.y) - check.irradiance_lx) / unit);
         e.stated.push_back(static_cast<double>(r.stderr_lx.y) / unit);
-        const bool from_photons =
-            kMethods[m].estimate == Estimate::hull || kMethods[m].estimate == Estimate::kernel;
-        e.curvature.push_back(from_photons ? curvature_lx(s, check, r, kMethods[m].kernel, flux_lm[c]) / unit
-                                           : 0);
+        e.curvature.push_back(kMethods[m].estimate == Estimate::kernel
+                                  ? curvature_lx(s, check, r, kMethods[m].kernel, flux_lm[c]) / unit
+                                  : 0);
       }
     }
   }

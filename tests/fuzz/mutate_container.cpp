@@ -139,9 +139,7 @@ std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t most, unsig
   }
   if (!whole(*all)) return size;
   const std::string file = sealed(*all);
-  if (file.size() > most) return size;
-  std::memcpy(data, file.data(), file.size());
-  return file.size();
+  return put(file, data, size, most);
 }
 
 }  // namespace

@@ -48,9 +48,7 @@ std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t most, unsig
     parts.json = document.dump();
   }
   const std::string out = parts.binary ? test::glb(parts.json, parts.bin) : parts.json;
-  if (out.size() > most) return size;
-  std::memcpy(data, out.data(), out.size());
-  return out.size();
+  return put(out, data, size, most);
 }
 
 }  // namespace

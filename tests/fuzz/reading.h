@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -37,6 +38,13 @@ inline const std::string& scratch() {
 
 inline std::string_view characters(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
+}
+
+/// A mutator's answer: these bytes instead, or the input as it is where there is no room for them.
+inline std::size_t put(std::string_view bytes, std::uint8_t* data, std::size_t size, std::size_t most) {
+  if (bytes.size() > most) return size;
+  std::memcpy(data, bytes.data(), bytes.size());
+  return bytes.size();
 }
 
 /// Path of a file of these bytes, in a folder of its own kind.

@@ -23,6 +23,7 @@ std::size_t files_in(const std::string& folder) {
 TEST(Abandoned, TemporaryOfAKilledWriterIsRemoved) {
   const std::string folder = test::scratch("abandoned"), path = folder + "/out";
   test::spill(folder + "/.phos-notes.txt", "not ours");
+  test::spill(folder + "/.phos-other-1-0.tmp", "of another machine, which may be writing it");
   const pid_t writer = fork();
   if (writer == 0) {
     AtomicFile file(path);
@@ -30,9 +31,10 @@ TEST(Abandoned, TemporaryOfAKilledWriterIsRemoved) {
     raise(SIGKILL);
   }
   waitpid(writer, nullptr, 0);
-  EXPECT_EQ(files_in(folder), 2u);
+  EXPECT_EQ(files_in(folder), 3u);
   require_writable(path);
-  EXPECT_EQ(files_in(folder), 1u);
+  EXPECT_EQ(files_in(folder), 2u);
+  EXPECT_TRUE(fs::exists(folder + "/.phos-other-1-0.tmp"));
   EXPECT_TRUE(fs::exists(folder + "/.phos-notes.txt"));
 }
 
