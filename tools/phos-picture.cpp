@@ -1,10 +1,13 @@
-// phos-picture: makes a picture for people from an image of light, or a plot from a table.
+// phos-picture: makes a picture for people from an image of light, or a plot from a table or a luminaire.
+#include <filesystem>
+
 #include "file/atomic_file.h"
 #include "file/frames.h"
 #include "file/tool.h"
 #include "image/csv_plot.h"
 #include "image/show.h"
 #include "image/video.h"
+#include "scene/goniometric.h"
 
 namespace phos {
 namespace {
@@ -18,7 +21,9 @@ constexpr const char* kDescription =
     "--frames "
     "every frame of a sequence is shown with one exposure, that of the first which is not black, as pictures "
     "or, "
-    "where ffmpeg is installed, as a video (.mp4, .mkv, .webm).";
+    "where ffmpeg is installed, as a video (.mp4, .mkv, .webm). With --goniometric it draws the luminous "
+    "intensities of a luminaire, from IES LM-63 (.ies) or EULUMDAT (.ldt), as a polar plot with its lumens, "
+    "maximum, and beam and field angles (within which half and a tenth of the plane's maximum are reached).";
 
 /// The name says what is written, the content of the input what can be.
 void check_output(const std::string& output, const std::string& input, bool image) {
@@ -28,6 +33,16 @@ void check_output(const std::string& output, const std::string& input, bool imag
     throw Error(ExitCode::usage, "--output", text(input, " is a table; the name must end in .svg or .png"));
 }
 
+template <class P>
+void write_plot(const std::string& output, const P& plot, std::string (*svg)(const P&),
+                Picture (*picture)(const P&, int)) {
+  constexpr int kScale = 2;
+  if (!output.ends_with(".svg")) return write_png(output, picture(plot, kScale));
+  AtomicFile file(output);
+  file.write(svg(plot));
+  file.commit();
+}
+
 void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
                const CsvPlotOptions& options) {
   const CsvTable table = parse_csv(bytes, input);
@@ -35,18 +50,20 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
     throw Error(ExitCode::usage, options.x.empty() ? "--x" : "--y",
                 text("name a column of ", input, ": ", table.names()));
   const Plot plot = plot_of(table, options);
-  if (tool.output().ends_with(".svg")) {
-    AtomicFile file(tool.output());
-    file.write(plot_svg(plot));
-    file.commit();
-  } else {
-    constexpr int kScale = 2;
-    write_png(tool.output(), plot_picture(plot, kScale));
-  }
+  write_plot(tool.output(), plot, plot_svg, plot_picture);
   if (const std::size_t n = points_left_out(plot); n > 0) {
     tool.counters().count("point that cannot be shown", n);
     tool.warn(text(input, ": ", n, " points are left out: not finite, or not above 0 on a logarithmic axis"));
   }
+}
+
+void draw_goniometric(Tool& tool, const std::string& input) {
+  const PhotometricFile file = read_photometry(input);
+  for (const std::string& warning : file.warnings) tool.warn(text(input, ": ", warning));
+  const std::string name = std::filesystem::path(input).filename().string();
+  if (!(file.photometry->flux_lm() > 0))
+    throw Error(ExitCode::bad_input, input, "all intensities are 0: there is nothing to draw");
+  write_plot(tool.output(), goniometric_plot(file, name), polar_plot_svg, polar_plot_picture);
 }
 
 void check_usage(const Options& options, const std::string& output, const PictureSequence& s,
@@ -69,22 +86,30 @@ void check_usage(const Options& options, const std::string& output, const Pictur
 }
 
 int main_of_tool(int argc, const char* const* argv) {
-  Tool tool("phos-picture", "makes a picture from an image of light, or a plot from a table", kDescription,
-            1);
+  Tool tool("phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",
+            kDescription, 1);
   tool.output_has_no_key();
   PictureSequence sequence;
   const std::string& input = sequence.input;
   LayerPictureOptions picture;
   CsvPlotOptions plot;
   Options& options = tool.options();
-  options.input("INPUT", sequence.input,
-                "OpenEXR, Radiance .hdr, or a table (CSV); with --frames, a folder or a name with %04d");
+  options.input(
+      "INPUT", sequence.input,
+      "OpenEXR, Radiance .hdr, a table (CSV), or photometry (.ies, .ldt); with --frames, a folder or a name "
+      "with %04d");
   declare_options(options, picture);
   options.section("Sequences");
   declare_frames(options, sequence.frames);
   options.number("fps", sequence.frames_per_s, "N",
                  "frames a second of a video; else as the images say, else 24", kPositive);
   declare_options(options, plot);
+  bool goniometric = false;
+  options.section("Luminaires");
+  options.flag(
+      "goniometric", goniometric,
+      "INPUT is a luminaire's photometry (.ies, .ldt): draw its polar plot, planes C0-C180 and C90-C270, in "
+      "candela; OUTPUT ends in .png or .svg");
   options.example("phos-picture room.exr -o room.png", "as a camera would see it");
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
                   "lux on every surface");
@@ -93,6 +118,7 @@ int main_of_tool(int argc, const char* const* argv) {
   options.example(
       "phos-picture errors.csv --x seconds --y rmse --series method --log-x --log-y -o errors.svg",
       "a line for each method");
+  options.example("phos-picture --goniometric lamp.ies -o lamp.png", "what a luminaire does");
 
   return tool.run(argc, argv, [&] {
     const std::string& output = tool.output();
@@ -100,7 +126,15 @@ int main_of_tool(int argc, const char* const* argv) {
     if (!sequence.frames.empty()) return show_sequence(tool, sequence, picture);
     require_writable(output);
     tool.add_input("input", input);
+    if (goniometric) {
+      if (output.ends_with(".hdr"))
+        throw Error(ExitCode::usage, "--output",
+                    "a polar plot is no image of light; the name must end in .png or .svg");
+      return draw_goniometric(tool, input);
+    }
     const std::string bytes = read_text(input);
+    if (looks_like_photometry(bytes))
+      throw Error(ExitCode::usage, input, "is a luminaire's photometry; pass --goniometric to draw it");
     if (!is_image(bytes) && is_plain_text(bytes)) {
       check_output(output, input, false);
       draw_plot(tool, bytes, input, plot);

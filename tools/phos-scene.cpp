@@ -5,6 +5,7 @@
 #include "scene/describe.h"
 #include "scene/lint.h"
 #include "scene/load.h"
+#include "scene/photometric_file.h"
 
 using namespace phos;
 
@@ -16,21 +17,32 @@ int main(int argc, char** argv) {
       "and animations; what its light requires, each with a reason; what computes the gloss of each glossy "
       "material; and findings: mistakes in units, missing normals, degenerate triangles, lamps that shine "
       "the "
-      "wrong way, textures that are not there.",
+      "wrong way, textures that are not there. Of a luminaire's photometry (IES LM-63, EULUMDAT) it prints "
+      "lumens, "
+      "maximum, beam and field angles, the luminous opening, and what is odd about the file.",
       1, Tool::Output::none);
   std::string path;
   SceneOptions scene_options;
   bool json = false, strict = false;
   GlossBy gloss = GlossBy::automatic;
-  tool.options().input("SCENE", path, "glTF (.glb, .gltf) or OBJ scene");
+  tool.options().input("SCENE", path, "glTF (.glb, .gltf) or OBJ scene; or photometry (.ies, .ldt)");
   declare_options(tool.options(), scene_options);
   declare_options(tool.options(), gloss);
   tool.options().section("Report");
   tool.options().flag("json", json, "print one JSON object instead of text", Recorded::no);
   tool.options().flag("strict", strict, "end with code 1 if a finding is an error", Recorded::no);
   tool.options().example("phos-scene room.glb", "what is in it, and what is wrong with it");
+  tool.options().example("phos-scene lamp.ies", "what a luminaire does");
   tool.options().example("phos-scene room.glb --json --strict > room.json", "for a script");
+  const auto print = [](const std::string& out) {
+    if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0)
+      throw Error(ExitCode::bad_input, "stdout", "cannot be written; is the disk full?");
+  };
   return tool.run(argc, argv, [&] {
+    if (is_photometry(path)) {
+      const Json description = describe_photometry(read_photometry(path));
+      return print(json ? description.dump(2) + "\n" : photometry_text(description));
+    }
     const Scene scene = load_scene(path, scene_options);
     const std::vector<Finding> findings = lint_scene(scene);
     const Json report = gloss_report(scene, GlossTables(scene, {}, gloss, {}, tool.counters()));
@@ -39,9 +51,7 @@ int main(int argc, char** argv) {
     std::string out = json ? description.dump(2) + "\n" : describe_text(description);
     if (!json && !report.as_array().empty())
       out += text("\nGloss (", report.as_array().size(), ")\n", gloss_text(report));
-    if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
-      throw Error(ExitCode::bad_input, "stdout", "cannot be written; is the disk full?");
-    }
+    print(out);
     for (const Finding& f : findings) {
       if (strict && f.level == Finding::Level::error) tool.set_exit(ExitCode::check_failed);
     }

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   options.choice<Kind>("kind", kind, {{"irradiance", Kind::irradiance}, {"radiance", Kind::radiance}},
                        "of records: irradiance for diffuse surfaces, radiance for glossy ones");
   declare_options(options, job.options);
-  declare_environment_options(options, scene_options);
+  declare_light_options(options, scene_options);
   declare_options(options, gloss);
   declare_options(options, records);
   declare_place_options(options, job.placement);

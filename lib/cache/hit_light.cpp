@@ -316,7 +316,7 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
       sum += throughput * beyond(point, step);
       break;
     }
-    const Rgb emitted = emitted_luminance(scene, next);
+    const Rgb emitted = emitted_luminance(scene, next, -step.direction);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
     if (lamp >= 0) {
       float weight = 1;

@@ -45,7 +45,8 @@ LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   lamp.centre = light.position, lamp.front = light.direction;
   lamp.strength = luminance(light.intensity);
   if (light.kind == Light::Kind::point) lamp.front = Vec3(0);
-  if (light.kind == Light::Kind::spot) lamp.spot = light;
+  const bool beam = light.kind == Light::Kind::spot || light.kind == Light::Kind::measured;
+  if (beam) lamp.beam = light;
   // A surface turned any way receives a quarter of what comes from all sides.
   if (light.kind == Light::Kind::environment)
     lamp.strength = 0.25f * luminance(Rgb(scene.environment->integral_lx()));
@@ -83,7 +84,7 @@ LampSampler::Panel LampSampler::panel_of(const Scene& scene, const Light& light)
   if (light.kind != Light::Kind::area) return panel;
   const Instance& instance = scene.instance[light.instance];
   const Material& material = scene.material[instance.material];
-  if (material.emissive.used()) return panel;
+  if (!shines_evenly(scene, instance)) return panel;
   panel.luminance_cd_m2 = material.emission, panel.two_sided = material.double_sided;
   double sum = 0;
   std::vector<double> below;
@@ -109,7 +110,7 @@ LampSampler::Panel LampSampler::panel_of(const Scene& scene, const Light& light)
 
 /// Illuminance at the point from a lamp that nothing hides, roughly for an area light; 0 only where it brings
 /// none.
-float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
+float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) const {
   if (lamp.kind == Light::Kind::environment) return lamp.strength;
   if (lamp.kind == Light::Kind::directional) {
     const bool above = glm::dot(lamp.front, point.geometric_normal) < 0;
@@ -128,8 +129,7 @@ float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) {
     }
     return lamp.strength * facing * (height + r) / ((d + r) * (d2 + r * r));
   }
-  const float cone = lamp.kind == Light::Kind::spot ? spot_falloff(lamp.spot, -DVec3(way)) : 1.f;
-  return lamp.strength * cone * height / (d * d2);
+  return lamp.strength * intensity_share(rays_.scene(), lamp.beam, -DVec3(way)) * height / (d * d2);
 }
 
 float LampSampler::promises(const SurfacePoint& point, Promises& each) const {
@@ -189,7 +189,7 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   SurfacePoint found;
   const bool hit = trace(rays_, {point.leave(direction), direction}, found);
   const Rgb luminance =
-      hit ? emitted_luminance(rays_.scene(), found) : background_luminance(rays_.scene(), direction);
+      hit ? emitted_luminance(rays_.scene(), found, -direction) : background_luminance(rays_.scene(), direction);
   if (!(max_component(luminance) > 0)) return;
   const std::int32_t lamp = hit ? lights_.light_of(found.triangle) : lights_.environment();
   if (lamp < 0) return;

@@ -54,7 +54,7 @@ class LampSampler {
     Vec3 front{0};       // where a spot, a directional or a plane one-sided lamp shines to; else 0
     float radius_m = 0;  // of the sphere about an area light
     float strength = 0;  // intensity towards the front, cd; directional: lx; environment: lx on the mean
-    Light spot;          // of a spot: its cone
+    Light beam;          // of a spot or measured light: itself
   };
   /// A triangle or parallelogram of an area light, from a corner along two edges.
   struct Patch {
@@ -76,7 +76,7 @@ class LampSampler {
   static bool join(Patch& first, const Patch& second);
   static void from_panel(const SurfacePoint& point, const Panel& panel, float u_patch, const Vec2& u,
                          float probability, ArrivingLight& light);
-  static float promise_lx(const Lamp& lamp, const SurfacePoint& point);
+  float promise_lx(const Lamp& lamp, const SurfacePoint& point) const;
   float promises(const SurfacePoint& point, Promises& each) const;
   float ray_share(const SurfacePoint& point) const;
   void by_ray(const SurfacePoint& point, const Vec2& u, float ray_share, ArrivingLight& light) const;

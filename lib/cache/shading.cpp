@@ -128,7 +128,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       continue;
     }
     Rgb from_lamp(0);
-    const Rgb lamp = emitted_luminance(rays_.scene(), hit);
+    const Rgb lamp = emitted_luminance(rays_.scene(), hit, -sample.direction);
     const std::int32_t light = max_component(lamp) > 0 ? lights_.light_of(hit.triangle) : -1;
     if (light >= 0) {
       const float cos_light = std::fabs(glm::dot(hit.geometric_normal, sample.direction));
@@ -168,7 +168,7 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
       sum += branch[b].weight * background_luminance(rays_.scene(), branch[b].direction);
       continue;
     }
-    sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit) +
+    sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit, -branch[b].direction) +
                                outgoing(hit, -branch[b].direction, depth + 1, carried, random, log));
   }
   return sum;

@@ -21,8 +21,8 @@ void set_pixel(Picture& picture, int x, int y, const Colour8& colour);
 void fill(Picture& picture, int x, int y, int width, int height, const Colour8& colour);
 
 /// Letters are 5 x 7 dots, `dot` pixels each. Lower case, capitals, digits and . , : - + / % ( ) = < > _ [ ]
-/// ^ * and the superscript two ("\xb2" in Latin-1, which text_for_picture makes of "m2"); another character
-/// leaves a blank.
+/// ^ * and, in Latin-1 or UTF-8, the degree sign and the superscript two ("\xb2" in Latin-1, which
+/// text_for_picture makes of "m2"); another character leaves a blank.
 void draw_text(Picture& picture, int x, int y, int dot, std::string_view text, const Colour8& colour);
 int text_width(std::string_view text, int dot);
 int text_height(int dot);

@@ -99,7 +99,9 @@ EmittedPhoton Emitter::start(std::size_t i, RandomStream& random) const {
   const Light& light = luminaires_[i];
   switch (light.kind) {
     case Light::Kind::area:
-      break;
+      return light.fitting < 0 ? from_area(i, random) : from_opening(i, random);
+    case Light::Kind::measured:
+      return from_measured(light, random);
     case Light::Kind::point:
       return from_point(light, random);
     case Light::Kind::spot:
@@ -109,7 +111,7 @@ EmittedPhoton Emitter::start(std::size_t i, RandomStream& random) const {
     case Light::Kind::environment:
       return from_environment(random);
   }
-  return from_area(i, random);
+  return {};
 }
 
 EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
@@ -126,6 +128,32 @@ EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
   photon.ray.origin = point.position + point.error_m * photon.source_normal;
   // Exitance of one side is pi L; the cosine and 1/pi of the direction cancel.
   photon.flux_lm = (both_sides ? 2 * kPi : kPi) / point.density * point.luminance;
+  return photon;
+}
+
+/// First the direction, by the intensities; then a place on what is seen of the opening from there. All photons
+/// of a luminaire have the same flux.
+EmittedPhoton Emitter::from_opening(std::size_t i, RandomStream& random) const {
+  const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(luminaires_[i].fitting)];
+  const Vec3 direction = fitting.sample_direction(random.uniform2());
+  const float u_triangle = random.uniform();
+  const EmissionPoint point = luminaires_.sample_seen_from(i, direction, u_triangle, random.uniform2());
+  EmittedPhoton photon;
+  if (!(point.density > 0)) return photon;
+  photon.source_normal = point.normal;
+  photon.ray.direction = direction;
+  photon.ray.origin = point.position + point.error_m * point.normal;
+  photon.flux_lm = fitting.flux_lm();
+  return photon;
+}
+
+EmittedPhoton Emitter::from_measured(const Light& light, RandomStream& random) const {
+  const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(light.fitting)];
+  EmittedPhoton photon;
+  photon.ray.origin = light.position;
+  photon.ray.direction = fitting.sample_direction(random.uniform2());
+  photon.source_normal = photon.ray.direction;
+  photon.flux_lm = light.flux_lm;
   return photon;
 }
 

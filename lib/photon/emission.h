@@ -42,6 +42,8 @@ class Emitter {
  private:
   EmittedPhoton start(std::size_t i, RandomStream& random) const;
   EmittedPhoton from_area(std::size_t i, RandomStream& random) const;
+  EmittedPhoton from_opening(std::size_t i, RandomStream& random) const;
+  EmittedPhoton from_measured(const Light& light, RandomStream& random) const;
   EmittedPhoton from_point(const Light& light, RandomStream& random) const;
   EmittedPhoton from_spot(const Light& light, RandomStream& random) const;
   EmittedPhoton from_environment(RandomStream& random) const;

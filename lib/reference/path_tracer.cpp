@@ -89,7 +89,7 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
 /// Luminance that `point` sends back along the walk's ray, weighted against next-event estimation where the
 /// ray began.
 Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
-  const Rgb luminance = emitted_luminance(rays_->scene(), point);
+  const Rgb luminance = emitted_luminance(rays_->scene(), point, -walk.ray.direction);
   if (!positive(luminance) || walk.density <= 0) return luminance;
   const std::int32_t light = luminaires_->light_of(point.triangle);
   if (light < 0) return luminance;

@@ -8,6 +8,7 @@
 #include "core/origin.h"
 #include "scene/environment.h"
 #include "scene/merl.h"
+#include "scene/photometric_file.h"
 #include "scene/texture.h"
 
 namespace phos {
@@ -79,7 +80,7 @@ std::string names_of(const std::vector<const Material*>& materials) {
 Json numbers(const Vec3& v) { return Json::Array{v.x, v.y, v.z}; }
 
 const char* kind_name(Light::Kind kind) {
-  constexpr const char* kNames[] = {"area", "point", "spot", "directional", "environment"};
+  constexpr const char* kNames[] = {"area", "point", "spot", "directional", "environment", "measured"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -89,6 +90,12 @@ Json describe_light(const Scene& scene, const Light& light) {
   j["kind"] = kind_name(light.kind);
   j["lumens"] = luminance(light.flux_lm);
   j["flux_lm"] = numbers(light.flux_lm);
+  if (light.fitting >= 0) {
+    const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
+    j["luminaire"] = describe_photometry(fitting.file());
+    j["down"] = numbers(fitting.down());
+    j["c0"] = numbers(fitting.axes()[0]);
+  }
   if (light.kind == Light::Kind::area) {
     const Instance& instance = scene.instance[light.instance];
     j["area_m2"] = light.area_m2;

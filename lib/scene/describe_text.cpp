@@ -59,6 +59,12 @@ std::string light_line(const Json& l) {
                  triple(at(l, "horizontal_illuminance_lx")), " lx on open ground");
   }
   if (const Json* lx = l.find("illuminance_lx")) line += text(", ", triple(*lx), " lx");
+  if (const Json* luminaire = l.find("luminaire")) {
+    line += text(", ", at(*luminaire, "format").as_string());
+    if (const std::string& name = at(*luminaire, "luminaire").as_string(); !name.empty())
+      line += " \"" + name + '"';
+    line += text(", opening: ", at(*luminaire, "opening").as_string());
+  }
   line += '\n';
   return line;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/photometry.h"
 
 namespace phos {
 namespace {
@@ -68,6 +69,10 @@ bool same_lamp(const Light& a, const Light& b) {
          a.instance == b.instance && (a.kind != Light::Kind::area || a.flux_lm == b.flux_lm);
 }
 
+bool same_fitting(const Fitting& a, const Fitting& b) {
+  return a.axes() == b.axes() && a.colour() == b.colour() && a.photometry().hash() == b.photometry().hash();
+}
+
 std::string materials_hash(const Scene& scene) {
   const Json* hash = scene.parts.find("materials");
   return hash ? hash->as_string() : "";
@@ -104,7 +109,9 @@ Changes changes(const Scene& a, const Scene& b) {
   require_one_scene(a, b);
   Changes out;
   for (std::size_t i = 0; i < a.instance.size(); ++i) out.moved.push_back(has_moved(a, b, i));
-  out.lights = !std::equal(a.light.begin(), a.light.end(), b.light.begin(), b.light.end(), same_lamp);
+  out.lights =
+      !std::equal(a.light.begin(), a.light.end(), b.light.begin(), b.light.end(), same_lamp) ||
+      !std::equal(a.fitting.begin(), a.fitting.end(), b.fitting.begin(), b.fitting.end(), same_fitting);
   for (const Light& light : a.light)
     out.lights = out.lights || (light.kind == Light::Kind::area && out.moved[light.instance]);
   out.materials = materials_hash(a) != materials_hash(b);

@@ -36,10 +36,17 @@ void check_indices(const Scene& scene) {
     if (scene.triangle_instance[i] >= scene.instance.size())
       fail(scene, text("triangle ", i, " has no instance"));
   }
+  for (const Light& light : scene.light) {
+    const bool absent = light.fitting < 0 || light.fitting >= static_cast<std::int64_t>(scene.fitting.size());
+    if (light.kind == Light::Kind::measured && absent)
+      fail(scene, text("light \"", light.name, "\" has no luminaire"));
+  }
   std::uint64_t covered = 0;
   for (std::size_t i = 0; i < scene.instance.size(); ++i) {
     const Instance& instance = scene.instance[i];
     if (instance.material >= scene.material.size()) fail(scene, text("instance ", i, " has no material"));
+    if (instance.fitting >= static_cast<std::int64_t>(scene.fitting.size()))
+      fail(scene, text("instance ", i, " has no luminaire"));
     if (instance.first_triangle != covered)
       fail(scene, text("instance ", i, " does not follow the one before it"));
     covered += instance.triangle_count;

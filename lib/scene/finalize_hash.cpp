@@ -98,7 +98,7 @@ std::string hash_materials(const Scene& scene) {
   return hasher.finish().hex();
 }
 
-void add_light(Hasher& hasher, const Light& light) {
+void add_light(Hasher& hasher, const Scene& scene, const Light& light) {
   hasher.add(light.kind);
   add_vector(hasher, light.position);
   add_vector(hasher, light.direction);
@@ -109,6 +109,7 @@ void add_light(Hasher& hasher, const Light& light) {
     if (static_cast<double>(rounded) != cosine) hasher.add_bytes(&cosine, sizeof cosine);
   }
   add_vector(hasher, light.flux_lm);
+  if (light.fitting >= 0) scene.fitting[static_cast<std::size_t>(light.fitting)].add_to(hasher);
 }
 
 /// Empty where there is none.
@@ -125,7 +126,7 @@ std::string hash_environment(const Environment* environment) {
 
 std::string hash_lights(const Scene& scene) {
   Hasher hasher;
-  for (const Light& light : scene.light) add_light(hasher, light);
+  for (const Light& light : scene.light) add_light(hasher, scene, light);
   return hasher.finish().hex();
 }
 
@@ -149,7 +150,7 @@ Json hash_nodes(const Scene& scene) {
   }
   for (const auto& [name, list] : lights) {
     Hasher& hasher = hashers[name];
-    for (const Light* l : list) add_light(hasher, *l);
+    for (const Light* l : list) add_light(hasher, scene, *l);
   }
   if (hashers.size() > kMaxNamedNodes) return Json();
   Json out = Json::Object{};

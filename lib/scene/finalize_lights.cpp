@@ -33,7 +33,31 @@ void fill_area_light(const Scene& scene, Light& light) {
     flux += a * std::numbers::pi * glm::dvec3(mean_emission(scene, t));
   }
   light.area_m2 = static_cast<float>(area);
+  light.fitting = instance.fitting;
+  if (light.fitting >= 0) {
+    light.flux_lm = scene.fitting[static_cast<std::size_t>(light.fitting)].flux_lm();
+    return;
+  }
   light.flux_lm = Rgb(material.double_sided ? 2.0 * flux : flux);
+}
+
+/// Surfaces of luminous openings, and their mean luminance.
+void fill_openings(Scene& scene) {
+  for (const Instance& instance : scene.instance) {
+    if (instance.fitting < 0) continue;
+    Fitting& fitting = scene.fitting[static_cast<std::size_t>(instance.fitting)];
+    Material& material = scene.material[instance.material];
+    std::vector<Vec4> facets;
+    double area = 0;
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t) {
+      facets.emplace_back(geometric_normal(scene, t), area_m2(scene, t));
+      area += static_cast<double>(facets.back().w);
+    }
+    fitting.set_surface(facets, material.double_sided);
+    const double emitting = std::numbers::pi * area * (material.double_sided ? 2 : 1);
+    material.emission = area > 0 ? Rgb(DVec3(fitting.flux_lm()) / emitting) : Rgb(0);
+  }
 }
 
 }  // namespace
@@ -69,6 +93,7 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
 }
 
 void fill_lights(Scene& scene) {
+  fill_openings(scene);
   std::erase_if(scene.light, [](const Light& light) {
     return light.kind == Light::Kind::area || light.kind == Light::Kind::environment;
   });
@@ -97,6 +122,11 @@ void fill_lights(Scene& scene) {
   for (Light& light : scene.light) {
     if (light.kind == Light::Kind::point) light.flux_lm = 4 * kPi * light.intensity;
     if (light.kind == Light::Kind::spot) light.flux_lm = spot_flux_lm(light);
+    if (light.kind == Light::Kind::measured) {
+      const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
+      light.direction = fitting.down(), light.intensity = fitting.peak_cd(),
+      light.flux_lm = fitting.flux_lm();
+    }
     if (light.kind == Light::Kind::directional) light.flux_lm = light.intensity * disc_m2;
     if (light.kind == Light::Kind::environment)
       light.flux_lm = Rgb(scene.environment->integral_lx()) * disc_m2;

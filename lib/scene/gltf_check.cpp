@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_luminaires.h"
 
 namespace phos {
 namespace {
@@ -285,6 +286,9 @@ class Checker {
 
 }  // namespace
 
-void check_gltf(const Json& document, const std::string& path) { Checker(document, path).check(); }
+void check_gltf(const Json& document, const std::string& path) {
+  Checker(document, path).check();
+  check_gltf_luminaires(document, path);
+}
 
 }  // namespace phos

@@ -15,10 +15,10 @@ namespace phos {
 namespace {
 
 constexpr const char* kExtensions[] = {
-    "KHR_animation_pointer",           "KHR_lights_punctual", "KHR_materials_anisotropy",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",   "KHR_materials_specular",
-    "KHR_materials_transmission",      "KHR_materials_unlit", "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "EXT_lights_ies",           "KHR_animation_pointer",           "KHR_lights_punctual",
+    "KHR_materials_anisotropy", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular",   "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_mesh_quantization",    "KHR_texture_transform",
 };
 
 constexpr const char* kVersion1 = "glTF 1.0 is not supported; convert it to 2.0";
@@ -199,8 +199,8 @@ GltfDocument read_gltf(const std::string& path, std::string_view bytes) {
 std::vector<std::string> gltf_external_files(const std::string& path, std::string_view bytes) {
   const Json document = parse_document(path, split(path, bytes).json);
   std::vector<std::string> files;
-  for (const char* key : {"buffers", "images"}) {
-    const Json* list = document.find(key);
+  for (const char* key : {"buffers", "images", "extensions/EXT_lights_ies/lights"}) {
+    const Json* list = find_path(document, key);
     if (!list || !list->is_array()) continue;
     for (const Json& item : list->as_array()) {
       const Json* uri = item.find("uri");

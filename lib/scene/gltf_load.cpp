@@ -9,8 +9,10 @@
 #include "scene/animation.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_luminaires.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
+#include "scene/hang_luminaire.h"
 #include "scene/load_mesh.h"
 #include "scene/load_textures.h"
 #include "scene/node_extent.h"
@@ -20,7 +22,12 @@ namespace {
 
 class SceneReader {
  public:
-  SceneReader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+  SceneReader(GltfDocument& document, Scene& scene, const LuminaireOptions& luminaires)
+      : document_(document),
+        scene_(scene),
+        profiles_(document),
+        luminaires_as_(luminaires.as),
+        given_(luminaires) {}
 
   void read(const SceneOptions& options) {
     read_time(options);
@@ -34,6 +41,7 @@ class SceneReader {
     choose_origin(rest);
     place_nodes(poses);
     for (const std::size_t node : order_) read_node(node, poses[node]);
+    given_.require_all_found();
     if (skipped_primitives_) {
       scene_.warnings.push_back(
           text(skipped_primitives_, " mesh primitives are points or lines, which give no surface"));
@@ -146,6 +154,28 @@ class SceneReader {
             find_path(element(document_.json, "nodes", index), "extensions/KHR_lights_punctual/light")) {
       read_light(index, static_cast<std::size_t>(light->as_number()));
     }
+    if (const std::optional<GltfLuminaire> luminaire = gltf_luminaire(document_.json, index))
+      read_luminaire(index, *luminaire);
+  }
+
+  void read_luminaire(std::size_t node, const GltfLuminaire& luminaire) {
+    const std::string& name = document_.model->nodes[node].name;
+    LuminairePlace place{!name.empty() ? name : luminaire.name, world_[node], luminaire.colour};
+    if (place.name.empty()) place.name = node_name(node);
+    std::shared_ptr<const PhotometricFile> file = given_.find(place.name);
+    if (!file) file = profiles_.read(luminaire.profile);
+    hang_luminaire(scene_, std::move(file), place, luminaires_as_);
+  }
+
+  /// A light whose distribution the options give. Its colour stays, the file says how bright it is.
+  void hang_in_place_of(const Light& light, const Rgb& hue, std::size_t node,
+                        std::shared_ptr<const PhotometricFile> file) {
+    LuminairePlace place{light.name, world_[node], hue};
+    if (light.kind == Light::Kind::point) {
+      const double scale = std::cbrt(std::fabs(glm::determinant(glm::dmat3(world_[node]))));
+      place.to_world = hanging_down(DVec3(world_[node][3]), DVec3(world_[node][0]), scale);
+    }
+    hang_luminaire(scene_, std::move(file), place, luminaires_as_);
   }
 
   void read_mesh(std::size_t node, std::size_t mesh, int skin, const NodePose& pose) {
@@ -308,11 +338,18 @@ class SceneReader {
     } else {
       fail("type \"" + type + "\" is not point, spot or directional");
     }
+    if (light.kind != Light::Kind::directional) {
+      if (std::shared_ptr<const PhotometricFile> file = given_.find(light.name))
+        return hang_in_place_of(light, hue(light_colour(index)), node, std::move(file));
+    }
     scene_.light.push_back(light);
   }
 
   GltfDocument& document_;
   Scene& scene_;
+  GltfProfiles profiles_;
+  LuminairesAs luminaires_as_;
+  GivenLuminaires given_;
   std::vector<glm::dmat4> world_;
   std::vector<std::size_t> order_;
   std::map<std::pair<std::size_t, std::size_t>, std::optional<MeshData>> primitives_;
@@ -327,7 +364,7 @@ Scene load_gltf(const std::string& path, std::string_view bytes, const SceneOpti
   GltfDocument document = read_gltf(path, bytes);
   Scene scene;
   scene.path = path;
-  SceneReader(document, scene).read(options);
+  SceneReader(document, scene, options.luminaires).read(options);
   scene.warnings.insert(scene.warnings.end(), document.warnings.begin(), document.warnings.end());
   return scene;
 }

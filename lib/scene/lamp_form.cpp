@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/luminaires.h"
+
 namespace phos {
 namespace {
 
@@ -52,7 +54,7 @@ LampForm::LampForm(const Scene& scene, const Light& light) {
   if (light.kind != Light::Kind::area) return;
   const Instance& instance = scene.instance[light.instance];
   const Material& material = scene.material[instance.material];
-  if (material.emissive.used() || instance.triangle_count > kMostTriangles) return;
+  if (!shines_evenly(scene, instance) || instance.triangle_count > kMostTriangles) return;
   luminance_ = material.emission;
   double_sided_ = material.double_sided;
   for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {

@@ -88,8 +88,43 @@ class Linter {
 
   void check_lamps() {
     for (const Light& light : scene_.light) {
-      if (light.kind == Light::Kind::area) check_lamp(light);
+      if (light.kind == Light::Kind::area && light.fitting < 0) check_lamp(light);
+      if (light.fitting >= 0) check_luminaire(light);
     }
+  }
+
+  /// A luminaire hangs within what it lights.
+  void check_luminaire(const Light& light) {
+    Bounds room, lamp;
+    for (const Instance& instance : scene_.instance) {
+      if (instance.fitting < 0) include(instance, room);
+    }
+    if (light.kind == Light::Kind::area)
+      include(scene_.instance[light.instance], lamp);
+    else
+      lamp.include(light.position);
+    if (room.empty()) return;
+    const float slack = 1e-3f * room.diagonal_m();
+    const Vec3 size = lamp.size(), space = room.size();
+    const std::string name = "luminaire \"" + light.name + "\"";
+    if (size.x > space.x + slack || size.z > space.z + slack || size.y > space.y + slack) {
+      add(Level::warning, "luminaire-too-large",
+          text(name, " is ", shortest(size.x), " x ", shortest(size.y), " x ", shortest(size.z),
+               " m, larger than everything else together: ", shortest(space.x), " x ", shortest(space.y),
+               " x ", shortest(space.z), " m"),
+          "check the units of its file (feet taken for metres?) and of the scene, or pass --luminaires-as "
+          "points");
+    } else if (glm::any(glm::lessThan(lamp.lo, room.lo - slack)) ||
+               glm::any(glm::greaterThan(lamp.hi, room.hi + slack))) {
+      add(Level::warning, "luminaire-outside", name + " reaches out of everything else in the scene",
+          "move it, if it should hang in a room; else it is fine");
+    }
+  }
+
+  void include(const Instance& instance, Bounds& bounds) const {
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t)
+      for (const std::uint32_t v : scene_.triangle[t].v) bounds.include(scene_.position[v]);
   }
 
   /// Edges by the places of their ends: a closed surface has each one once in each direction.

@@ -28,10 +28,11 @@ void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS", "when animations are evaluated (default: 0)");
   options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
-  declare_environment_options(options, scene);
+  declare_light_options(options, scene);
 }
 
-void declare_environment_options(Options& options, SceneOptions& scene) {
+void declare_light_options(Options& options, SceneOptions& scene) {
+  declare_options(options, scene.luminaires);
   options.file(
       "environment", scene.environment,
       "light from all around: an equirectangular map, twice as wide as high, +Y up, its middle towards "
@@ -84,6 +85,7 @@ std::vector<std::string> scene_files(const std::string& path, const SceneOptions
     return !std::filesystem::is_regular_file(file, ignored);
   });
   files.insert(files.begin(), path);
+  for (std::string& file : luminaire_files(options.luminaires)) files.push_back(std::move(file));
   if (!options.environment.empty()) files.push_back(options.environment);
   return files;
 }

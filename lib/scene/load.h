@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "scene/hang_luminaire.h"
 #include "scene/scene.h"
 
 namespace phos {
@@ -16,10 +17,11 @@ struct SceneOptions {
   std::optional<double> frame;   ///< the same, in frames
   std::string environment;       ///< file of an environment map; "": none
   std::optional<double> environment_rotation_deg, environment_scale;
+  LuminaireOptions luminaires;
 };
 void declare_options(Options& options, SceneOptions& scene);
-/// Those that hold at every time.
-void declare_environment_options(Options& options, SceneOptions& scene);
+/// Those that hold at every time: luminaires and the environment.
+void declare_light_options(Options& options, SceneOptions& scene);
 
 /// Loads and finalizes, with the environment map that the options name. The format is told from the content.
 /// Throws Error(bad_input): missing, not a scene, truncated, unknown required extension (named), glTF 1.0,
@@ -27,8 +29,8 @@ void declare_environment_options(Options& options, SceneOptions& scene);
 Scene load_scene(const std::string& path, const SceneOptions& options = {});
 
 /// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing
-/// ones are left out; the environment map of the options comes last. Throws Error(bad_input) if the scene
-/// file itself cannot be read.
+/// ones are left out; luminaires and the environment map of the options come last. Throws Error(bad_input) if
+/// the scene file itself cannot be read.
 std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options = {});
 
 /// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input)

@@ -11,10 +11,16 @@
 
 namespace phos {
 
-Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point) {
+Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point, const Vec3& towards) {
   const Material& material = scene.material[point.material];
   if (!material.emits() || !(point.front || material.double_sided)) return Rgb(0);
+  if (const std::int32_t f = scene.instance[point.instance].fitting; f >= 0)
+    return scene.fitting[static_cast<std::size_t>(f)].luminance(towards);
   return material.emission * Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
+}
+
+bool shines_evenly(const Scene& scene, const Instance& instance) {
+  return instance.fitting < 0 && !scene.material[instance.material].emissive.used();
 }
 
 bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
@@ -37,6 +43,12 @@ float spot_falloff(const Light& light, const DVec3& way) {
   // 1 - cos from the chord, which keeps the digits of small angles.
   const DVec3 chord = glm::normalize(way) - glm::normalize(DVec3(light.direction));
   return spot_falloff(light, 1 - 0.5 * glm::dot(chord, chord));
+}
+
+float intensity_share(const Scene& scene, const Light& light, const DVec3& way) {
+  if (light.kind == Light::Kind::spot) return spot_falloff(light, way);
+  if (light.kind != Light::Kind::measured) return 1;
+  return scene.fitting[static_cast<std::size_t>(light.fitting)].share(Vec3(glm::normalize(way)));
 }
 
 namespace {
@@ -95,14 +107,17 @@ Luminaires::Shape Luminaires::make_shape(const Light& light) const {
   const std::size_t n = instance.triangle_count;
   std::vector<double> area(n), mean(n);
   double power = 0, total_area = 0;
+  const Fitting* fitting =
+      light.fitting < 0 ? nullptr : &scene_->fitting[static_cast<std::size_t>(light.fitting)];
   for (std::size_t k = 0; k < n; ++k) {
     const auto triangle = static_cast<std::uint32_t>(instance.first_triangle + k);
     area[k] = corners_of(*scene_, triangle).area_m2();
-    mean[k] = mean_emission(*scene_, triangle);
+    mean[k] = fitting ? fitting->facets()[k].lm_per_m2 : mean_emission(*scene_, triangle);
     power += area[k] * mean[k], total_area += area[k];
   }
-  // A triangle whose probed texels are all dark may still shine somewhere: it keeps a tenth of the mean.
-  const double least = total_area > 0 ? 0.1 * power / total_area : 0;
+  // A triangle whose probed texels are all dark may still shine somewhere: it keeps a tenth of the mean. Not
+  // one of an opening, of which it is known.
+  const double least = !fitting && total_area > 0 ? 0.1 * power / total_area : 0;
   Shape shape;
   shape.cdf.resize(n), shape.facet.resize(n);
   double sum = 0;
@@ -174,6 +189,25 @@ EmissionPoint Luminaires::sample_point(std::size_t i, float u_triangle, const Ve
   return point;
 }
 
+EmissionPoint Luminaires::sample_seen_from(std::size_t i, const Vec3& direction, float u_triangle,
+                                           const Vec2& u) const {
+  const Light& light = scene_->light[i];
+  PHOS_CHECK(light.kind == Light::Kind::area && light.fitting >= 0, "light ", i, " has no opening");
+  const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(light.fitting)];
+  const std::size_t k = fitting.seen_facet(direction, u_triangle);
+  const Facet& facet = shape_[i].facet[k];
+  const float cosine = glm::dot(facet.normal, direction), seen_m2 = fitting.projected_area_m2(direction);
+  EmissionPoint point;
+  point.triangle = scene_->instance[light.instance].first_triangle + static_cast<std::uint32_t>(k);
+  point.position = point_at(facet.corner, sample_triangle(u));
+  point.normal = cosine < 0 ? -facet.normal : facet.normal;
+  point.error_m = facet.error_m;
+  const bool seen = cosine > 0 || (cosine < 0 && scene_->material_of(point.triangle).double_sided);
+  point.density = seen && seen_m2 > 0 ? std::fabs(cosine) / seen_m2 : 0.f;
+  point.luminance = fitting.luminance(direction);
+  return point;
+}
+
 bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                             Illumination& result) const {
   const Light& light = scene_->light[i];
@@ -203,14 +237,16 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     const float cosine = -glm::dot(result.direction, point.normal);
     const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
     if (!(cos_light > 0)) return false;
-    result.value = point.luminance;
+    result.value =
+        light.fitting < 0
+            ? point.luminance
+            : scene_->fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
     result.normal = cosine > 0 ? point.normal : -point.normal;
     result.error_m = point.error_m;
     result.density = point.density * distance2_m2 / cos_light;
     return result.density > 0 && std::isfinite(result.density);
   }
-  float share = 1;
-  if (light.kind == Light::Kind::spot) share = spot_falloff(light, DVec3(from) - DVec3(light.position));
+  const float share = intensity_share(*scene_, light, DVec3(from) - DVec3(light.position));
   result.value = light.intensity * (share / distance2_m2);
   return share > 0 && is_finite(result.value);
 }

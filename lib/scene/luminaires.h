@@ -9,8 +9,11 @@
 
 namespace phos {
 
-/// Luminance leaving a surface point towards the side it is seen from, cd/m2 (0 behind a one-sided emitter).
-Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point);
+/// Luminance leaving a surface point on the side it is seen from, towards a unit direction, cd/m2 (0 behind a
+/// one-sided emitter).
+Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point, const Vec3& towards);
+/// Has what an area light's instance emits one luminance, all over and from everywhere?
+bool shines_evenly(const Scene& scene, const Instance& instance);
 
 /// Luminance of what a ray that leaves the scene sees, cd/m2 (0 without an environment).
 Rgb background_luminance(const Scene& scene, const Vec3& direction);
@@ -20,6 +23,10 @@ Rgb background_luminance(const Scene& scene, const Vec3& direction);
 float spot_falloff(const Light& light, double cos_angle);
 /// The same at a place that lies along `way` (of any length) from the lamp; good for cones down to 1e-6 rad.
 float spot_falloff(const Light& light, const DVec3& way);
+
+/// Factor of the intensity of a light of kind spot or measured towards a place that lies along `way` (of any
+/// length but 0) from the lamp; 1 for a point.
+float intensity_share(const Scene& scene, const Light& light, const DVec3& way);
 
 /// Light arriving at a point from a light's sample, visibility not yet tested.
 struct Illumination {
@@ -73,6 +80,9 @@ class Luminaires {
 
   /// A point on area light i, chosen in proportion to the emitted power of its triangles.
   EmissionPoint sample_point(std::size_t i, float u_triangle, const Vec2& u) const;
+  /// A point on the luminous opening of area light i (which has a fitting), uniform over what of it is seen
+  /// from far away in unit `direction`; the normal is that of the side seen. density 0: nothing is seen.
+  EmissionPoint sample_seen_from(std::size_t i, const Vec3& direction, float u_triangle, const Vec2& u) const;
 
   /// Probability of each light in proportion to its flux (luminance of flux_lm), each at least
   /// `minimum_share`/size(). All equal where no light has any flux.

@@ -14,7 +14,8 @@ namespace {
 
 class Reader {
  public:
-  Reader(std::string path, Scene& scene) : path_(std::move(path)), scene_(scene) {}
+  Reader(std::string path, Scene& scene, GivenLuminaires& given, LuminairesAs as)
+      : path_(std::move(path)), scene_(scene), given_(given), luminaires_as_(as) {}
 
   void read() {
     const Json document = parse_json(read_text(path_), path_);
@@ -94,6 +95,16 @@ class Reader {
       light.cos_inner = std::cos(glm::radians(inner));
       light.cos_outer = std::cos(glm::radians(outer));
     }
+    if (light.kind != Light::Kind::directional) {
+      if (std::shared_ptr<const PhotometricFile> file = given_.find(light.name)) {
+        const DVec3 position(light.position), x(1, 0, 0);
+        const bool point = light.kind == Light::Kind::point;
+        const glm::dmat4 to_world =
+            point ? hanging_down(position, x, 1) : aimed(position, DVec3(light.direction), x);
+        return hang_luminaire(scene_, std::move(file), {light.name, to_world, hue(light.intensity)},
+                              luminaires_as_);
+      }
+    }
     scene_.light.push_back(light);
   }
 
@@ -113,6 +124,8 @@ class Reader {
 
   std::string path_, place_;
   Scene& scene_;
+  GivenLuminaires& given_;
+  LuminairesAs luminaires_as_;
 };
 
 }  // namespace
@@ -121,12 +134,12 @@ std::string obj_lights_path(const std::string& obj_path) {
   return std::filesystem::path(obj_path).replace_extension(".lights.json").string();
 }
 
-void read_obj_lights(const std::string& obj_path, Scene& scene) {
+void read_obj_lights(const std::string& obj_path, GivenLuminaires& given, LuminairesAs as, Scene& scene) {
   const std::string path = obj_lights_path(obj_path);
   std::error_code ignored;
   if (path == obj_path || !std::filesystem::exists(path, ignored)) return;
   try {
-    Reader(path, scene).read();
+    Reader(path, scene, given, as).read();
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error& e) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "scene/hang_luminaire.h"
 #include "scene/scene.h"
 
 namespace phos {
@@ -15,7 +16,8 @@ std::string obj_lights_path(const std::string& obj_path);
 ///                "intensity": number or RGB (cd; directional: lx), "inner_deg", "outer_deg": half angles of
 ///                a spot}]
 ///   "cameras": [{"name", "eye": [m], "target": [m], "up": [3] (0,1,0), "yfov_deg": 45, "aspect": 1}]
-/// Surfaces that shine are materials with Ke, in cd/m2. Throws Error(bad_input) naming the entry.
-void read_obj_lights(const std::string& obj_path, Scene& scene);
+/// Surfaces that shine are materials with Ke, in cd/m2. Lights that `given` names become its luminaires.
+/// Throws Error(bad_input) naming the entry.
+void read_obj_lights(const std::string& obj_path, GivenLuminaires& given, LuminairesAs as, Scene& scene);
 
 }  // namespace phos

@@ -318,7 +318,9 @@ Scene load_obj(const std::string& path, std::string_view bytes, const SceneOptio
   if (options.time_s) scene.time_s = *options.time_s;
   if (options.frame) scene.time_s = *options.frame / scene.frames_per_s;
   ObjReader(scene).read(bytes);
-  read_obj_lights(path, scene);
+  GivenLuminaires given(options.luminaires);
+  read_obj_lights(path, given, options.luminaires.as, scene);
+  given.require_all_found();
   return scene;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/json.h"
 #include "core/vector.h"
+#include "scene/fitting.h"
 
 namespace phos {
 
@@ -107,6 +108,9 @@ struct Instance {
   std::uint32_t material = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
   Mat4 to_world{1};
+  /// Of Scene::fitting: the luminous opening of a luminaire, which shines as its distribution says, not
+  /// evenly. Its material is its own. -1: none.
+  std::int32_t fitting = -1;
 };
 
 struct Triangle {
@@ -115,17 +119,21 @@ struct Triangle {
 
 /// A luminaire: the unit of power sharing. Angles in radians, directions point the way light travels.
 struct Light {
-  enum class Kind : std::uint8_t { area, point, spot, directional, environment };
+  /// measured: from a point, by the distribution of a luminaire (fitting). One with an opening is an area.
+  enum class Kind : std::uint8_t { area, point, spot, directional, environment, measured };
   Kind kind = Kind::point;
   std::string name;
   Vec3 position{0};
-  Vec3 direction{0, 0, -1};
-  Rgb intensity{0};  ///< point, spot: cd (on the axis). directional: lx on a plane facing it. Others: unused
+  Vec3 direction{0, 0, -1};  ///< measured: where the luminaire's down points
+  /// point, spot: cd (on the axis). measured: cd in the brightest direction (filled by finalize).
+  /// directional: lx on a plane facing it. Others: unused
+  Rgb intensity{0};
   /// Spot cone, cosines of the half angles; glTF's smooth falloff. In double: in float no cone is thinner
   /// than 3e-4 rad.
   double cos_inner = 1, cos_outer = 0;
   std::uint32_t instance = 0;  ///< area: which instance shines
   float area_m2 = 0;           ///< area: one side
+  std::int32_t fitting = -1;   ///< of Scene::fitting: measured, or area (then its instance's); -1: none
   Rgb flux_lm{0};  ///< total emitted; directional, environment: through the scene's bounding disc (filled by
                    ///< finalize)
   /// Has an extent as seen from a point, so that more than one sample of it is worth while; else it lights
@@ -175,6 +183,7 @@ struct Scene {
   std::vector<Texture> texture;
   std::vector<std::shared_ptr<const MerlBrdf>> measured;
   std::vector<Light> light;
+  std::vector<Fitting> fitting;
   std::shared_ptr<const Environment> environment;  ///< null: black. One of the lights stands for it
   std::vector<Camera> camera;
   std::vector<Animation> animation;
@@ -195,8 +204,9 @@ struct Scene {
 };
 
 /// Completes a scene whose geometry, materials, punctual lights and cameras are set: makes absent normals,
-/// area lights from emitting instances, fluxes, bounds, hash and parts. Throws Error(bad_input) for indices
-/// out of range or non-finite positions. Loader and tests use it alike.
+/// area lights from emitting instances, fluxes, surfaces of luminous openings and their mean luminance,
+/// bounds, hash and parts. Throws Error(bad_input) for indices out of range or non-finite positions. Loader
+/// and tests use it alike.
 void finalize(Scene& scene);
 
 /// Geometric normal by winding (unit; zero for a degenerate triangle) and area in m2.

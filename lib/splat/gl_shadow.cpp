@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "scene/environment.h"
 #include "scene/luminaires.h"
+#include "scene/photometry.h"
 #include "scene/shading_frame.h"
 #include "splat/gl_renderer.h"
 #include "splat/shaders.h"
@@ -17,7 +18,16 @@
 namespace phos {
 namespace {
 
-enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3 };
+enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
+
+/// Shares of a colour by degrees: of azimuth, and from straight down. Rows of `axes` are a luminaire's x, y,
+/// up.
+struct ShareMap {
+  static constexpr int kWidth = 361, kHeight = 181;
+  std::vector<float> share;  // 1 at most
+  float greatest = 0;        // what 1 stands for, in shares of the peak intensity (of solids, per m2)
+  Mat3 axes{1};
+};
 
 /// One position that light comes from, with the views that its shadow map is made of.
 struct ShadowSample {
@@ -25,6 +35,7 @@ struct ShadowSample {
   Vec3 forward{0, 0, -1};
   Rgb colour{0};  // as the shader wants it
   Vec2 cone{0, 1};
+  const ShareMap* map = nullptr;
   bool two_sided = false;
   std::vector<GlView> faces;
   float bias = 0;
@@ -102,6 +113,53 @@ ShadowSample area_sample(const Scene& scene, const Luminaires& luminaires, std::
   return sample;
 }
 
+/// Of a solid opening, its luminance; of a flat one or a point, the intensity.
+ShareMap share_map(const Fitting& fitting, bool solid) {
+  ShareMap map;
+  map.axes = glm::transpose(fitting.axes());
+  for (int y = 0; y < ShareMap::kHeight; ++y) {
+    for (int x = 0; x < ShareMap::kWidth; ++x) {
+      const Vec3 d = fitting.axes() * c_gamma_direction(x, y);
+      const float area_m2 = solid ? fitting.projected_area_m2(d) : 1.f;
+      map.share.push_back(area_m2 > 0 ? fitting.share(d) / area_m2 : 0.f);
+    }
+  }
+  map.greatest = *std::max_element(map.share.begin(), map.share.end());
+  for (float& v : map.share) v = map.greatest > 0 ? v / map.greatest : 0.f;
+  return map;
+}
+
+bool is_solid(const Scene& scene, const Light& light) {
+  return light.kind == Light::Kind::area && !scene.fitting[static_cast<std::size_t>(light.fitting)].flat();
+}
+
+/// A luminaire's light from the k-th of `count` places on its opening; from a point there is one.
+ShadowSample luminaire_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
+                              int count, int map_size, const ShareMap& map) {
+  const Light& light = scene.light[i];
+  const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
+  ShadowSample sample;
+  sample.kind = SampleKind::map;
+  sample.map = &map;
+  sample.colour = Rgb(DVec3(fitting.peak_cd()) * static_cast<double>(map.greatest));
+  Vec3 eye = light.position;
+  std::int64_t instance = -1;
+  if (light.kind == Light::Kind::area) {
+    const Vec3 u = even_point(k, count);
+    const EmissionPoint point = luminaires.sample_point(i, u.z, Vec2(u));
+    if (!(point.density > 0)) return {};
+    const bool solid = is_solid(scene, light);
+    if (solid) sample.kind = SampleKind::area_map;
+    sample.forward = point.normal;
+    sample.colour = Rgb(DVec3(sample.colour) / (count * (solid ? static_cast<double>(point.density) : 1.0)));
+    const bool two_sided = scene.material_of(point.triangle).double_sided;
+    eye = two_sided ? point.position : point.position + point.error_m * point.normal;
+    instance = light.instance;
+  }
+  add_views(scene, sample, eye, 6, 1, instance, map_size);
+  return sample;
+}
+
 ShadowSample punctual_sample(const Scene& scene, const GBuffer& gbuffer, const Light& light, int map_size) {
   ShadowSample sample;
   sample.colour = light.intensity;
@@ -153,7 +211,16 @@ struct GlRenderer::ShadowPass {
   Impl& impl;
   const GlPictureTarget& target;
   int map_size;
-  GlObject maps, framebuffer;
+  GlObject maps, framebuffer, share;
+
+  /// Binds the map that the samples from here on have.
+  void take(const ShareMap& map) {
+    const Gl& gl = impl.context.gl();
+    if (!share) share = make_texture(gl, GL_R32F, ShareMap::kWidth, ShareMap::kHeight);
+    gl.TextureSubImage2D(share.id(), 0, 0, 0, ShareMap::kWidth, ShareMap::kHeight, GL_RED, GL_FLOAT,
+                         map.share.data());
+    gl.BindTextureUnit(4, share.id());
+  }
 
   void draw_maps(const ShadowSample& sample) const {
     const Gl& gl = impl.context.gl();
@@ -188,6 +255,7 @@ struct GlRenderer::ShadowPass {
     program.set("colour", sample.colour);
     program.set("forward", sample.forward);
     program.set("cone", sample.cone);
+    if (sample.map) program.set("luminaire_axes", std::span(&sample.map->axes, 1));
     program.use();
     impl.bind_for_sum(target);
     gl.BindTextureUnit(3, maps.id());
@@ -212,7 +280,7 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   const GlPictureTarget& target = impl_->picture_target(gbuffer);
   gl.TextureSubImage2D(target.facet.id(), 0, 0, 0, gbuffer.width, gbuffer.height, GL_RGBA, GL_FLOAT,
                        facets(scene, gbuffer).data());
-  ShadowPass pass{*impl_, target, size, make_texture_array(gl, GL_DEPTH_COMPONENT32F, size, size, 6), {}};
+  ShadowPass pass{*impl_, target, size, make_texture_array(gl, GL_DEPTH_COMPONENT32F, size, size, 6), {}, {}};
   gl.TextureParameteri(pass.maps.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   GLuint framebuffer = 0;
   gl.CreateFramebuffers(1, &framebuffer);
@@ -227,9 +295,15 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   Progress progress("shadow maps", total, "maps");
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     const Light& light = scene.light[i];
+    ShareMap map;
+    if (light.fitting >= 0) {
+      map = share_map(scene.fitting[static_cast<std::size_t>(light.fitting)], is_solid(scene, light));
+      pass.take(map);
+    }
     for (int k = 0; k < (light.extended() ? light_samples : 1); ++k) {
       throw_if_interrupted();
-      pass.add(light.kind == Light::Kind::area ? area_sample(scene, luminaires, i, k, light_samples, size)
+      pass.add(light.fitting >= 0 ? luminaire_sample(scene, luminaires, i, k, light_samples, size, map)
+               : light.kind == Light::Kind::area ? area_sample(scene, luminaires, i, k, light_samples, size)
                : light.kind == Light::Kind::environment
                    ? environment_sample(scene, gbuffer, k, light_samples, size)
                    : punctual_sample(scene, gbuffer, light, size));

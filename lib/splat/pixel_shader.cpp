@@ -31,7 +31,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   const std::int64_t index = sample.index + (sample.at_edge ? options_.pixel_samples : 0);
   RandomStream random(options_.seed, Stage::specular,
                       sample.pixel * static_cast<std::uint64_t>(most) + static_cast<std::uint64_t>(index));
-  light.emission = emitted_luminance(rays_.scene(), point);
+  light.emission = emitted_luminance(rays_.scene(), point, wo);
   light.albedo = bsdf.diffuse_reflectance();
   if (bsdf.has_diffuse()) {
     ++result.looked_up;

@@ -179,6 +179,8 @@ layout(binding = 0) uniform sampler2D position_map;   // w = 0 where nothing is 
 layout(binding = 1) uniform sampler2D normal_map;
 layout(binding = 2) uniform sampler2D facet_map;      // geometric normal on the seen side
 layout(binding = 3) uniform sampler2DArray depth_map;
+layout(binding = 4) uniform sampler2D share_map;      // of colour, by degrees of azimuth and from straight down
+uniform mat3 luminaire_axes;  // rows are its x, y and up
 uniform int face_count;
 uniform mat3 axes[6];
 uniform vec3 eye;
@@ -186,7 +188,7 @@ uniform vec4 lens;
 uniform vec2 depth;
 uniform int perspective;
 uniform float bias;          // half a texel: of the distance (perspective), or of the depth range
-uniform int kind;            // 0 area, 1 point, 2 spot, 3 directional
+uniform int kind;            // 0 area, 1 point, 2 spot, 3 directional, 4 by map, 5 area by map
 uniform vec3 colour;         // lm/sr over the scale of the scene squared; directional: lx
 uniform vec3 forward;        // normal of an area light; axis of a spot or directional light
 uniform vec2 cone;           // cosines of the outer and the inner half angle
@@ -215,6 +217,19 @@ bool shadowed(vec3 v, vec3 n, int face) {
   return stored > carried + bias;
 }
 
+// What a luminaire's map says of a direction away from it.
+float share_towards(vec3 direction) {
+  vec3 d = luminaire_axes * direction;
+  vec2 size = vec2(textureSize(share_map, 0) - 1);
+  float turn = atan(d.y, d.x) / 6.283185307;
+  vec2 at = vec2(turn - floor(turn), atan(length(d.xy), -d.z) / 3.141592654) * size;
+  ivec2 low = ivec2(clamp(floor(at), vec2(0.0), size - 1.0));
+  vec2 t = at - vec2(low);
+  return mix(mix(texelFetch(share_map, low, 0).r, texelFetch(share_map, low + ivec2(1, 0), 0).r, t.x),
+             mix(texelFetch(share_map, low + ivec2(0, 1), 0).r, texelFetch(share_map, low + ivec2(1, 1), 0).r, t.x),
+             t.y);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 p = texelFetch(position_map, pixel, 0);
@@ -235,7 +250,8 @@ void main() {
     to_light = normalize(eye - p.xyz);
     value /= square;
     float along = -dot(to_light, forward);
-    if (kind == 0) value *= two_sided != 0 ? abs(along) : max(along, 0.0);
+    if (kind >= 4) value *= share_towards(-to_light);
+    if (kind == 0 || kind == 5) value *= two_sided != 0 ? abs(along) : max(along, 0.0);
     if (kind == 2) {
       float falloff = along >= cone.y ? 1.0 : along <= cone.x ? 0.0 : (along - cone.x) / (cone.y - cone.x);
       value *= falloff * falloff;

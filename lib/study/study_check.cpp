@@ -90,6 +90,9 @@ SceneOptions scene_options(const std::vector<std::string>& words) {
     if (words[i] == "--environment") options.environment = words[i + 1];
     if (words[i] == "--environment-rotation") options.environment_rotation_deg = number();
     if (words[i] == "--environment-scale") options.environment_scale = number();
+    if (words[i] == "--luminaire") options.luminaires.of_lights.push_back(words[i + 1]);
+    if (words[i] == "--luminaires-as" && words[i + 1] == "points")
+      options.luminaires.as = LuminairesAs::points;
     if (words[i] == "--time") options.time_s = number();
     if (words[i] == "--frame") options.frame = number();
   }
