@@ -172,7 +172,7 @@ struct Options::Impl {
       Json o;
       o["name"] = d.name, o["kind"] = d.kind, o["unit"] = d.unit, o["help"] = d.help;
       o["default"] = d.is_input ? Json() : d.value();
-      o["required"] = d.required, o["recorded"] = d.recorded == Recorded::yes;
+      o["required"] = d.required, o["recorded"] = d.recorded != Recorded::no;
       if (!d.is_input) o["section"] = d.section;
       if (!d.short_name.empty()) o["short"] = d.short_name;
       if (!d.choices.empty()) o["choices"] = Json::Array(d.choices.begin(), d.choices.end());
@@ -270,6 +270,15 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
                  ->expected(1)
                  ->take_all()
                  ->allow_extra_args(false);
+}
+
+void Options::named_files(const std::string& name, std::vector<std::string>& value, const std::string& help) {
+  list(name, value, "NAME=FILE", help, Recorded::if_given);
+  impl_->declarations.back().value = [&value] {
+    Json names = Json::Array{};
+    for (const std::string& s : value) names.push_back(s.substr(0, s.find('=')));
+    return names;
+  };
 }
 
 void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {
@@ -381,7 +390,8 @@ bool Options::given(const std::string& name) const {
 Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations)
-    if (d.recorded == Recorded::yes) all[d.name] = d.value();
+    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && given(d.name)))
+      all[d.name] = d.value();
   return all;
 }
 

@@ -15,8 +15,9 @@
 namespace phos {
 
 /// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths,
-/// threads).
-enum class Recorded { yes, no };
+/// threads). if_given: only where it was given, so that commands that do without are what they were before
+/// there was such an option.
+enum class Recorded { yes, no, if_given };
 
 struct Range {
   double lo = -std::numeric_limits<double>::infinity();
@@ -52,6 +53,8 @@ class Options {
             const std::string& help, Recorded = Recorded::yes);
   /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
   void file(const std::string& name, std::string& value, const std::string& help, bool required = false);
+  /// NAME=FILE; may be given several times, or once with commas. NAMEs are recorded, if given, FILEs never.
+  void named_files(const std::string& name, std::vector<std::string>& value, const std::string& help);
   /// One of named values.
   template <class E>
   void choice(const std::string& name, E& value, const std::vector<std::pair<std::string, E>>& values,

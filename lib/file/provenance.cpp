@@ -114,6 +114,11 @@ std::string scene_change(const Json& then, const Json& now) {
   if (sky_then == nullptr && sky_now != nullptr) return "it had no --environment";
   if (sky_then != nullptr && !(*sky_then == *sky_now))
     return "another --environment, or its rotation or scale";
+  const Json *lamps_then = then.find("luminaires"), *lamps_now = now.find("luminaires");
+  if (lamps_then != nullptr && lamps_now == nullptr)
+    return "it had measured luminaires; give the same --luminaire";
+  if (lamps_then == nullptr && lamps_now != nullptr) return "it had no measured luminaire (--luminaire)";
+  if (lamps_then != nullptr && !(*lamps_then == *lamps_now)) return "another --luminaire, or --luminaires-as";
   const std::string node = node_change(then.find("nodes"), now.find("nodes"));
   if (!node.empty()) return node;
   for (const char* part : {"geometry", "materials", "lights"}) {

@@ -6,6 +6,7 @@
 #include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/merl.h"
+#include "scene/photometry.h"
 
 namespace phos {
 namespace {
@@ -124,6 +125,18 @@ std::string hash_environment(const Environment* environment) {
   return hasher.finish().hex();
 }
 
+/// Of what measured luminaires do, wherever they hang; empty where there are none.
+std::string hash_luminaires(const Scene& scene) {
+  if (scene.fitting.empty()) return {};
+  Hasher hasher;
+  for (const Fitting& fitting : scene.fitting) {
+    hasher.add(fitting.photometry().hash());
+    add_vector(hasher, fitting.colour());
+  }
+  for (const Instance& instance : scene.instance) hasher.add(instance.fitting);
+  return hasher.finish().hex();
+}
+
 std::string hash_lights(const Scene& scene) {
   Hasher hasher;
   for (const Light& light : scene.light) add_light(hasher, scene, light);
@@ -168,6 +181,8 @@ void fill_hash(Scene& scene) {
   parts["materials"] = materials;
   parts["lights"] = lights;
   if (!environment.empty()) parts["environment"] = environment;
+  if (const std::string luminaires = hash_luminaires(scene); !luminaires.empty())
+    parts["luminaires"] = luminaires;
   if (scene.origin_m != DVec3(0)) parts["origin_m"] = origin_json(scene.origin_m);
   parts["time"] = scene.time_s + 0.0;
   if (Json nodes = hash_nodes(scene); !nodes.is_null()) parts["nodes"] = std::move(nodes);

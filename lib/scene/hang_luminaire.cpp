@@ -9,16 +9,6 @@
 namespace phos {
 namespace {
 
-struct Word {
-  std::string light, file;
-};
-Word parts_of(const std::string& word) {
-  const std::size_t at = word.find('=');
-  if (at == std::string::npos || at == 0 || at + 1 == word.size())
-    throw Error(ExitCode::usage, "--luminaire", text("\"", word, "\" is not of the form NAME=FILE"));
-  return {word.substr(0, at), word.substr(at + 1)};
-}
-
 glm::dmat4 matrix(const DVec3& x, const DVec3& y, const DVec3& z, const DVec3& position) {
   return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
@@ -40,39 +30,9 @@ Mat3 unit_axes(const glm::dmat4& m) {
 
 }  // namespace
 
-void declare_options(Options& options, LuminaireOptions& luminaires) {
-  options.list(
-      "luminaire", luminaires.of_lights, "NAME=FILE",
-      "gives a point or spot light of the scene, or one of EXT_lights_ies, the measured distribution and "
-      "lumens of a luminaire: IES LM-63 (.ies) or EULUMDAT (.ldt); point lights then hang straight down, "
-      "their C0 along the node's x axis, spots shine where they did; several may be given; give them to "
-      "every stage",
-      Recorded::no);
-  options.choice(
-      "luminaires-as", luminaires.as,
-      {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
-      "what of measured luminaires shines: the luminous opening that the file states (right near by, and "
-      "seen in pictures), or a point");
-}
-
-std::vector<std::string> luminaire_files(const LuminaireOptions& options) {
-  std::vector<std::string> files;
-  for (const std::string& word : options.of_lights)
-    for (std::string& file : photometric_files(parts_of(word).file)) files.push_back(std::move(file));
-  return files;
-}
-
-std::vector<std::string> luminaire_words(const LuminaireOptions& options) {
-  std::vector<std::string> words;
-  for (const std::string& word : options.of_lights) words.insert(words.end(), {"--luminaire", word});
-  if (options.as == LuminairesAs::points) words.insert(words.end(), {"--luminaires-as", "points"});
-  return words;
-}
-
 GivenLuminaires::GivenLuminaires(const LuminaireOptions& options) {
   std::map<std::string, std::shared_ptr<const PhotometricFile>> read;
-  for (const std::string& word : options.of_lights) {
-    const Word w = parts_of(word);
+  for (const LuminaireOfLight& w : luminaires_of_lights(options)) {
     if (file_.count(w.light))
       throw Error(ExitCode::usage, "--luminaire", text("is given twice for the light \"", w.light, "\""));
     std::shared_ptr<const PhotometricFile>& file = read[w.file];

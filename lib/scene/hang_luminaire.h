@@ -1,4 +1,4 @@
-// Luminaires of measured distribution: given to lights by name on the command line, and hung in a scene.
+// Luminaires of measured distribution, hung in a scene.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -7,24 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
+#include "scene/luminaire_options.h"
 #include "scene/photometric_file.h"
 #include "scene/scene.h"
 
 namespace phos {
-
-/// What shines: the luminous opening that the file states, or a point always.
-enum class LuminairesAs { openings, points };
-
-struct LuminaireOptions {
-  std::vector<std::string> of_lights;  ///< NAME=FILE
-  LuminairesAs as = LuminairesAs::openings;
-};
-void declare_options(Options& options, LuminaireOptions& luminaires);
-/// Files that the options name, and those that these name, as far as they exist.
-std::vector<std::string> luminaire_files(const LuminaireOptions& options);
-/// The words of a command line that mean the same.
-std::vector<std::string> luminaire_words(const LuminaireOptions& options);
 
 /// The distributions that options give to lights. Reads each file once; its warnings go to the first scene.
 class GivenLuminaires {

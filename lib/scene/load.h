@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
-#include "scene/hang_luminaire.h"
+#include "scene/luminaire_options.h"
 #include "scene/scene.h"
 
 namespace phos {

@@ -196,7 +196,8 @@ struct Scene {
   Bounds bounds;
   std::string hash;  ///< of everything that changes the light (not cameras, not names)
   Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}};
-                     ///< "environment":hash and "origin_m":[x,y,z] where there is one
+               ///< "environment":hash, "luminaires":hash (of their distributions) and "origin_m":[x,y,z]
+               ///< where there are any
 
   const Material& material_of(std::uint32_t tri) const {
     return material[instance[triangle_instance[tri]].material];

@@ -29,6 +29,12 @@
 #define LLVMFuzzerTestOneInput read_hdr_bytes
 #include "fuzz/fuzz_hdr.cpp"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput read_ies_bytes
+#include "fuzz/fuzz_ies.cpp"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput read_ldt_bytes
+#include "fuzz/fuzz_ldt.cpp"
+#undef LLVMFuzzerTestOneInput
 #define LLVMFuzzerTestOneInput read_irradiance_bytes
 #include "fuzz/fuzz_irradiance.cpp"
 #undef LLVMFuzzerTestOneInput
@@ -69,8 +75,10 @@ const std::map<std::string, Reader>& readers() {
                                                  {"film", read_film_bytes},
                                                  {"gltf", read_gltf_bytes},
                                                  {"hdr", read_hdr_bytes},
+                                                 {"ies", read_ies_bytes},
                                                  {"irradiance", read_irradiance_bytes},
                                                  {"json", read_json_bytes},
+                                                 {"ldt", read_ldt_bytes},
                                                  {"merl", read_merl_bytes},
                                                  {"obj", read_obj_bytes},
                                                  {"photons", read_photons_bytes},
@@ -142,6 +150,10 @@ std::vector<Case> small_files_that_ask_for_much() {
       {"Radiance", "hdr", "#?RADIANCE\n\n-Y 99999999 +X 99999999\n\1\2\3\4"},
       {"Radiance, one row", "hdr", "#?RADIANCE\n\n-Y 1 +X 999999999\n\1\2\3\4"},
       {"Radiance, environment", "environment", "#?RADIANCE\n\n-Y 30000 +X 60000\n\2\2\x0a\xaa"},
+      {"LM-63, angles", "ies",
+       "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 1000000000 1000000000 1 2 0 0 0\n1 1 1\n0 1\n"},
+      {"LM-63, tilt angles", "ies", "IESNA91\nTILT=INCLUDE\n1\n1000000000\n0 1 2\n"},
+      {"EULUMDAT, planes", "ldt", "a\n1\n0\n100000\n0\n100000\n0\nb\nc\nd\ne\nf\n1\n1\n1\n1\n1\n1\n"},
       {"MERL", "merl", word(0x7fffffff, 4) + word(0x7fffffff, 4) + word(0x7fffffff, 4)},
       {"MERL, all but the sizes is missing", "merl", word(90, 4) + word(90, 4) + word(180, 4)},
       {"a header", "container", word(std::uint64_t{1} << 40, 8) + "{"},

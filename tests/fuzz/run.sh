@@ -10,7 +10,7 @@ seconds=${1:-600}
 [ $# -gt 0 ] && shift
 build=${FUZZ_BUILD:-build/fuzz}
 work=${FUZZ_WORK:-$build/fuzz}
-all="container photons irradiance radiance brdf film gltf obj texture exr hdr png environment merl csv json toml"
+all="container photons irradiance radiance brdf film gltf obj texture exr hdr png environment merl ies ldt csv json toml"
 fuzzers=${*:-$all}
 
 [ -f "$build/build.ninja" ] || cmake --preset fuzz -B "$build" >/dev/null
@@ -41,6 +41,8 @@ seed texture $(small $shared/conformance -name '*.png' -o -name '*.jpg') $(damag
 seed png $(small $shared/conformance -name '*.png') $(damaged png)
 seed hdr $(small data $shared -name '*.hdr') $(damaged hdr)
 seed exr $(small data $shared -name '*.exr') $(damaged exr)
+seed ies $(small data $shared/ies -name '*.ies') $(damaged ies)
+seed ldt $(small data $shared/ies -name '*.ldt') $(damaged ldt)
 seed environment $(small data $shared -name '*.hdr' -o -name '*.exr') $(damaged environment)
 seed json $(small data -name '*.json') $(damaged json)
 seed toml $(small pipelines $shared -name '*.toml') $(damaged toml)

@@ -338,6 +338,7 @@ TEST(Lights, FluxOfEveryKind) {
   for (const Light& l : s.light) {
     switch (l.kind) {
       case Light::Kind::environment:
+      case Light::Kind::measured:
         ADD_FAILURE() << "there is none in the file";
         break;
       case Light::Kind::area:

@@ -81,10 +81,10 @@ TEST(AreaLight, ShinesFromItsFrontUnlessDoubleSided) {
   EXPECT_EQ(light.value, Rgb(7));
   SurfacePoint point;
   point.front = false;
-  EXPECT_EQ(emitted_luminance(scene, point), Rgb(0));
+  EXPECT_EQ(emitted_luminance(scene, point, point.geometric_normal), Rgb(0));
   scene.material[0].double_sided = true;
   EXPECT_TRUE(Luminaires(scene).illuminate(0, Vec3(0), 0.5f, {0.4f, 0.2f}, light));
-  EXPECT_EQ(emitted_luminance(scene, point), Rgb(7));
+  EXPECT_EQ(emitted_luminance(scene, point, point.geometric_normal), Rgb(7));
 }
 
 TEST(AreaLight, DensityOfAHitIsThatOfTheSample) {

@@ -1,0 +1,48 @@
+#include "scene/luminaire_options.h"
+
+#include "core/error.h"
+#include "scene/photometric_file.h"
+
+namespace phos {
+
+void declare_options(Options& options, LuminaireOptions& luminaires) {
+  options.named_files(
+      "luminaire", luminaires.of_lights,
+      "gives a point or spot light of the scene, or one of EXT_lights_ies, the measured distribution and "
+      "lumens of a luminaire: IES LM-63 (.ies) or EULUMDAT (.ldt); point lights then hang straight down, "
+      "their C0 along the node's x axis, spots shine where they did; several may be given; give them to "
+      "every stage");
+  options.choice(
+      "luminaires-as", luminaires.as,
+      {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
+      "what of measured luminaires shines: the luminous opening that the file states (right near by, and "
+      "seen in pictures), or a point",
+      Recorded::if_given);
+}
+
+std::vector<std::string> luminaire_files(const LuminaireOptions& options) {
+  std::vector<std::string> files;
+  for (const LuminaireOfLight& w : luminaires_of_lights(options))
+    for (std::string& file : photometric_files(w.file)) files.push_back(std::move(file));
+  return files;
+}
+
+std::vector<std::string> luminaire_words(const LuminaireOptions& options) {
+  std::vector<std::string> words;
+  for (const std::string& word : options.of_lights) words.insert(words.end(), {"--luminaire", word});
+  if (options.as == LuminairesAs::points) words.insert(words.end(), {"--luminaires-as", "points"});
+  return words;
+}
+
+std::vector<LuminaireOfLight> luminaires_of_lights(const LuminaireOptions& options) {
+  std::vector<LuminaireOfLight> out;
+  for (const std::string& word : options.of_lights) {
+    const std::size_t at = word.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == word.size())
+      throw Error(ExitCode::usage, "--luminaire", text("\"", word, "\" is not of the form NAME=FILE"));
+    out.push_back({word.substr(0, at), word.substr(at + 1)});
+  }
+  return out;
+}
+
+}  // namespace phos
