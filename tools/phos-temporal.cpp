@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
             "lobes are projected here); and for irradiance records the radiance film of the same frames, "
             "whose surfaces then "
             "get none of their own.",
-            3);
+            4);
   std::vector<std::string> paths;
   std::string frames, isa;
   SceneOptions scene_options;
@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
     const IrradianceFiles files = sort_inputs(paths);
     add_inputs(tool, files, scene_options);
     refuse_inputs(files);
-    job.options.resolve(options, records.estimate);
+    job.of_radiance = kind == Kind::radiance;
+    job.options.resolve(options, records.estimate, job.of_radiance);
     if (tool.up_to_date()) return;
 
     {
@@ -88,7 +89,6 @@ int main(int argc, char** argv) {
     }
     FrameScenes scenes(files.scene, scene_options, isa);
     const std::shared_ptr<const FrameScene> first = scenes.at(range.first);
-    job.of_radiance = kind == Kind::radiance;
     job.light.radiance = radiance_options(records, options);
     records.resolve(first->scene.bounds.diagonal_m());
     job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numeric>
 
 #include "cache/placer.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "temporal/visible_places.h"
 
 namespace phos {
 namespace {
@@ -82,20 +84,17 @@ void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& sh
   const std::int64_t step = std::max<std::int64_t>(1, (end - begin) / kLooks);
   for (std::int64_t f = begin; f < end; f += step) looks.push_back(f);
   if (end == shot.last && (looks.empty() || looks.back() != end)) looks.push_back(end);
-  const std::vector<std::size_t> wanted = place_at(begin, looks);
+  std::vector<std::size_t> wanted = place_at(begin, looks);
   std::uint64_t shown = frames / 3;
   progress.advance(shown);
   if (floor_ == 0) set_floor();
   if (begin < end) {
     end_vanished(wanted, begin, end);
     progress.advance(frames / 3), shown += frames / 3;
-    std::vector<Segment> segments;
-    for (const std::size_t i : wanted) {
-      const std::vector<Key>& keys = chains_[i].keys;
-      for (std::size_t k = 1; k < keys.size(); ++k)
-        if (keys[k - 1].frame >= begin) segments.push_back({i, keys[k - 1].frame, keys[k].frame, 0});
-    }
-    if (options_.checks > 0) refine(std::move(segments));
+    refine(wanted, begin);
+    if (task_.placement.place == Place::view)
+      for (const std::int64_t look : looks)
+        if (look > begin && look < end) cover(wanted, begin, end, look);
   }
   progress.advance(frames - shown);
   if (end == shot.last)
@@ -167,8 +166,77 @@ void FilmMaker::end_vanished(std::span<const std::size_t> chains, std::int64_t b
   for (const std::size_t i : open) chains_[i].keys.back().until = chains_[i].keys.back().frame + 1;
 }
 
-/// Halves segments where the light in their middle is not what lies between their ends.
-void FilmMaker::refine(std::vector<Segment> segments) {
+/// Begins chains by keys at a frame before their first.
+void FilmMaker::begin_at(std::span<const std::size_t> chains, std::int64_t frame) {
+  if (chains.empty()) return;
+  std::vector<std::size_t> there;
+  std::vector<Made> made;
+  FrameLight& light = lights_.at(frame);
+  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    std::vector<Key>& all = chains_[there[i]].keys;
+    keys[i].until = all.front().frame;
+    all.insert(all.begin(), std::move(keys[i]));
+  }
+}
+
+/// Begins chains, whose first keys are at `end`, at the first frame from `begin` on at which their surface
+/// has an area.
+void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end) {
+  std::vector<std::size_t> open(chains.begin(), chains.end());
+  for (std::int64_t f = begin; f < end && !open.empty(); ++f) {
+    const Scene& scene = lights_.scene_at(f).scene;
+    std::vector<std::size_t> there;
+    std::erase_if(open, [&](std::size_t i) {
+      Pose pose;
+      if (!site_of(chains_[i], scene, pose)) return false;
+      there.push_back(i);
+      return true;
+    });
+    begin_at(there, f);
+  }
+}
+
+/// Places what the view of the frame `look` lacks. Of records that were placed at `begin` the zones are
+/// smaller where something has come near since.
+void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
+                      std::int64_t look) {
+  FrameLight& light = lights_.at(look);
+  std::vector<Chain> chains;
+  for (const std::size_t i : wanted) chains.push_back(chains_[i]);
+  FilmInfo info;
+  info.frames = {look, look}, info.max_life = options_.max_life;
+  info.temporal_accuracy = options_.temporal_accuracy;
+  info.accuracy = task_.records.accuracy, info.gradients = TemporalGradients::interpolated;
+  IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
+  VisiblePlaces places(light, known, task_.placement, task_.wanted, task_.unwanted,
+                       kFilmItems + next_number_);
+  std::vector<RecordSite> open;
+  for (int sample = 0; sample < kViewSamples; ++sample) {
+    const std::vector<RecordSite> now = places.look(light.at()).now;
+    open.insert(open.end(), now.begin(), now.end());
+  }
+  next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
+  std::vector<Made> made;
+  const std::size_t first_new = chains_.size();
+  add_chains(light, task_.estimator(light), known, open, made);
+  std::vector<std::size_t> added(chains_.size() - first_new);
+  std::iota(added.begin(), added.end(), first_new);
+  begin_appeared(added, begin, look);
+  end_vanished(added, look, end);
+  refine(added, begin);
+  wanted.insert(wanted.end(), added.begin(), added.end());
+}
+
+/// Halves what chains have from `begin` on where the light in the middle is not what lies between the ends.
+void FilmMaker::refine(std::span<const std::size_t> chains, std::int64_t begin) {
+  if (options_.checks == 0) return;
+  std::vector<Segment> segments;
+  for (const std::size_t i : chains) {
+    const std::vector<Key>& keys = chains_[i].keys;
+    for (std::size_t k = 1; k < keys.size(); ++k)
+      if (keys[k - 1].frame >= begin) segments.push_back({i, keys[k - 1].frame, keys[k].frame, 0});
+  }
   while (!segments.empty()) {
     std::erase_if(segments, [](const Segment& s) { return s.end - s.begin < 2; });
     std::map<std::int64_t, std::vector<Segment>> by_middle;
@@ -228,8 +296,9 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
   if (missed2 == 0) return share = 0, true;
   share = allowed > 0 ? std::sqrt(missed2) / allowed : kInfinity;
   // What noise alone would do (of the three estimates: 3/2 of its variance; twice its deviation) is no
-  // change. What they have in common of it, that of the photons behind them, does nothing;
-  // how much that is of each band of radiance is not known.
+  // change. What they have in common of it, that of the photons behind them, does nothing; how much that is
+  // of each band of radiance is not known. There noise, most of it in the highest bands, hides all but large
+  // changes: FilmOptions::checks does what this cannot.
   return missed2 <= allowed * allowed + 6 * noise2;
 }
 

@@ -103,12 +103,17 @@ class FilmMaker {
     std::int64_t begin, end;
     std::int64_t depth;  ///< halvings before it
   };
+  /// Chains whose first keys are at `end`, and that may begin at `begin`.
+  struct Late {
+    std::vector<std::size_t> chains;
+    std::int64_t begin = 0, end = 0;
+  };
   void block(std::int64_t begin, std::int64_t end, const FrameRange& shot, Progress& progress);
   void frame_by_rate(std::int64_t frame, const FrameRange& shot);
   void live(Key& key, const Chain& chain, const Made& made, const FrameScene* next, std::int64_t most) const;
   std::vector<std::size_t> there_at(std::int64_t frame);
   std::vector<std::size_t> place_at(std::int64_t frame, std::span<const std::int64_t> looks);
-  void add_late(std::int64_t frame, std::int64_t looked, std::span<const RecordSite> sites,
+  Late add_late(std::int64_t frame, std::int64_t looked, std::span<const RecordSite> sites,
                 std::int64_t begin);
   void add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache& known,
                   std::span<const RecordSite> sites, std::vector<Made>& made);
@@ -118,8 +123,11 @@ class FilmMaker {
   void estimate_anew(std::size_t first, FrameLight& light);
   void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);
+  void begin_at(std::span<const std::size_t> chains, std::int64_t frame);
+  void begin_appeared(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end);
   void end_vanished(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end);
-  void refine(std::vector<Segment> segments);
+  void refine(std::span<const std::size_t> chains, std::int64_t begin);
+  void cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end, std::int64_t look);
   bool is_straight(const Key& from, const Key& middle, const Key& to, double& share) const;
 
   FrameLights& lights_;

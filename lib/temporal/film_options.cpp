@@ -32,8 +32,11 @@ void declare_options(Options& options, FilmOptions& f) {
       "with --lives rate: how the next frame's light is expected: what rays saw, moved; by the same rays in "
       "that frame; or "
       "as it is");
-  options.integer("checks", f.checks, "N",
-                  "with --lives midpoint: halvings of --max-life that are made whatever they show", {0, 20});
+  options.integer(
+      "checks", f.checks, "N",
+      "with --lives midpoint: halvings of --max-life that are made whatever they show; of radiance, "
+      "whose noise hides its changes, 2 unless given",
+      {0, 20});
   options.integer("fade", f.fade, "FRAMES",
                   "in which the first record of a place fades in and the last one out", {0, 1000});
   options.integer("photons", f.photons, "N", "paths from the lights, wherever photons are traced", {0, 1e12});
@@ -44,7 +47,7 @@ void declare_options(Options& options, FilmOptions& f) {
                   {1, 1 << 20});
 }
 
-void FilmOptions::resolve(const Options& given, Estimate estimate) const {
+void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radiance) {
   const auto refuse = [](const char* option, const std::string& message) {
     throw Error(ExitCode::usage, option, message);
   };
@@ -64,6 +67,7 @@ void FilmOptions::resolve(const Options& given, Estimate estimate) const {
   }
   if (gradients == TemporalGradients::extrapolated && look_ahead == LookAhead::none)
     refuse("--look-ahead", "none knows no gradients; use reproject or trace, or --temporal-gradients none");
+  if (of_radiance && !given.given("checks")) checks = 2;
 }
 
 }  // namespace phos

@@ -34,8 +34,9 @@ struct FilmOptions {
   std::int64_t photons =
       100'000;  ///< paths traced at each of those, or at each frame with estimates from photons
 
-  /// Throws Error(usage) for what does not go together.
-  void resolve(const Options& given, Estimate estimate) const;
+  /// Films of radiance are checked twice if nothing is given. Throws Error(usage) for what does not go
+  /// together.
+  void resolve(const Options& given, Estimate estimate, bool of_radiance);
 };
 void declare_options(Options& options, FilmOptions& film);
 

@@ -1,7 +1,6 @@
 // Where a film's records are placed.
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <numeric>
 
 #include "temporal/film_maker.h"
@@ -33,6 +32,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
 
   std::vector<std::size_t> wanted;
   std::vector<Made> made;
+  std::vector<Late> late;
   const std::size_t first_new = chains_.size();
   if (task_.placement.place == Place::view) {
     VisiblePlaces places(light, cache, task_.placement, task_.wanted, task_.unwanted,
@@ -43,7 +43,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
       const std::size_t before = cache.records.size();
       add_chains(light, task_.estimator(light), cache, open.now, made);
       for (std::size_t i = before; i < cache.records.size(); ++i) places.add(cache.records[i]);
-      add_late(f, looked, open.then, frame);
+      late.push_back(add_late(f, looked, open.then, frame));
       looked = f;
     }
     next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
@@ -60,6 +60,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
     add_chains(light, task_.estimator(light), cache, {}, made);
     if (task_.placement.place == Place::photons) estimate_anew(first_new, light);
   }
+  for (const Late& l : late) begin_appeared(l.chains, l.begin, l.end);
   for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
   return wanted;
 }
@@ -96,11 +97,11 @@ void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, Irradi
   }
 }
 
-/// Chains on what has no area at the frame `begin` that the others start from, and is seen at `frame`. Their
-/// first keys lie where their surface first has one, after `looked`, the frame looked at before.
-void FilmMaker::add_late(std::int64_t frame, std::int64_t looked, std::span<const RecordSite> sites,
-                         std::int64_t begin) {
-  if (sites.empty()) return;
+/// Chains on what has no area at the frame `begin` that the others start from, and is seen at `frame`. They
+/// are to begin where their surface first has one, after `looked`, the frame looked at before.
+FilmMaker::Late FilmMaker::add_late(std::int64_t frame, std::int64_t looked,
+                                    std::span<const RecordSite> sites, std::int64_t begin) {
+  if (sites.empty()) return {};
   const std::size_t first_new = chains_.size();
   std::vector<Made> made;
   FrameLight& light = lights_.at(frame);
@@ -116,30 +117,10 @@ void FilmMaker::add_late(std::int64_t frame, std::int64_t looked, std::span<cons
   }
   add_chains(light, task_.estimator(light), known, sites, made);
 
-  std::map<std::int64_t, std::vector<std::size_t>> from;
-  std::vector<std::size_t> there(chains_.size() - first_new);
-  std::iota(there.begin(), there.end(), first_new);
-  for (std::int64_t f = frame - 1; f > looked && !there.empty(); --f) {
-    const Scene& scene = lights_.scene_at(f).scene;
-    std::erase_if(there, [&](std::size_t i) {
-      Pose pose;
-      if (site_of(chains_[i], scene, pose)) return false;
-      if (f + 1 < frame) from[f + 1].push_back(i);
-      return true;
-    });
-  }
-  if (looked + 1 < frame) from[looked + 1].insert(from[looked + 1].end(), there.begin(), there.end());
-  for (const auto& [f, chains] : from) {
-    lights_.at(begin);  // stays in work
-    FrameLight& then = lights_.at(f);
-    std::vector<Key> keys = estimate(chains, then, task_.estimator(then), there, made);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      keys[i].until = frame;
-      std::vector<Key>& all = chains_[there[i]].keys;
-      all.insert(all.begin(), std::move(keys[i]));
-    }
-  }
-  lights_.at(begin);
+  lights_.at(begin);  // stays in work
+  std::vector<std::size_t> added(chains_.size() - first_new);
+  std::iota(added.begin(), added.end(), first_new);
+  return {std::move(added), looked + 1, frame};
 }
 
 /// The first keys of chains from `first` on once more. A record placed at a photon leaves that out, and those
