@@ -188,8 +188,8 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return;
   SurfacePoint found;
   const bool hit = trace(rays_, {point.leave(direction), direction}, found);
-  const Rgb luminance =
-      hit ? emitted_luminance(rays_.scene(), found, -direction) : background_luminance(rays_.scene(), direction);
+  const Rgb luminance = hit ? emitted_luminance(rays_.scene(), found, -direction)
+                            : background_luminance(rays_.scene(), direction);
   if (!(max_component(luminance) > 0)) return;
   const std::int32_t lamp = hit ? lights_.light_of(found.triangle) : lights_.environment();
   if (lamp < 0) return;

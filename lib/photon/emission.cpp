@@ -131,8 +131,8 @@ EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
   return photon;
 }
 
-/// First the direction, by the intensities; then a place on what is seen of the opening from there. All photons
-/// of a luminaire have the same flux.
+/// First the direction, by the intensities; then a place on what is seen of the opening from there. All
+/// photons of a luminaire have the same flux.
 EmittedPhoton Emitter::from_opening(std::size_t i, RandomStream& random) const {
   const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(luminaires_[i].fitting)];
   const Vec3 direction = fitting.sample_direction(random.uniform2());

@@ -67,24 +67,16 @@ using namespace test;
 
 using Reader = int (*)(const std::uint8_t*, std::size_t);
 const std::map<std::string, Reader>& readers() {
-  static const std::map<std::string, Reader> all{{"brdf", read_brdf_bytes},
-                                                 {"container", read_container_bytes},
-                                                 {"csv", read_csv_bytes},
-                                                 {"environment", read_environment_bytes},
-                                                 {"exr", read_exr_bytes},
-                                                 {"film", read_film_bytes},
-                                                 {"gltf", read_gltf_bytes},
-                                                 {"hdr", read_hdr_bytes},
-                                                 {"ies", read_ies_bytes},
-                                                 {"irradiance", read_irradiance_bytes},
-                                                 {"json", read_json_bytes},
-                                                 {"ldt", read_ldt_bytes},
-                                                 {"merl", read_merl_bytes},
-                                                 {"obj", read_obj_bytes},
-                                                 {"photons", read_photons_bytes},
-                                                 {"png", read_png_bytes},
-                                                 {"radiance", read_radiance_bytes},
-                                                 {"texture", read_texture_bytes}};
+  static const std::map<std::string, Reader> all{
+      {"brdf", read_brdf_bytes},         {"container", read_container_bytes},
+      {"csv", read_csv_bytes},           {"environment", read_environment_bytes},
+      {"exr", read_exr_bytes},           {"film", read_film_bytes},
+      {"gltf", read_gltf_bytes},         {"hdr", read_hdr_bytes},
+      {"ies", read_ies_bytes},           {"irradiance", read_irradiance_bytes},
+      {"json", read_json_bytes},         {"ldt", read_ldt_bytes},
+      {"merl", read_merl_bytes},         {"obj", read_obj_bytes},
+      {"photons", read_photons_bytes},   {"png", read_png_bytes},
+      {"radiance", read_radiance_bytes}, {"texture", read_texture_bytes}};
   return all;
 }
 
