@@ -28,7 +28,7 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, Hemisp
     sample_lamps(rays, lights, place, samples, random, worker.lamps);
     add_lamps(worker.lamps, samples, lights, site.normal, options, around);
   }
-  Made made = record_of(site, around, options);
+  Made made = record_of(site, around, options, rays.scene().origin_m);
   // Under a coat the gloss of a hit is signed, and of few rays the sum may be too.
   if (glm::any(glm::lessThan(made.record.irradiance, Rgb(0)))) {
     made.record.irradiance = glm::max(made.record.irradiance, Rgb(0));

@@ -129,13 +129,16 @@ struct RadianceDensityEstimator::Impl {
   RecordMaker zones;
   int order;
   RadianceGradient gradient;
+  DVec3 origin_m;
 };
 
 RadianceDensityEstimator::RadianceDensityEstimator(const PhotonMap& photons, const RayScene& rays,
                                                    const RecordOptions& resolved, int order,
                                                    RadianceGradient gradient, std::uint64_t seed)
-    : impl_(new Impl{
-          {photons, rays, indirect_by_hull(resolved), seed}, require_radiance_order(order), gradient}) {}
+    : impl_(new Impl{{photons, rays, indirect_by_hull(resolved), seed},
+                     require_radiance_order(order),
+                     gradient,
+                     rays.scene().origin_m}) {}
 RadianceDensityEstimator::~RadianceDensityEstimator() = default;
 
 std::unique_ptr<Estimator::Worker> RadianceDensityEstimator::make_worker() const {
@@ -174,7 +177,7 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
   record->position = e.position, record->distance_m = e.distance_m;
   record->radius_m = std::max(made.least_radius_m, within_gradient_m(*record, e.radius_m));
   if (without) record->gradient_x.clear(), record->gradient_y.clear();
-  require_finite(*record);
+  require_finite(impl_->origin_m, *record);
   made.record = irradiance_of(*record);
   made.radiance = std::move(record);
   return made;

@@ -67,7 +67,7 @@ Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemi
   const RadianceGradient gradient = without ? RadianceGradient::hybrid : impl_->gradient;
   RadianceRecord record = w.projector.project(h, gradient, static_cast<float>(*options.min_radius_m));
   record.position = site.position;
-  require_finite(record);
+  require_finite(impl_->rays.scene().origin_m, record);
   const float reach = reach_m(record, h, options);
   if (without) record.gradient_x.clear(), record.gradient_y.clear();
   const float rounding_m = receiver(impl_->rays.scene(), site.position, site.normal).error_m;

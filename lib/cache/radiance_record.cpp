@@ -7,6 +7,7 @@
 #include "cache/radiance_error.h"
 #include "cache/record_of.h"
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/sampling.h"
 #include "hsh/rotation.h"
 
@@ -134,11 +135,11 @@ float shared_part(const Hemisphere& h, const Rgb& stderr_lx) {
   return all > 0 ? static_cast<float>(std::min(1.0, shared * shared / (all * all))) : 0;
 }
 
-void require_finite(const RadianceRecord& r) {
+void require_finite(const DVec3& origin_m, const RadianceRecord& r) {
   if (is_finite(r)) return;
   throw Error(ExitCode::numerical, "",
-              text("radiance at (", r.position.x, ", ", r.position.y, ", ", r.position.z,
-                   ") m exceeds the range of numbers; give the lights or the scene other units"));
+              "radiance at " + place_text(origin_m, r.position) +
+                  " exceeds the range of numbers; give the lights or the scene other units");
 }
 
 float within_gradient_m(const RadianceRecord& record, float radius_m) {

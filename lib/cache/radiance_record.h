@@ -37,8 +37,8 @@ class RadianceProjector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Throws Error(numerical) unless all its numbers are finite.
-void require_finite(const RadianceRecord& record);
+/// Throws Error(numerical), with the record's place in the world, unless all its numbers are finite.
+void require_finite(const DVec3& origin_m, const RadianceRecord& record);
 
 /// Of the variance of a record's luminance of irradiance, what Hemisphere::source makes of it.
 float shared_part(const Hemisphere& h, const Rgb& stderr_lx);

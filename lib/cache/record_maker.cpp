@@ -264,7 +264,7 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   const float next_m = height_over_next_m(rays_, p, place.frame.z, 4 * place.rounding_m, record.radius_m);
   record.radius_m = std::max(least, std::min(record.radius_m, next_m * (1 / kNextSurface)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
-  require_finite(p, record.irradiance, record.stderr_lx, record.rotation_gradient,
+  require_finite(rays_.scene().origin_m, p, record.irradiance, record.stderr_lx, record.rotation_gradient,
                  record.translation_gradient);
   return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};
 }

@@ -4,6 +4,7 @@
 
 #include "cache/gather.h"
 #include "core/error.h"
+#include "core/origin.h"
 
 namespace phos {
 namespace {
@@ -109,20 +110,22 @@ float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient
   return radius_m;
 }
 
-void require_finite(const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
+void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
                     const Vec3 (&rotation_gradient)[3], const Vec3 (&translation_gradient)[3]) {
   bool finite = is_finite(irradiance) && is_finite(stderr_lx);
   for (int c = 0; c < 3; ++c)
     finite = finite && is_finite(rotation_gradient[c]) && is_finite(translation_gradient[c]);
   if (finite) return;
   throw Error(ExitCode::numerical, "",
-              text("irradiance at (", p.x, ", ", p.y, ", ", p.z,
-                   ") m exceeds the range of numbers; give the lights or the scene other units"));
+              "irradiance at " + place_text(origin_m, p) +
+                  " exceeds the range of numbers; give the lights or the scene other units");
 }
 
-Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved) {
+Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved,
+               const DVec3& origin_m) {
   const Vec3& p = site.position;
-  require_finite(p, light.irradiance, light.stderr_lx, light.gradients.rotation, light.gradients.translation);
+  require_finite(origin_m, p, light.irradiance, light.stderr_lx, light.gradients.rotation,
+                 light.gradients.translation);
   IrradianceRecord record;
   record.position = p, record.normal = site.normal;
   record.irradiance = light.irradiance, record.stderr_lx = light.stderr_lx;

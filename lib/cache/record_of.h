@@ -35,13 +35,15 @@ void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires&
 /// channel's own value (A7). Channels much dimmer than the brightest have no say.
 float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient)[3], float radius_m);
 
-/// Throws Error(numerical) unless all that was found at p is finite.
-void require_finite(const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
+/// Throws Error(numerical), with the place in the world, unless all that was found at p, which is counted
+/// from origin_m, is finite.
+void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
                     const Vec3 (&rotation_gradient)[3], const Vec3 (&translation_gradient)[3]);
 
 /// The record of such a place; its radius is the distance, at most max_radius_m, and no more than where the
 /// gradient would change a channel by its own value (A7). Throws Error(numerical) where a value exceeds the
-/// range of numbers.
-Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved);
+/// range of numbers; `origin_m` is the scene's.
+Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved,
+               const DVec3& origin_m = DVec3(0));
 
 }  // namespace phos

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace phos {
 namespace {
 
@@ -46,6 +48,11 @@ double world_number(double origin_m, float v) {
   double world = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), world);
   return world;
+}
+
+std::string place_text(const DVec3& origin_m, const Vec3& p) {
+  return text('(', world_text(origin_m.x, p.x), ", ", world_text(origin_m.y, p.y), ", ",
+              world_text(origin_m.z, p.z), ") m");
 }
 
 Json world_json(const DVec3& origin_m, const Vec3& p) {

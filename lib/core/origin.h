@@ -30,6 +30,8 @@ Vec3 from_world(const DVec3& world_m, const DVec3& origin_m);
 std::string world_text(double origin_m, float v);
 /// The number that this text says.
 double world_number(double origin_m, float v);
+/// A place in a message: "(1, 2, 3) m", in the world.
+std::string place_text(const DVec3& origin_m, const Vec3& p);
 
 /// Three numbers; and back, zero where `parts` (of a scene) has no "origin_m".
 Json world_json(const DVec3& origin_m, const Vec3& p);

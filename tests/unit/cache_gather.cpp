@@ -199,7 +199,15 @@ TEST(RecordOf, EndsWhereTheGradientTakesAll) {
   EXPECT_FLOAT_EQ(without.record.radius_m, 2.5f);
   EXPECT_EQ(without.record.translation_gradient[1], Vec3(0));
   light.irradiance.x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(record_of({}, light, options), Error);
+  RecordSite site;
+  site.position = {0.5f, 1, -2};
+  try {
+    record_of(site, light, options, {400000, 5000000, 0});
+    ADD_FAILURE() << "a record of light that is no number";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::numerical);
+    EXPECT_NE(std::string(e.what()).find("(400000.5, 5000001, -2) m"), std::string::npos) << e.what();
+  }
 }
 
 TEST(Gather, DirectionsLieInTheirCells) {
