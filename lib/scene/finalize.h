@@ -5,6 +5,10 @@
 
 namespace phos {
 
+/// What scene.warnings say of a light too faint for floats beside others; where the brightest is, the scene
+/// is refused.
+inline constexpr const char* kFaintLight = "too little for 32-bit numbers, some of it may be lost";
+
 /// Replaces the area lights by one per emitting instance, and fills area and flux of every light. Needs
 /// bounds.
 void fill_lights(Scene& scene);

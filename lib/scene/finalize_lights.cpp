@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/texture.h"
@@ -57,6 +58,30 @@ void fill_openings(Scene& scene) {
     fitting.set_surface(facets, material.double_sided);
     const double emitting = std::numbers::pi * area * (material.double_sided ? 2 : 1);
     material.emission = area > 0 ? Rgb(DVec3(fitting.flux_lm()) / emitting) : Rgb(0);
+  }
+}
+
+/// From here on estimates hold (tests/extremes/LIMITS.md): what paths share is lumens, lux is lumens over
+/// squares of lengths, and its slopes over cubes. Below, floats begin to lose some of it.
+void require_power(Scene& scene) {
+  constexpr double kLeast_lm = 1e-24, kLeastSlope = 1e-33;  // lm, lm/m3
+  const double size_m = static_cast<double>(scene.bounds.diagonal_m());
+  const Light* brightest = nullptr;
+  for (const Light& light : scene.light)
+    if (!brightest || max_component(light.flux_lm) > max_component(brightest->flux_lm)) brightest = &light;
+  if (!brightest) return;
+  const float flux_lm = max_component(brightest->flux_lm);
+  const double lm = static_cast<double>(flux_lm), slope = size_m > 0 ? lm / (size_m * size_m * size_m) : 1;
+  if (lm < kLeast_lm || slope < kLeastSlope)
+    throw Error(ExitCode::bad_input, scene.path,
+                text("light \"", brightest->name, "\", the brightest, emits ", shortest(flux_lm),
+                     " lm in a scene of ", shortest(scene.bounds.diagonal_m()),
+                     " m: too little for 32-bit numbers; give the lights or the scene other units"));
+  for (const Light& light : scene.light) {
+    const float own_lm = max_component(light.flux_lm);
+    if (static_cast<double>(own_lm) >= kLeast_lm) continue;
+    scene.warnings.push_back(
+        text("light \"", light.name, "\" emits only ", shortest(own_lm), " lm: ", kFaintLight));
   }
 }
 
@@ -141,6 +166,7 @@ void fill_lights(Scene& scene) {
     scene.warnings.push_back("light \"" + light.name + "\" has no intensity: it is ignored");
     return true;
   });
+  require_power(scene);
 }
 
 }  // namespace phos

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scene/describe.h"
 #include "scene/environment.h"
+#include "scene/finalize.h"
 #include "scene/load_textures.h"
 #include "scene/merl.h"
 
@@ -270,6 +271,8 @@ class Linter {
       if (warning.rfind(kTextureNotFound, 0) == 0) {
         add(Level::warning, "texture-not-found", warning,
             "put the image beside the scene, or pack it into a .glb");
+      } else if (warning.find(kFaintLight) != std::string::npos) {
+        add(Level::warning, "light-too-faint", warning, "give it more power, or remove it");
       } else if (warning.find("is ignored") != std::string::npos && warning.rfind("light ", 0) == 0) {
         add(Level::warning, "light-ignored", warning, "give it an area and an intensity, or remove it");
       } else {

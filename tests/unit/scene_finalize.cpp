@@ -182,6 +182,37 @@ TEST(Lint, FindsDarknessReflectanceAndNames) {
   EXPECT_EQ(findings[0].level, Finding::Level::error);
 }
 
+/// Not the powers that are asked for, but those that floats have no digits for.
+TEST(Lights, PowersBelowNumbersAreRefused) {
+  for (const float cd_m2 : {1e-12f, 1e-20f, 1e12f, 1e33f})
+    EXPECT_NO_THROW(finished(box(1, false, cd_m2))) << cd_m2;
+  const auto expect_refused = [](float size_m, float cd_m2) {
+    try {
+      finished(box(size_m, false, cd_m2));
+      ADD_FAILURE() << size_m << " m, " << cd_m2 << " cd/m2";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::bad_input);
+      EXPECT_NE(std::string(e.what()).find("too little for 32-bit numbers; give"), std::string::npos)
+          << e.what();
+    }
+  };
+  for (const float cd_m2 : {1e-37f, 1e-26f}) expect_refused(1, cd_m2);
+  // The same lumens fade where they are spread too far.
+  EXPECT_NO_THROW(finished(box(1e6f, false, 1e-22f)));
+  expect_refused(1e9f, 1e-26f);
+}
+
+TEST(Lights, FaintOnesBesideOthersAreTold) {
+  Scene s = box(1, false, 100);
+  Light lamp;
+  lamp.kind = Light::Kind::point, lamp.name = "spark", lamp.intensity = Rgb(1e-27f);
+  s.light.push_back(lamp);
+  const Scene done = finished(s);
+  EXPECT_EQ(done.light.size(), 2u);
+  EXPECT_TRUE(has(lint_scene(done), "light-too-faint"));
+  EXPECT_FALSE(has(lint_scene(finished(box(1, false, 100))), "light-too-faint"));
+}
+
 TEST(Requires, OnlyWhatTheSceneNeeds) {
   const auto names = [](const Scene& s) {
     std::string out;
