@@ -23,11 +23,12 @@ constexpr double kWorthKeeping = 0.125;
 /// F3: relative changes count against this share of the scene's mean irradiance at least.
 constexpr double kFloorShare = 1e-3;
 
-double norm2(const Rgb& v) { return static_cast<double>(glm::dot(v, v)); }
+/// In double: the square of a faint light is below floats.
+double norm2(const DVec3& v) { return glm::dot(v, v); }
 
 double mean_irradiance(std::span<const Chain> chains) {
   double sum = 0;
-  for (const Chain& c : chains) sum += std::sqrt(norm2(c.keys.front().record.irradiance));
+  for (const Chain& c : chains) sum += std::sqrt(norm2(DVec3(c.keys.front().record.irradiance)));
   return chains.empty() ? 0 : sum / static_cast<double>(chains.size());
 }
 
@@ -285,12 +286,13 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
     }
     const std::vector<float>& error = middle.radiance->stderr_light;
     for (std::size_t i = 0; i < error.size(); ++i)
-      noise2 += static_cast<double>(2 * (i / 3) + 1) * static_cast<double>(error[i] * error[i]);
+      noise2 += static_cast<double>(2 * (i / 3) + 1) * static_cast<double>(error[i]) *
+                static_cast<double>(error[i]);
   } else {
-    const Rgb& value = middle.record.irradiance;
-    missed2 = norm2(value - glm::mix(from.record.irradiance, to.record.irradiance, static_cast<float>(t)));
+    const DVec3 value(middle.record.irradiance);
+    missed2 = norm2(value - glm::mix(DVec3(from.record.irradiance), DVec3(to.record.irradiance), t));
     light2 = norm2(value);
-    noise2 = norm2(middle.record.stderr_lx) * (1 - static_cast<double>(middle.record.shared));
+    noise2 = norm2(DVec3(middle.record.stderr_lx)) * (1 - static_cast<double>(middle.record.shared));
   }
   const double allowed = options_.temporal_accuracy * std::max(std::sqrt(light2), floor_);
   if (missed2 == 0) return share = 0, true;
