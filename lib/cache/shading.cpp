@@ -21,10 +21,12 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
   return l > 0 ? l / (l + g) : 0.f;
 }
 
-/// Of n values, by the sum of their squares and their mean.
-DVec3 variance_of_mean(const DVec3& squares, const Rgb& mean, int n) {
+/// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is
+/// even.
+DVec3 variance_of_mean(const DVec3& all, const DVec3& squares, int n) {
   const auto count = static_cast<double>(n);
-  return glm::max(squares / count - DVec3(mean) * DVec3(mean), DVec3(0)) / (count - 1);
+  const DVec3 mean = all / count;
+  return glm::max(squares / count - mean * mean, DVec3(0)) / (count - 1);
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
     if (!environment && lights_[i].kind == Light::Kind::environment) continue;
     const int n = extended ? samples.count : 1;
     Rgb mean(0);
-    DVec3 square(0);  // beyond the range of floats where light is within
+    DVec3 all(0), square(0);  // beyond the range of floats where light is within
     for (int s = 0; s < n; ++s) {
       Illumination light;
       const int k = samples.first + s;
@@ -97,12 +99,12 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       }
       const Rgb value = f * arriving;
       mean += value;
-      square += DVec3(value) * DVec3(value);
+      all += DVec3(value), square += DVec3(value) * DVec3(value);
     }
     const auto count = static_cast<float>(n);
     mean /= count;
     sum.radiance += mean;
-    if (n > 1) sum.variance += variance_of_mean(square, mean, n);
+    if (n > 1) sum.variance += variance_of_mean(all, square, n);
   }
   return sum;
 }
@@ -111,7 +113,8 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
                           const SampleRange& samples, int light_samples, int depth, RandomStream& sequence,
                           RandomStream& random, ShadingLog& log, bool environment) const {
   GlossLight sum;
-  DVec3 square(0);
+  DVec3 all(0), square(0);
+  const auto count_in = [&](const DVec3& value) { all += value, square += value * value; };
   const Vec2 shift = sequence.uniform2();
   for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
@@ -124,7 +127,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
                               (1.f - light_weight(light_samples, density, samples.count, sample.density));
       sum.from_lamps += from_beyond;
-      square += DVec3(from_beyond) * DVec3(from_beyond);
+      count_in(DVec3(from_beyond));
       continue;
     }
     Rgb from_lamp(0);
@@ -140,13 +143,12 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     const Rgb rest = sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
     sum.from_lamps += from_lamp;
     sum.radiance += rest;
-    square += DVec3(from_lamp + rest) * DVec3(from_lamp + rest);
+    count_in(DVec3(from_lamp + rest));
   }
   const auto count = static_cast<float>(std::max(samples.count, 1));
   sum.from_lamps /= count;
   sum.radiance /= count;
-  const Rgb mean = sum.from_lamps + sum.radiance;
-  if (samples.count > 1) sum.variance = variance_of_mean(square, mean, samples.count);
+  if (samples.count > 1) sum.variance = variance_of_mean(all, square, samples.count);
   return sum;
 }
 

@@ -76,7 +76,7 @@ void Layers::add(std::size_t i, const PixelSample& s) {
   add_to(emission_, i, s.emission);
   add_to(albedo_, i, s.albedo);
   add_to(variance_, i, s.variance);
-  add_to(noisy_, i, s.noisy);
+  add_to(noisy_, i, DVec3(s.noisy));
   add_to(noisy_square_, i, DVec3(s.noisy) * DVec3(s.noisy));
   add_to(indirect_error_, i, s.indirect_error);
   add_to(illuminance_, i, s.illuminance_lx);
@@ -93,7 +93,7 @@ Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
   const auto n = static_cast<double>(samples);
   DVec3 variance = variance_[i] / (n * n);
   if (samples >= std::max(spread_from, 2)) {
-    const DVec3 mean = DVec3(noisy_[i]) / n;
+    const DVec3 mean = noisy_[i] / n;
     variance = glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1);
   }
   const DVec3 shared = DVec3(indirect_error_[i]) / n;

@@ -72,8 +72,10 @@ class Layers {
   LayerSet wanted_;
   // One entry per pixel; empty where not asked for.
   std::vector<Rgb> beauty_, direct_, indirect_, glossy_, specular_, emission_, albedo_, normal_, position_;
-  std::vector<Rgb> noisy_, indirect_error_;
-  std::vector<DVec3> variance_, noisy_square_;  // beyond the range of floats where light is within
+  std::vector<Rgb> indirect_error_;
+  // Squares are beyond the range of floats where light is within, and less the square of the mean are a small
+  // rest.
+  std::vector<DVec3> variance_, noisy_, noisy_square_;
   std::vector<float> illuminance_, weight_, depth_;
 };
 
