@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cache/direct_light.h"
+#include "cache/record_check.h"
 #include "cache/record_index.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -23,7 +24,8 @@ bool row_is_finite(const IrradianceRecord& r) {
   return finite && std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
 }
 
-/// nullptr: nothing.
+}  // namespace
+
 const char* what_is_wrong(const IrradianceRecord& r) {
   if (!row_is_finite(r)) return "a value that is not finite";
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
@@ -32,8 +34,6 @@ const char* what_is_wrong(const IrradianceRecord& r) {
   if (!(r.shared >= 0 && r.shared <= 1)) return "a shared part of the variance outside of 0 .. 1";
   return nullptr;
 }
-
-}  // namespace
 
 bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (!(glm::dot(n, r.normal) > 0)) return true;

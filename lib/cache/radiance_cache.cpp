@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cache/radiance_columns.h"
+#include "cache/record_check.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hsh/rotation.h"
@@ -21,8 +22,13 @@ bool all_finite(const std::vector<float>& v) {
   return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });
 }
 
-/// nullptr: nothing.
+}  // namespace
+
 const char* what_is_wrong(const RadianceRecord& r) {
+  const std::size_t n = 3 * count_of(r.order()), slopes = r.gradient_x.size();
+  if (r.stderr_light.size() % 3 != 0 || r.light.size() != n || r.gradient_y.size() != slopes ||
+      (slopes != 0 && slopes != n))
+    return "coefficients that are not of one order";
   if (!is_finite(r)) return "a value that is not finite";
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
   constexpr float kSlack = 1e-3f;
@@ -34,8 +40,6 @@ const char* what_is_wrong(const RadianceRecord& r) {
     return "a negative standard error";
   return nullptr;
 }
-
-}  // namespace
 
 int require_radiance_order(int order) {
   if (order >= 1 && order <= HshRotator::kMaxOrder) return order;

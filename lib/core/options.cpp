@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -325,6 +326,18 @@ void Options::inputs(const std::string& placeholder, std::vector<std::string>& v
 
 namespace {
 
+/// Any file, or a pipe; not without end.
+std::string options_text(const std::string& path) {
+  constexpr std::size_t kMost = 1 << 20;
+  std::ifstream in(path, std::ios::binary);
+  std::string text(kMost + 1, '\0');
+  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (!in && !in.eof())) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kMost) throw Error(ExitCode::bad_input, path, "options file is larger than 1 MiB");
+  return text;
+}
+
 /// Replaces each @file by the options it holds: one per line, `name=value`, `name value` or a flag; # starts
 /// a comment.
 std::vector<std::string> expand_files(int argc, const char* const* argv) {
@@ -335,9 +348,7 @@ std::vector<std::string> expand_files(int argc, const char* const* argv) {
       arguments.push_back(argument);
       continue;
     }
-    const std::string path = argument.substr(1);
-    std::ifstream in(path);
-    if (!in) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+    std::istringstream in(options_text(argument.substr(1)));
     for (std::string line; std::getline(in, line);) {
       line = line.substr(0, line.find('#'));
       const std::size_t begin = line.find_first_not_of(" \t\r");

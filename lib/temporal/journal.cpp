@@ -1,11 +1,12 @@
 #include "temporal/journal.h"
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <type_traits>
 
-#include "cache/radiance_cache.h"
+#include "cache/record_check.h"
 #include "core/error.h"
 #include "file/hash.h"
 
@@ -125,6 +126,18 @@ void get(Reader& in, Made& made) {
   made.ahead = std::move(ahead);
 }
 
+/// Not what was written: nothing that follows is believed. (Irradiance of radiance records may be below
+/// zero.)
+bool is_damaged(const IrradianceRecord& record, const RadianceRecord* radiance) {
+  if (!radiance) return what_is_wrong(record);
+  return radiance->order() < 1 || what_is_wrong(*radiance) || !is_finite(record.irradiance) ||
+         !(record.radius_m > 0 && std::isfinite(record.radius_m));
+}
+bool is_damaged(const Made& made) {
+  return is_damaged(made.record, made.radiance.get()) ||
+         (made.ahead && is_damaged(made.ahead->record, made.ahead->radiance.get()));
+}
+
 std::uint64_t checksum(std::string_view bytes) { return hash_text(bytes).low; }
 
 std::string contents_of(const std::string& path) {
@@ -178,7 +191,7 @@ std::size_t EstimateJournal::read(const std::string& bytes) {
       in.text(name), in.value(count);
       entry.events[name] = count;
     }
-    if (!in.done()) break;
+    if (!in.done() || is_damaged(entry.made)) break;
     entry.made.item = id.second;
     entries_.insert_or_assign(id, std::move(entry));
     at = begin + size;

@@ -12,6 +12,7 @@
 #include "support/films.h"
 #include "support/gltf.h"
 #include "support/run.h"
+#include "temporal/journal.h"
 
 namespace phos {
 namespace {
@@ -94,6 +95,30 @@ void films(const std::string& to) {
       write_film(name + ".radiance", test::random_radiance_film({1, 2, 1}, anchored, g),
                  test::radiance_provenance());
     }
+}
+
+/// Estimates made of nothing, irradiance and radiance, some with a look ahead.
+struct Estimates : Estimator {
+  std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Worker>(); }
+  Made make(const RecordSite& site, Worker& worker) const override {
+    Made made;
+    made.record = test::random_cache(4).records[site.item % 4];
+    if (site.item % 2)
+      made.radiance = std::make_shared<RadianceRecord>(test::random_radiance(1, 2).records[0]);
+    if (site.item % 3) made.ahead = std::make_shared<Ahead>(Ahead{made.record, made.radiance, 0.1f});
+    worker.counters.count("records probed");
+    return made;
+  }
+};
+
+void journals(const std::string& to) {
+  for (const std::uint64_t n : {0u, 1u, 6u}) {
+    EstimateJournal journal(text(to, n, ".journal"), "key", false);
+    const Estimates estimates;
+    const JournalEstimator estimator(estimates, journal, 0);
+    const auto worker = estimator.make_worker();
+    for (std::uint64_t i = 0; i < n; ++i) estimator.make({Vec3(0), {0, 0, 1}, i}, *worker);
+  }
 }
 
 Image small_image(int width, int height) {
@@ -195,6 +220,10 @@ void texts(const std::string& root) {
               "x,y,z,nx,ny,nz,id\n0,0,0,0,0,1,a\n1,1,1,0,1,0,\"b, \"\"c\"\"\"\n");
   test::spill(folder(root, "csv") + "points.txt", "# points\n0 0 0 0 0 1\n1 2 3\t0 0 -1\n");
   test::spill(folder(root, "csv") + "plot.csv", "a [lx],b\r\n1,2\r\n+3e4,-\r\nnan,7\r\n");
+  test::spill(
+      folder(root, "options") + "all.txt",
+      "# settings\nnumber = 5\n--flag\nmaybe 1e-3\ncount=7\nword hello there  # trailing\nmany a,b\nmany c\n"
+      "shape disc\n-o x\noutput=y\n");
   test::spill(folder(root, "json") + "all.json", R"({"a":[1,-2.5e3,true,null,"\u00e9\n"],"b":{"c":{}}})");
   test::spill(folder(root, "toml") + "study.toml",
               "[study]\nscenes = \"room.glb\"\nsensors = \"points.csv\"\nrepeats = 3\nwidth = 20\n"
@@ -224,6 +253,7 @@ int main(int argc, char** argv) {
   using namespace phos;
   photons(folder(root, "photons")), irradiance(folder(root, "irradiance")),
       radiance(folder(root, "radiance"));
-  brdf(folder(root, "brdf")), films(folder(root, "film")), scenes(folder(root, "gltf"));
+  brdf(folder(root, "brdf")), films(folder(root, "film")), journals(folder(root, "journal")),
+      scenes(folder(root, "gltf"));
   images(root), texts(root), merl(folder(root, "merl"));
 }

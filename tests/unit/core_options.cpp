@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "support/complaint.h"
 
 namespace phos {
 namespace {
@@ -104,6 +105,19 @@ TEST(Options, ReadsAFileOfOptions) {
   EXPECT_EQ(e.number, 5);
   EXPECT_TRUE(e.flag);
   EXPECT_EQ(e.word, "hello there");
+}
+
+TEST(Options, FilesOfOptionsThatCannotBeRead) {
+  const std::string folder = PHOS_SCRATCH, large = folder + "/large-options.txt";
+  std::ofstream(large) << std::string((1 << 20) + 1, '#');
+  const auto said = [](const std::string& path) {
+    return test::complaint_of([&] { Everything().parse({("@" + path).c_str()}); });
+  };
+  EXPECT_NE(said(folder).find("cannot be read"), std::string::npos) << "a folder";
+  EXPECT_NE(said(folder + "/none.txt").find("cannot be read"), std::string::npos);
+  EXPECT_NE(said(large).find("larger than 1 MiB"), std::string::npos);
+  EXPECT_NE(said("/dev/zero").find("larger than 1 MiB"), std::string::npos);
+  std::filesystem::remove(large);
 }
 
 TEST(Options, AreDescribedForPrograms) {

@@ -1,0 +1,13 @@
+// Can a record be one? For what reads them.
+#pragma once
+
+#include "cache/irradiance_cache.h"
+#include "cache/radiance_cache.h"
+
+namespace phos {
+
+/// In words that follow "has": "a value that is not finite"; nullptr: nothing.
+const char* what_is_wrong(const IrradianceRecord& record);
+const char* what_is_wrong(const RadianceRecord& record);
+
+}  // namespace phos
