@@ -52,7 +52,7 @@ TEST(ScaleSweep, ReferencePicture) {
 TEST(ScaleSweep, ClosedFormsAtEveryAlbedo) {
   for (const float albedo : {0.f, 0.5f, 0.999f}) {
     for (const int size : {-20, 0, 20}) {
-      const AnalyticScene s = resized(furnace(albedo), {size, 13});
+      const AnalyticScene s = resized(furnace(albedo), Scale::binades(size, 13));
       for (const std::size_t check : {0u, 3u}) {
         const PointIrradiance e = irradiance(s, check, albedo > 0.9f ? 600 : 3000);
         EXPECT_NEAR(e.illuminance_lx / s.mean_irradiance_lx, 1,
