@@ -357,7 +357,9 @@ std::vector<std::string> expand_files(int argc, const char* const* argv) {
       if (!line.starts_with("--")) line = "--" + line;
       const std::size_t split = line.find_first_of("= \t");
       arguments.push_back(line.substr(0, split));
-      if (split != std::string::npos) arguments.push_back(line.substr(line.find_first_not_of("= \t", split)));
+      if (split == std::string::npos) continue;
+      const std::size_t value = line.find_first_not_of("= \t", split);
+      arguments.push_back(value == std::string::npos ? "" : line.substr(value));  // "name =": of nothing
     }
   }
   return arguments;

@@ -53,7 +53,7 @@ class Reader {
     const std::string_view b = take(n * sizeof(float));
     if (!good_) return;
     v.resize(n);
-    std::memcpy(v.data(), b.data(), b.size());
+    if (n > 0) std::memcpy(v.data(), b.data(), b.size());
   }
   void text(std::string& s) {
     std::uint64_t n = 0;

@@ -107,6 +107,16 @@ TEST(Options, ReadsAFileOfOptions) {
   EXPECT_EQ(e.word, "hello there");
 }
 
+TEST(Options, AFileOfOptionsMayLeaveOutAValue) {
+  const std::string path = std::string(PHOS_SCRATCH) + "/options-empty.txt";
+  std::ofstream(path) << "number =\n";
+  EXPECT_NE(Everything().error({("@" + path).c_str(), "in"}).find("--number"), std::string::npos);
+  std::ofstream(path) << "word=\n";
+  Everything e;
+  ASSERT_TRUE(e.parse({("@" + path).c_str(), "in"}));
+  EXPECT_EQ(e.word, "");
+}
+
 TEST(Options, FilesOfOptionsThatCannotBeRead) {
   const std::string folder = PHOS_SCRATCH, large = folder + "/large-options.txt";
   std::ofstream(large) << std::string((1 << 20) + 1, '#');
