@@ -97,6 +97,15 @@ std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& 
   return site;
 }
 
+bool add_as_it_was(const Chain& chain, const Scene& scene, IrradianceCache& to) {
+  Pose pose;
+  const std::optional<RecordSite> site = site_of(chain, scene, pose);
+  if (!site) return false;
+  to.records.push_back(chain.keys.back().record);
+  to.records.back().position = site->position, to.records.back().normal = site->normal;
+  return true;
+}
+
 Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std::int64_t frame,
            const RecordSite& site, const Pose& pose) {
   Key key{frame, frame, made.record, made.radiance, pose};

@@ -47,6 +47,9 @@ inline constexpr std::uint64_t kFilmItems = std::uint64_t{1} << 43;
 /// Where the chain is at a frame: nothing if its surface has no area then.
 std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& pose);
 
+/// Adds what a chain's last key holds, where its surface is in `scene`; false if that has no area there.
+bool add_as_it_was(const Chain& chain, const Scene& scene, IrradianceCache& to);
+
 /// The key that an estimate at `site` gives, the radius within the chain's share and bounds. A record that
 /// photons drew aside is taken back to the site along its gradient.
 Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std::int64_t frame,

@@ -47,14 +47,8 @@ void FilmMaker::frame_by_rate(std::int64_t frame, const FrameRange& shot) {
   known.accuracy = task_.records.accuracy;
   std::vector<std::size_t> chain_of_record, due;
   for (std::size_t i = 0; i < chains_.size(); ++i) {
-    const Key& last = chains_[i].keys.back();
-    if (last.until < frame) continue;
-    Pose pose;
-    const std::optional<RecordSite> site = site_of(chains_[i], light.scene(), pose);
-    if (!site) continue;
-    known.records.push_back(last.record);
-    known.records.back().position = site->position, known.records.back().normal = site->normal;
-    chain_of_record.push_back(i);
+    if (chains_[i].keys.back().until < frame) continue;
+    if (add_as_it_was(chains_[i], light.scene(), known)) chain_of_record.push_back(i);
   }
   std::vector<RecordSite> open;
   std::vector<bool> seen(known.records.size(), true);

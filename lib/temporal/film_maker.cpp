@@ -181,14 +181,14 @@ void FilmMaker::begin_at(std::span<const std::size_t> chains, std::int64_t frame
   }
 }
 
-/// Begins chains, whose first keys are at `end`, at the first frame from `begin` on at which their surface
-/// has an area.
-void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end) {
+/// Begins chains at the first frame from `begin` to their first key at which their surface has an area.
+void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t begin) {
   std::vector<std::size_t> open(chains.begin(), chains.end());
-  for (std::int64_t f = begin; f < end && !open.empty(); ++f) {
+  for (std::int64_t f = begin; !open.empty(); ++f) {
     const Scene& scene = lights_.scene_at(f).scene;
     std::vector<std::size_t> there;
     std::erase_if(open, [&](std::size_t i) {
+      if (chains_[i].keys.front().frame <= f) return true;
       Pose pose;
       if (!site_of(chains_[i], scene, pose)) return false;
       there.push_back(i);
@@ -198,33 +198,27 @@ void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t
   }
 }
 
-/// Places what the view of the frame `look` lacks. Of records that were placed at `begin` the zones are
-/// smaller where something has come near since.
+/// Places what the view of a frame within ]begin, end[ lacks. Of records that were placed at `begin` the
+/// zones are smaller where something has come near since.
 void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
                       std::int64_t look) {
   FrameLight& light = lights_.at(look);
   std::vector<Chain> chains;
   for (const std::size_t i : wanted) chains.push_back(chains_[i]);
   FilmInfo info;
-  info.frames = {look, look}, info.max_life = options_.max_life;
-  info.temporal_accuracy = options_.temporal_accuracy;
-  info.accuracy = task_.records.accuracy, info.gradients = TemporalGradients::interpolated;
+  info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
+  info.gradients = TemporalGradients::interpolated;
   IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
-  VisiblePlaces places(light, known, task_.placement, task_.wanted, task_.unwanted,
-                       kFilmItems + next_number_);
-  std::vector<RecordSite> open;
-  for (int sample = 0; sample < kViewSamples; ++sample) {
-    const std::vector<RecordSite> now = places.look(light.at()).now;
-    open.insert(open.end(), now.begin(), now.end());
-  }
-  next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
+  const std::vector<RecordSite> holes = holes_in_view(light.at(), known, task_.placement, task_.wanted,
+                                                      task_.unwanted, kFilmItems + next_number_);
+  next_number_ += static_cast<std::uint32_t>(holes.size());
   std::vector<Made> made;
   const std::size_t first_new = chains_.size();
-  add_chains(light, task_.estimator(light), known, open, made);
+  add_chains(light, task_.estimator(light), known, holes, made);
   std::vector<std::size_t> added(chains_.size() - first_new);
   std::iota(added.begin(), added.end(), first_new);
-  begin_appeared(added, begin, look);
-  end_vanished(added, look, end);
+  begin_appeared(added, begin);
+  end_vanished(added, begin, end);
   refine(added, begin);
   wanted.insert(wanted.end(), added.begin(), added.end());
 }

@@ -103,10 +103,10 @@ class FilmMaker {
     std::int64_t begin, end;
     std::int64_t depth;  ///< halvings before it
   };
-  /// Chains whose first keys are at `end`, and that may begin at `begin`.
+  /// Chains that may begin at `begin`, before their first keys.
   struct Late {
     std::vector<std::size_t> chains;
-    std::int64_t begin = 0, end = 0;
+    std::int64_t begin = 0;
   };
   void block(std::int64_t begin, std::int64_t end, const FrameRange& shot, Progress& progress);
   void frame_by_rate(std::int64_t frame, const FrameRange& shot);
@@ -124,7 +124,7 @@ class FilmMaker {
   void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);
   void begin_at(std::span<const std::size_t> chains, std::int64_t frame);
-  void begin_appeared(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end);
+  void begin_appeared(std::span<const std::size_t> chains, std::int64_t begin);
   void end_vanished(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end);
   void refine(std::span<const std::size_t> chains, std::int64_t begin);
   void cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end, std::int64_t look);

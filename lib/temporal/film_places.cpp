@@ -60,7 +60,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
     add_chains(light, task_.estimator(light), cache, {}, made);
     if (task_.placement.place == Place::photons) estimate_anew(first_new, light);
   }
-  for (const Late& l : late) begin_appeared(l.chains, l.begin, l.end);
+  for (const Late& l : late) begin_appeared(l.chains, l.begin);
   for (std::size_t i = first_new; i < chains_.size(); ++i) wanted.push_back(i);
   return wanted;
 }
@@ -107,20 +107,14 @@ FilmMaker::Late FilmMaker::add_late(std::int64_t frame, std::int64_t looked,
   FrameLight& light = lights_.at(frame);
   IrradianceCache known;
   known.accuracy = task_.records.accuracy;
-  for (const Chain& chain : chains_) {
-    Pose pose;
-    if (chain.keys.back().frame < begin) continue;
-    const std::optional<RecordSite> site = site_of(chain, light.scene(), pose);
-    if (!site) continue;
-    known.records.push_back(chain.keys.back().record);
-    known.records.back().position = site->position, known.records.back().normal = site->normal;
-  }
+  for (const Chain& chain : chains_)
+    if (chain.keys.back().frame >= begin) add_as_it_was(chain, light.scene(), known);
   add_chains(light, task_.estimator(light), known, sites, made);
 
   lights_.at(begin);  // stays in work
   std::vector<std::size_t> added(chains_.size() - first_new);
   std::iota(added.begin(), added.end(), first_new);
-  return {std::move(added), looked + 1, frame};
+  return {std::move(added), looked + 1};
 }
 
 /// The first keys of chains from `first` on once more. A record placed at a photon leaves that out, and those

@@ -10,6 +10,7 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kTaskPixels = 1024;
+constexpr std::size_t kHolePixels = 64;  // that are looked at again where one of them shows a hole
 
 struct Seen {
   VisiblePlaces::Open open;
@@ -17,7 +18,53 @@ struct Seen {
   std::uint64_t lost = 0;
 };
 
+/// What a frame's view shows.
+Candidates seen_by(const FrameScene& at, const PlacementOptions& placement, const MaterialFilter& wanted) {
+  PlacementOptions size = placement;
+  const Camera& camera = find_camera(at.scene, placement.camera);
+  resolve_size(camera, kPictureSide, size.width, size.height);
+  const View view{camera, size.width, size.height, placement.min_radius_pixels.value(),
+                  placement.max_radius_pixels};
+  return view_candidates(at.rays, view, wanted);
+}
+
 }  // namespace
+
+std::vector<RecordSite> holes_in_view(const FrameScene& at, const IrradianceCache& known,
+                                      const PlacementOptions& placement, const MaterialFilter& wanted,
+                                      const MaterialFilter& unwanted, std::uint64_t first_item) {
+  RecordTree tree(at.scene.bounds, known.accuracy);
+  for (const IrradianceRecord& r : known.records) tree.insert(r);
+  const Candidates candidates = seen_by(at, placement, wanted);
+  const std::size_t pixels = candidates.count / kViewSamples;
+  const auto add_holes = [&](std::size_t begin, std::size_t end, std::vector<RecordSite>& holes) {
+    std::vector<RecordSite> sites;
+    for (std::size_t i = begin; i < end; ++i) candidates.sites(i, sites);
+    for (const RecordSite& site : sites) {
+      if (tree.covered(site.position, site.normal)) continue;
+      if (unwanted) {
+        const auto material = material_at(at.rays, site.position, site.normal);
+        if (!material || unwanted(*material)) continue;
+      }
+      holes.push_back(site);
+    }
+  };
+  std::vector<RecordSite> holes = parallel_reduce<std::vector<RecordSite>>(
+      pixels, kHolePixels, {},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<RecordSite> part;
+        add_holes(begin, end, part);
+        if (!part.empty())
+          for (std::size_t k = 1; k < kViewSamples; ++k)
+            add_holes(k * pixels + begin, k * pixels + end, part);
+        return part;
+      },
+      [](std::vector<RecordSite>& all, const std::vector<RecordSite>& part) {
+        all.insert(all.end(), part.begin(), part.end());
+      });
+  for (RecordSite& site : holes) site.item = first_item++;
+  return holes;
+}
 
 VisiblePlaces::VisiblePlaces(const FrameLight& light, const IrradianceCache& known,
                              const PlacementOptions& placement, const MaterialFilter& wanted,
@@ -36,12 +83,7 @@ VisiblePlaces::VisiblePlaces(const FrameLight& light, const IrradianceCache& kno
 VisiblePlaces::Open VisiblePlaces::look(const FrameScene& at) {
   const Changes since = changes(light_.scene(), at.scene);
   const bool still = !since.anything_moved();
-  PlacementOptions size = placement_;
-  const Camera& camera = find_camera(at.scene, placement_.camera);
-  resolve_size(camera, kPictureSide, size.width, size.height);
-  const View view{camera, size.width, size.height, placement_.min_radius_pixels.value(),
-                  placement_.max_radius_pixels};
-  const Candidates candidates = view_candidates(at.rays, view, wanted_);
+  const Candidates candidates = seen_by(at, placement_, wanted_);
   // One sample of each pixel, another one at each look.
   const std::size_t pixels = candidates.count / kViewSamples, first = looks_++ % kViewSamples * pixels;
   Seen seen = parallel_reduce<Seen>(

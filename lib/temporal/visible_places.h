@@ -43,4 +43,11 @@ class VisiblePlaces {
   std::uint64_t lost_ = 0;
 };
 
+/// Sites that a frame's view shows and no known record covers, numbered from `first_item`: one of each
+/// pixel's, and where there is one the others of the pixels about it. `known`: records at that frame; filters
+/// as of VisiblePlaces.
+std::vector<RecordSite> holes_in_view(const FrameScene& at, const IrradianceCache& known,
+                                      const PlacementOptions& placement, const MaterialFilter& wanted,
+                                      const MaterialFilter& unwanted, std::uint64_t first_item);
+
 }  // namespace phos
