@@ -30,6 +30,7 @@ class PrimitiveReader {
     const int mode = from_.mode < 0 ? TINYGLTF_MODE_TRIANGLES : from_.mode;
     if (mode < TINYGLTF_MODE_TRIANGLES || !from_.attributes.count("POSITION")) return std::nullopt;
     data_.position = vectors<Vec3>("POSITION");
+    if (data_.position.empty()) return std::nullopt;
     data_.normal = vectors<Vec3>("NORMAL");
     data_.tangent = vectors<Vec4>("TANGENT");
     data_.uv0 = vectors<Vec2>("TEXCOORD_0");
