@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <numeric>
 
 #include "cache/placer.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "temporal/visible_places.h"
 
 namespace phos {
 namespace {
@@ -133,95 +130,6 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
 }
 
 void FilmMaker::set_floor() { floor_ = kFloorShare * mean_irradiance(chains_); }
-
-/// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
-void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
-  if (chains.empty()) return;
-  std::vector<std::size_t> there;
-  std::vector<Made> made;
-  FrameLight& light = lights_.at(frame);
-  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
-  for (const std::size_t i : chains) {
-    Key& last = chains_[i].keys.back();
-    if (last.until == last.frame) last.until = frame;
-  }
-  for (std::size_t i = 0; i < there.size(); ++i) chains_[there[i]].keys.push_back(std::move(keys[i]));
-}
-
-/// Ends chains at the frame `end` of a piece; those whose surface has no area then, where it last had one.
-void FilmMaker::end_vanished(std::span<const std::size_t> chains, std::int64_t begin, std::int64_t end) {
-  std::vector<std::size_t> open;
-  for (const std::size_t i : chains)
-    if (chains_[i].keys.back().frame < end) open.push_back(i);
-  for (std::int64_t f = end; f > begin && !open.empty(); --f) {
-    const Scene& scene = lights_.scene_at(f).scene;
-    std::vector<std::size_t> there;
-    std::erase_if(open, [&](std::size_t i) {
-      Pose pose;
-      if (!site_of(chains_[i], scene, pose) || chains_[i].keys.back().frame >= f) return false;
-      there.push_back(i);
-      return true;
-    });
-    end_at(there, f);
-  }
-  for (const std::size_t i : open) chains_[i].keys.back().until = chains_[i].keys.back().frame + 1;
-}
-
-/// Begins chains by keys at a frame before their first.
-void FilmMaker::begin_at(std::span<const std::size_t> chains, std::int64_t frame) {
-  if (chains.empty()) return;
-  std::vector<std::size_t> there;
-  std::vector<Made> made;
-  FrameLight& light = lights_.at(frame);
-  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
-  for (std::size_t i = 0; i < there.size(); ++i) {
-    std::vector<Key>& all = chains_[there[i]].keys;
-    keys[i].until = all.front().frame;
-    all.insert(all.begin(), std::move(keys[i]));
-  }
-}
-
-/// Begins chains at the first frame from `begin` to their first key at which their surface has an area.
-void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t begin) {
-  std::vector<std::size_t> open(chains.begin(), chains.end());
-  for (std::int64_t f = begin; !open.empty(); ++f) {
-    const Scene& scene = lights_.scene_at(f).scene;
-    std::vector<std::size_t> there;
-    std::erase_if(open, [&](std::size_t i) {
-      if (chains_[i].keys.front().frame <= f) return true;
-      Pose pose;
-      if (!site_of(chains_[i], scene, pose)) return false;
-      there.push_back(i);
-      return true;
-    });
-    begin_at(there, f);
-  }
-}
-
-/// Places what the view of a frame within ]begin, end[ lacks. Of records that were placed at `begin` the
-/// zones are smaller where something has come near since.
-void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
-                      std::int64_t look) {
-  FrameLight& light = lights_.at(look);
-  std::vector<Chain> chains;
-  for (const std::size_t i : wanted) chains.push_back(chains_[i]);
-  FilmInfo info;
-  info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
-  info.gradients = TemporalGradients::interpolated;
-  IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
-  const std::vector<RecordSite> holes = holes_in_view(light.at(), known, task_.placement, task_.wanted,
-                                                      task_.unwanted, kFilmItems + next_number_);
-  next_number_ += static_cast<std::uint32_t>(holes.size());
-  std::vector<Made> made;
-  const std::size_t first_new = chains_.size();
-  add_chains(light, task_.estimator(light), known, holes, made);
-  std::vector<std::size_t> added(chains_.size() - first_new);
-  std::iota(added.begin(), added.end(), first_new);
-  begin_appeared(added, begin);
-  end_vanished(added, begin, end);
-  refine(added, begin);
-  wanted.insert(wanted.end(), added.begin(), added.end());
-}
 
 /// Halves what chains have from `begin` on where the light in the middle is not what lies between the ends.
 void FilmMaker::refine(std::span<const std::size_t> chains, std::int64_t begin) {

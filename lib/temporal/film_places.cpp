@@ -127,4 +127,29 @@ void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
   for (std::size_t i = 0; i < keys.size(); ++i) chains_[there[i]].keys.back() = std::move(keys[i]);
 }
 
+/// Places what the view of a frame within ]begin, end[ lacks. Of records that were placed at `begin` the
+/// zones are smaller where something has come near since.
+void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
+                      std::int64_t look) {
+  FrameLight& light = lights_.at(look);
+  std::vector<Chain> chains;
+  for (const std::size_t i : wanted) chains.push_back(chains_[i]);
+  FilmInfo info;
+  info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
+  info.gradients = TemporalGradients::interpolated;
+  IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
+  const std::vector<RecordSite> holes = holes_in_view(light.at(), known, task_.placement, task_.wanted,
+                                                      task_.unwanted, kFilmItems + next_number_);
+  next_number_ += static_cast<std::uint32_t>(holes.size());
+  std::vector<Made> made;
+  const std::size_t first_new = chains_.size();
+  add_chains(light, task_.estimator(light), known, holes, made);
+  std::vector<std::size_t> added(chains_.size() - first_new);
+  std::iota(added.begin(), added.end(), first_new);
+  begin_appeared(added, begin);
+  end_vanished(added, begin, end);
+  refine(added, begin);
+  wanted.insert(wanted.end(), added.begin(), added.end());
+}
+
 }  // namespace phos
