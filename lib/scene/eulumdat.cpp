@@ -21,11 +21,11 @@ class Reader {
   PhotometricFile read() {
     file_.format = "EULUMDAT";
     file_.maker = words("the company");
-    count("the type of luminaire", 0, 3);
-    symmetry_ = count("the symmetry", 0, 4);
-    planes_ = count("the number of C-planes", 1, kMostAngles);
+    whole("the type of luminaire", 0, 3);
+    symmetry_ = whole("the symmetry", 0, 4);
+    planes_ = whole("the number of C-planes", 1, kMostAngles);
     words("the distance between C-planes");
-    gammas_ = count("the number of intensities in a plane", 2, kMostAngles);
+    gammas_ = whole("the number of intensities in a plane", 2, kMostAngles);
     words("the distance between intensities");
     words("the report number");
     file_.luminaire = words("the name of the luminaire");
@@ -88,7 +88,7 @@ class Reader {
     return value;
   }
 
-  std::size_t count(const std::string& what, std::size_t least, std::size_t most) {
+  std::size_t whole(const std::string& what, std::size_t least, std::size_t most) {
     const double v = number(what, false);
     if (!(v >= static_cast<double>(least) && v <= static_cast<double>(most) && v == std::floor(v)))
       fail(text(what, " is ", v, "; it must be a whole number from ", least, " to ", most));
@@ -116,7 +116,7 @@ class Reader {
 
   /// Sets are what the luminaire may be equipped with. A negative number of lamps is absolute photometry.
   void read_lamps() {
-    const std::size_t sets = count("the number of lamp sets", 0, 1000);
+    const std::size_t sets = whole("the number of lamp sets", 0, 1000);
     for (std::size_t k = 0; k < sets; ++k) {
       const double lamps = number("the number of lamps");
       const std::string type = words("the type of the lamps");

@@ -47,7 +47,7 @@ class Numbers {
     return value;
   }
 
-  std::size_t count(const std::string& what, std::size_t least) {
+  std::size_t whole(const std::string& what, std::size_t least) {
     const double v = next(what);
     if (!(v >= static_cast<double>(least) && v == std::floor(v) && v <= 1e9))
       fail_at(where_, last_line_, text(what, " is ", v, "; it must be a whole number of at least ", least));
@@ -173,11 +173,11 @@ class Reader {
   }
 
   void read_tilt_table(Numbers& numbers) {
-    const std::size_t geometry = numbers.count("the lamp-to-luminaire geometry", 0);
+    const std::size_t geometry = numbers.whole("the lamp-to-luminaire geometry", 0);
     if (geometry < 1 || geometry > 3)
       fail_at(where_, numbers.last_line(),
               text("the lamp-to-luminaire geometry is ", geometry, "; it must be 1, 2 or 3"));
-    const std::size_t n = numbers.count("the number of tilt angles", 1);
+    const std::size_t n = numbers.whole("the number of tilt angles", 1);
     const std::vector<double> deg = numbers.list(n, "tilt angle");
     require_ascending(deg, "tilt", where_, numbers.last_line());
     for (std::size_t i = 0; i < n; ++i) {
@@ -194,13 +194,13 @@ class Reader {
     if (!(factor_ > 0))
       fail_at(where_, numbers.last_line(),
               text("the candela multiplier is ", factor_, "; it must be above 0"));
-    verticals_ = numbers.count("the number of vertical angles", 2);
-    horizontals_ = numbers.count("the number of horizontal angles", 1);
-    type_ = numbers.count("the photometric type", 1);
+    verticals_ = numbers.whole("the number of vertical angles", 2);
+    horizontals_ = numbers.whole("the number of horizontal angles", 1);
+    type_ = numbers.whole("the photometric type", 1);
     if (type_ > 3)
       fail_at(where_, numbers.last_line(),
               text("the photometric type is ", type_, "; it must be 1 (C), 2 (B) or 3 (A)"));
-    const std::size_t unit = numbers.count("the unit of lengths", 1);
+    const std::size_t unit = numbers.whole("the unit of lengths", 1);
     if (unit > 2)
       fail_at(where_, numbers.last_line(),
               text("the unit of lengths is ", unit, "; it must be 1 (feet) or 2 (metres)"));
