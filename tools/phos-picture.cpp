@@ -25,6 +25,13 @@ constexpr const char* kDescription =
     "intensities of a luminaire, from IES LM-63 (.ies) or EULUMDAT (.ldt), as a polar plot with its lumens, "
     "maximum, and beam and field angles (within which half and a tenth of the plane's maximum are reached).";
 
+/// Throws Error(usage) if an option was given that is for inputs of another kind.
+void refuse_given(const std::string& option, const char* what_for, const std::string& input,
+                  const char* what) {
+  if (!option.empty())
+    throw Error(ExitCode::usage, option, text("is for ", what_for, "; ", input, " is ", what));
+}
+
 /// The name says what is written, the content of the input what can be.
 void check_output(const std::string& output, const std::string& input, bool image) {
   if (image && output.ends_with(".svg"))
@@ -58,6 +65,12 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
 }
 
 void draw_goniometric(Tool& tool, const std::string& input) {
+  const Options& options = tool.options();
+  if (tool.output().ends_with(".hdr"))
+    throw Error(ExitCode::usage, "--output",
+                "a polar plot is no image of light; the name must end in .png or .svg");
+  refuse_given(given_picture_option(options), "images", input, "a luminaire");
+  refuse_given(given_plot_option(options), "tables", input, "a luminaire");
   const PhotometricFile file = read_photometry(input);
   for (const std::string& warning : file.warnings) tool.warn(text(input, ": ", warning));
   const std::string name = std::filesystem::path(input).filename().string();
@@ -81,7 +94,7 @@ void check_usage(const Options& options, const std::string& output, const Pictur
   if (s.frames.empty() && names_frames(output))
     refuse("--output", text("\"", output, "\" names a sequence; say which frames: --frames 0:47"));
   if (s.frames.empty()) return;
-  if (const std::string option = given_plot_option(options); !option.empty() || output.ends_with(".svg"))
+  if (!given_plot_option(options).empty() || output.ends_with(".svg"))
     refuse("--frames", "is for images, not for plots; leave it out");
 }
 
@@ -122,28 +135,23 @@ int main_of_tool(int argc, const char* const* argv) {
 
   return tool.run(argc, argv, [&] {
     const std::string& output = tool.output();
+    if (goniometric) refuse_given(options.first_given({"frames", "fps"}), "sequences", input, "a luminaire");
     check_usage(options, output, sequence, picture.false_colour);
     if (!sequence.frames.empty()) return show_sequence(tool, sequence, picture);
     require_writable(output);
     tool.add_input("input", input);
-    if (goniometric) {
-      if (output.ends_with(".hdr"))
-        throw Error(ExitCode::usage, "--output",
-                    "a polar plot is no image of light; the name must end in .png or .svg");
-      return draw_goniometric(tool, input);
-    }
+    if (goniometric) return draw_goniometric(tool, input);
     const std::string bytes = read_text(input);
     if (looks_like_photometry(bytes))
       throw Error(ExitCode::usage, input, "is a luminaire's photometry; pass --goniometric to draw it");
     if (!is_image(bytes) && is_plain_text(bytes)) {
       check_output(output, input, false);
-      draw_plot(tool, bytes, input, plot);
-      return;
+      refuse_given(given_picture_option(options), "images", input, "a table");
+      return draw_plot(tool, bytes, input, plot);
     }
     const Image image = read_image(input);
     check_output(output, input, true);
-    if (const std::string option = given_plot_option(options); !option.empty())
-      throw Error(ExitCode::usage, "--" + option, text("is for tables; ", input, " is an image"));
+    refuse_given(given_plot_option(options), "tables", input, "an image");
     if (const auto shown = show_image(tool, image, input, output, picture)) write_png(output, *shown);
   });
 }

@@ -400,6 +400,12 @@ bool Options::given(const std::string& name) const {
   return d->parsed->count() > 0;
 }
 
+std::string Options::first_given(std::initializer_list<const char*> names) const {
+  for (const char* name : names)
+    if (given(name)) return std::string("--") + name;
+  return "";
+}
+
 Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations)

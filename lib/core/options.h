@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -84,6 +85,8 @@ class Options {
 
   /// Was the option given on the command line?
   bool given(const std::string& name) const;
+  /// The first of these that was, "--" before it; "" if none was.
+  std::string first_given(std::initializer_list<const char*> names) const;
   /// Every recorded option as resolved now (call after automatic values are filled in), sorted by name.
   Json recorded() const;
   /// `tool --name value ...` from recorded(), without paths.

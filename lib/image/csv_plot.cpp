@@ -72,10 +72,8 @@ void declare_options(Options& o, CsvPlotOptions& p) {
 }
 
 std::string given_plot_option(const Options& options) {
-  for (const char* name : {"x", "y", "series", "where", "log-x", "log-y", "x-min", "x-max", "y-min", "y-max",
-                           "title", "x-label", "y-label", "plot-width", "plot-height"})
-    if (options.given(name)) return name;
-  return "";
+  return options.first_given({"x", "y", "series", "where", "log-x", "log-y", "x-min", "x-max", "y-min",
+                              "y-max", "title", "x-label", "y-label", "plot-width", "plot-height"});
 }
 
 Plot plot_of(const CsvTable& table, const CsvPlotOptions& o) {

@@ -20,7 +20,7 @@ struct CsvPlotOptions {
   std::int64_t width = 720, height = 450;
 };
 void declare_options(Options& options, CsvPlotOptions& plot);
-/// The first of these options that was given, "" if none was.
+/// Options::first_given() of these.
 std::string given_plot_option(const Options& options);
 
 /// One line for each column of `y` and each value of the `series` column, in the order in which they first

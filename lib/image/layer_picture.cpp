@@ -63,6 +63,11 @@ void declare_options(Options& o, LayerPictureOptions& p) {
                     "colours: even in lightness, most colours, or none");
 }
 
+std::string given_picture_option(const Options& options) {
+  return options.first_given(
+      {"layer", "exposure", "white", "key", "operator", "false-colour", "scale", "min", "max", "palette"});
+}
+
 std::vector<Rgb> layer_colours(const Image& image, const std::string& layer) {
   if (image.has_layer(layer)) return image.rgb(layer);
   std::vector<Rgb> colours(image.pixels());

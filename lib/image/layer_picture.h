@@ -23,6 +23,8 @@ struct LayerPictureOptions {
   bool steady = false;  ///< one of a sequence: the legend is of one size
 };
 void declare_options(Options& options, LayerPictureOptions& picture);
+/// Options::first_given() of these.
+std::string given_picture_option(const Options& options);
 
 /// The layer as colours: itself, grey of a single quantity, or directions as 0.5 + 0.5 n. Throws
 /// Error(bad_input) for a layer that is absent.

@@ -7,11 +7,8 @@ namespace phos {
 
 /// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
 void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
-  if (chains.empty()) return;
   std::vector<std::size_t> there;
-  std::vector<Made> made;
-  FrameLight& light = lights_.at(frame);
-  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+  std::vector<Key> keys = estimate_at(frame, chains, there);
   for (const std::size_t i : chains) {
     Key& last = chains_[i].keys.back();
     if (last.until == last.frame) last.until = frame;
@@ -40,11 +37,8 @@ void FilmMaker::end_vanished(std::span<const std::size_t> chains, std::int64_t b
 
 /// Begins chains by keys at a frame before their first.
 void FilmMaker::begin_at(std::span<const std::size_t> chains, std::int64_t frame) {
-  if (chains.empty()) return;
   std::vector<std::size_t> there;
-  std::vector<Made> made;
-  FrameLight& light = lights_.at(frame);
-  std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+  std::vector<Key> keys = estimate_at(frame, chains, there);
   for (std::size_t i = 0; i < there.size(); ++i) {
     std::vector<Key>& all = chains_[there[i]].keys;
     keys[i].until = all.front().frame;

@@ -129,6 +129,14 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
   return keys;
 }
 
+std::vector<Key> FilmMaker::estimate_at(std::int64_t frame, std::span<const std::size_t> chains,
+                                        std::vector<std::size_t>& there) {
+  if (chains.empty()) return there.clear(), std::vector<Key>();
+  std::vector<Made> made;
+  FrameLight& light = lights_.at(frame);
+  return estimate(chains, light, task_.estimator(light), there, made);
+}
+
 void FilmMaker::set_floor() { floor_ = kFloorShare * mean_irradiance(chains_); }
 
 /// Halves what chains have from `begin` on where the light in the middle is not what lies between the ends.
@@ -148,9 +156,7 @@ void FilmMaker::refine(std::span<const std::size_t> chains, std::int64_t begin) 
     for (const auto& [middle, at_middle] : by_middle) {
       std::vector<std::size_t> chains, there;
       for (const Segment& s : at_middle) chains.push_back(s.chain);
-      std::vector<Made> made;
-      FrameLight& light = lights_.at(middle);
-      std::vector<Key> keys = estimate(chains, light, task_.estimator(light), there, made);
+      std::vector<Key> keys = estimate_at(middle, chains, there);
       for (std::size_t i = 0, found = 0; i < at_middle.size(); ++i) {
         const Segment& s = at_middle[i];
         Chain& chain = chains_[s.chain];

@@ -120,6 +120,8 @@ class FilmMaker {
   std::vector<Key> estimate(std::span<const std::size_t> chains, FrameLight& light,
                             const Estimator& estimator, std::vector<std::size_t>& there,
                             std::vector<Made>& made);
+  std::vector<Key> estimate_at(std::int64_t frame, std::span<const std::size_t> chains,
+                               std::vector<std::size_t>& there);
   void estimate_anew(std::size_t first, FrameLight& light);
   void set_floor();
   void end_at(std::span<const std::size_t> chains, std::int64_t frame);

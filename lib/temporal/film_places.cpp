@@ -132,8 +132,13 @@ void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
 void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
                       std::int64_t look) {
   FrameLight& light = lights_.at(look);
-  std::vector<Chain> chains;
-  for (const std::size_t i : wanted) chains.push_back(chains_[i]);
+  std::vector<Chain> chains;  // of this piece of the film alone
+  for (const std::size_t i : wanted) {
+    const Chain& c = chains_[i];
+    const auto from =
+        std::find_if(c.keys.begin(), c.keys.end(), [&](const Key& k) { return k.frame >= begin; });
+    chains.push_back({c.number, c.anchor, c.share, c.least_radius_m, c.most_radius_m, {from, c.keys.end()}});
+  }
   FilmInfo info;
   info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
   info.gradients = TemporalGradients::interpolated;

@@ -80,10 +80,8 @@ TEST(Offset, Photons) {
 TEST(Offset, Gather) {
   sweep_offsets("irradiance by gathering rays", furnace(0.5f), [](const AnalyticScene& there) {
     const Gathered gathered(there.scene);
-    const RecordTree tree = uniform_tree(there.scene.bounds.lo, there.scene.bounds.hi,
-                                         static_cast<float>(0.5 * there.mean_irradiance_lx));
-    GatherSource source;
-    source.indirect = &tree;
+    const RecordTree tree = half_furnace_tree(there);
+    const GatherSource source{.indirect = &tree};
     const RecordOptions options = gather_options(there.scene, Quantity::all, -1, 512);
     return worst_record(there, GatherEstimator(gathered.rays, gathered.lights, source, options, 1));
   });

@@ -48,10 +48,8 @@ TEST(ScaleSweep, PhotonsByDisc) {
 TEST(ScaleSweep, Gather) {
   sweep_scales("irradiance by gathering rays", furnace(0.5f), [](const AnalyticScene& s) {
     const Gathered gathered(s.scene);
-    const RecordTree tree =
-        uniform_tree(s.scene.bounds.lo, s.scene.bounds.hi, static_cast<float>(0.5 * s.mean_irradiance_lx));
-    GatherSource source;
-    source.indirect = &tree;
+    const RecordTree tree = half_furnace_tree(s);
+    const GatherSource source{.indirect = &tree};
     RecordOptions options = gather_options(s.scene, Quantity::all, -1, 256);
     return at_checks(s, GatherEstimator(gathered.rays, gathered.lights, source, options, 1));
   });
@@ -124,10 +122,8 @@ TEST(ScaleSweep, RadianceRecords) {
   sweep_scales("radiance records", furnace(0.5f),
                [](const AnalyticScene& s) {
                  const Gathered gathered(s.scene);
-                 const RecordTree tree = uniform_tree(s.scene.bounds.lo, s.scene.bounds.hi,
-                                                      static_cast<float>(0.5 * s.mean_irradiance_lx));
-                 GatherSource source;
-                 source.indirect = &tree;
+                 const RecordTree tree = half_furnace_tree(s);
+                 const GatherSource source{.indirect = &tree};
                  const RecordOptions options = gather_options(s.scene, Quantity::indirect, -1, 256);
                  const RadianceEstimator estimator(gathered.rays, gathered.lights, source, options, 6,
                                                    RadianceGradient::hybrid, 1);

@@ -85,4 +85,10 @@ inline RecordTree uniform_tree(const Vec3& lo, const Vec3& hi, float irradiance_
   return tree;
 }
 
+/// The same of furnace(0.5), of what its walls reflect.
+inline RecordTree half_furnace_tree(const AnalyticScene& furnace) {
+  const Bounds& b = furnace.scene.bounds;
+  return uniform_tree(b.lo, b.hi, static_cast<float>(0.5 * furnace.mean_irradiance_lx));
+}
+
 }  // namespace phos::test

@@ -5,33 +5,13 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/options.h"
 #include "support/complaint.h"
+#include "support/every_option.h"
 
 namespace phos {
 namespace {
 
-struct Everything {
-  bool flag = false;
-  double number = 0.2;
-  std::optional<double> maybe;
-  std::int64_t count = 10;
-  std::string word, path, input;
-  std::vector<std::string> items, more;
-  enum class Shape { hull, disc } shape = Shape::hull;
-  Options options{"phos-x", "does x", "Does x at length."};
-  Everything() {
-    options.input("SCENE", input, "a scene");
-    options.inputs("MORE", more, "more scenes", false);
-    options.flag("flag", flag, "a flag");
-    options.number("number", number, "METRES", "a number", kPositive);
-    options.number("maybe", maybe, "M", "a number that may be absent");
-    options.integer("count", count, "N", "a count", {0, 100});
-    options.text("word", word, "WORD", "a word");
-    options.list("items", items, "LIST", "items");
-    options.file("output,o", path, "where to");
-    options.choice<Shape>("shape", shape, {{"hull", Shape::hull}, {"disc", Shape::disc}}, "a shape");
-  }
+struct Everything : test::EveryOption {
   bool parse(std::vector<const char*> words) {
     words.insert(words.begin(), "phos-x");
     return options.parse(static_cast<int>(words.size()), words.data());

@@ -56,6 +56,14 @@ TEST(LuminaireTools, DrawThePolarPlot) {
     ASSERT_EQ(run_tool({"picture", "--goniometric", file, "-o", f + "/a.svg"}).code, 0);
     EXPECT_NE(slurp(f + "/a.svg").find("C0 - C180"), std::string::npos);
   }
+  for (const auto& [option, value, what] :
+       {std::tuple("--layer", "direct", "is for images"), std::tuple("--max", "3", "is for images"),
+        std::tuple("--x", "a", "is for tables"), std::tuple("--frames", "0:3", "is for sequences"),
+        std::tuple("--fps", "25", "is for sequences")})
+    expect_refused("picture",
+                   {"--goniometric", data("luminaires/spot.ies"), option, value, "-o", f + "/b.png"}, 2,
+                   what);
+  expect_refused("scene", {data("luminaires/spot.ies"), "--frame", "3"}, 2, "is for scenes");
   expect_refused("picture", {data("luminaires/spot.ies"), "-o", f + "/b.png"}, 2, "pass --goniometric");
   expect_refused("picture", {"--goniometric", data("sky.hdr"), "-o", f + "/b.png"}, 3, "neither an IES");
   expect_refused("picture", {"--goniometric", data("luminaires/spot.ies"), "-o", f + "/b.hdr"}, 2,
