@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   declare_options(options, scene_options);
   declare_options(options, records);
   declare_raster_options(options, records);
+  declare_footprint_options(options, records);
   declare_options(options, placement);
   declare_isa(options, isa);
   options.file("at", at,
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
       "fills what a camera misses");
 
   return tool.run(argc, argv, [&] {
+    require_one_light(options);
     const IrradianceFiles files = sort_inputs(paths);
     add_inputs(tool, files, scene_options);
     if (!at.empty()) tool.add_input("points", at);

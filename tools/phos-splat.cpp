@@ -118,6 +118,9 @@ int main(int argc, char** argv) {
       tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
     resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
 
+    if (render.splat == SplatBy::gl && any_footprint(caches.irradiance.records))
+      tool.say("the cache has adaptive records: they are drawn on the CPU (--splat cpu)");
+
     const RayScene rays = [&] {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});

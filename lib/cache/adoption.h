@@ -38,21 +38,39 @@ class Adoption {
   void integer(const char* name, std::int64_t& value) const {
     value = settle(name, value, &Json::as_integer);
   }
+  /// `other_name`: of another option that sets the same value; may be null.
   template <class E>
-  void choice(const char* name, E& value, const Names<E>& names) const {
+  void choice(const char* name, E& value, const Names<E>& names, const char* other_name = nullptr) const {
     const Json* was = find(name);
-    if (!was || !was->is_string()) return;
-    if (given_.given(name) && was->as_string() != name_in(names, value))
-      disagree(name, was->as_string(), name_in(names, value));
-    for (const auto& [text, e] : names) {
-      if (was->as_string() == text) value = e;
-    }
+    if (was && was->is_string()) settle_choice(name, value, names, was->as_string(), other_name);
+  }
+  /// Of an option that is recorded only where it is not `unless` (Recorded::unless_default).
+  template <class E>
+  void choice_unless(E unless, const char* name, E& value, const Names<E>& names) const {
+    const Json* was = find(name);
+    settle_choice(name, value, names, was && was->is_string() ? was->as_string() : name_in(names, unless),
+                  nullptr);
+  }
+  void number_unless(double unless, const char* name, double& value) const {
+    const Json* was = find(name);
+    const double earlier = was && was->is_number() ? was->as_number() : unless;
+    if (given_.given(name) && value != earlier) disagree(name, Json(earlier).dump(), Json(value).dump());
+    value = earlier;
   }
 
  private:
   const Json* find(const std::string& name) const {
     const Json* was = earlier_.provenance().parameters.find(name);
     return was && !was->is_null() ? was : nullptr;
+  }
+  template <class E>
+  void settle_choice(const char* name, E& value, const Names<E>& names, const std::string& was,
+                     const char* other_name) const {
+    const bool given = given_.given(name) || (other_name && given_.given(other_name));
+    if (given && was != name_in(names, value)) disagree(name, was, name_in(names, value));
+    for (const auto& [text, e] : names) {
+      if (was == text) value = e;
+    }
   }
   template <class T>
   T settle(const char* name, T value, T (Json::*as)() const) const {

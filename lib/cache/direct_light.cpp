@@ -65,6 +65,12 @@ LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires&
   return sum;
 }
 
+DVec3 light_of(std::span<const LampSample> lamps) {
+  DVec3 sum(0);
+  for (const LampSample& lamp : lamps) sum += DVec3(lamp.irradiance);
+  return sum;
+}
+
 DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
                                    const SurfacePoint& receiver, int samples, RandomStream& random) {
   std::vector<LampSample> lamps;

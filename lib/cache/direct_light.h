@@ -35,6 +35,9 @@ struct LampSum {
 };
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights);
 
+/// Their irradiance alone, lx.
+DVec3 light_of(std::span<const LampSample> lamps);
+
 struct DirectIrradiance {
   Rgb irradiance{0};  ///< lx
   Rgb stderr_lx{0};   ///< root of LampSum::variance

@@ -171,7 +171,7 @@ Made GatherEstimator::make(const RecordSite& site, Estimator::Worker& worker) co
     for (const Hemisphere& h : passes) rays += static_cast<float>(h.size());
     light.stderr_lx = w.light->hidden_radiance / static_cast<float>(w.light->hidden) * (kPi / rays);
   }
-  return impl_->record(site, light, w);
+  return impl_->record(site, light, passes, w);
 }
 
 SeenPass GatherEstimator::seen(const Estimator::Worker& worker, std::uint32_t pass, const Hemisphere& h) {
@@ -189,7 +189,7 @@ std::vector<SeenPass> GatherEstimator::last_seen(const Estimator::Worker& worker
 
 Made GatherEstimator::record_from(const RecordSite& site, std::span<const Hemisphere> passes,
                                   Estimator::Worker& worker) const {
-  return impl_->record(site, light_of(passes, impl_->options), static_cast<Impl::Worker&>(worker));
+  return impl_->record(site, light_of(passes, impl_->options), passes, static_cast<Impl::Worker&>(worker));
 }
 
 }  // namespace phos

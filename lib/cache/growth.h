@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct RadiusBounds {
 };
 
 /// Final radii of records in the order in which they come (FORMULAS A7): clamped to their neighbours as they
-/// were made, and only then to the bounds, so that a lower bound does not spread.
+/// were made, and only then to the bounds, so that a lower bound does not spread. Records with footprints
+/// have looked in eight directions, and in bounds, when they were made: they neither clamp nor are clamped.
 class RadiusRules {
  public:
   RadiusRules(const Bounds& scene, const RadiusBounds& bounds) : bounds_(bounds), clamp_(scene) {}
@@ -28,6 +30,9 @@ class RadiusRules {
   void keep(const IrradianceRecord& record);
   /// A new record. Returns its radius by now; calls shrunk(place in order, radius) for others that lose some.
   float add(const Made& made, const std::function<void(std::size_t, float)>& shrunk);
+  /// Limits the radius of a new record (by its place in order) besides, but for the lower bounds. Returns its
+  /// radius by now.
+  float limit(std::size_t record, float radius_m);
   /// Appends the new records with their final radii. Where a lower bound is above the right radius, gradients
   /// are reduced so that extrapolation stays bounded. Of those that stand for radiance records, these are
   /// appended to `radiance` (if it is not null), treated alike.
@@ -42,9 +47,11 @@ class RadiusRules {
 
  private:
   float within_bounds(float radius_m, const Made& made) const;
+  float radius_m(std::size_t record) const;
   RadiusBounds bounds_;
   NeighbourClamp clamp_;
-  std::vector<Made> made_;  // radius before clamping
+  std::vector<Made> made_;      // radius before clamping
+  std::vector<float> limit_m_;  // per record; infinity: none
   std::size_t kept_ = 0;
   std::uint64_t clamped_to_neighbour_ = 0, raised_to_least_ = 0;
 };
@@ -60,13 +67,23 @@ class Growth {
 
   bool covered(const RecordSite& site) const { return tree_.covered(site.position, site.normal); }
   void accept(const Made& made);
+  /// Adaptive caching (Krivanek et al. 2006), of footprints that ask for it: a new record that foretells
+  /// another's light wrongly, where it would be read, comes to reach less far: not there, but at least half
+  /// as far as before. Wrong is by more than twice the stated errors of both and a share of the light, the
+  /// tolerance. Returns how many have been shrunk; what they covered may be open.
+  std::size_t compare();
   const RecordTree& tree() const { return tree_; }
   RadiusRules& rules() { return rules_; }
   std::size_t size() const { return rules_.size(); }
 
  private:
+  void shrink(std::size_t record, float radius_m);
   RecordTree tree_;
   RadiusRules rules_;
+  std::optional<float> tolerance_;     // of compare(); none: records are not compared
+  std::optional<RecordTree> as_read_;  // of those that are: each with the reach at which it is read
+  float reading_accuracy_;
+  std::size_t kept_;
 };
 
 }  // namespace phos

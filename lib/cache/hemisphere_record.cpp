@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cache/footprint_fit.h"
 #include "cache/next_surface.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -20,8 +21,10 @@ HemisphereRecords::HemisphereRecords(const RayScene& r, const Luminaires& l, con
   PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");
 }
 
-Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, HemisphereWorker& worker) const {
+Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::span<const Hemisphere> passes,
+                               HemisphereWorker& worker) const {
   const SurfacePoint place = receiver(rays.scene(), site.position, site.normal);
+  worker.lamps.clear();
   if (options.paths == Quantity::all) {
     RandomStream random(seed, Stage::direct_light, site.item);
     const int samples = static_cast<int>(options.light_samples);
@@ -37,9 +40,44 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, Hemisp
   float& radius_m = made.record.radius_m;
   const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * place.error_m, radius_m);
   radius_m = std::min(radius_m, next_m / kNextSurface);
+  if (options.footprint == Footprint::adaptive) fit(site, passes, worker, made.record);
   worker.counters.merge(worker.light->counters);
   worker.light->counters = Counters();
   return made;
+}
+
+void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> passes,
+                            HemisphereWorker& worker, IrradianceRecord& record) const {
+  const float lift_m = receiver(rays.scene(), site.position, site.normal).error_m;
+  const auto least_m = static_cast<float>(*options.min_radius_m),
+             most_m = static_cast<float>(*options.max_radius_m);
+  FootprintBounds bounds;
+  bounds.accuracy = static_cast<float>(reading_accuracy(options.accuracy));
+  bounds.rho = static_cast<float>(options.rho);
+  bounds.least_m = std::clamp(site.least_radius_m, least_m, most_m);
+  bounds.most_m = std::clamp(site.most_radius_m, bounds.least_m, most_m);
+  const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * lift_m, bounds.most_m);
+  bounds.most_m = std::max(bounds.least_m, std::min(bounds.most_m, next_m / kNextSurface));
+
+  const LightNearby nearby(passes, options.gradients, least_m);
+  std::function<Rgb(const Vec2&)> direct;
+  if (options.paths == Quantity::all && lights.size() > 0) {
+    direct = [&](const Vec2& step) {
+      const Vec3 p = site.position + nearby.frame().to_world(Vec3(step, 0));
+      RandomStream random(seed, Stage::direct_light, site.item);  // the same places on the lamps
+      const int samples = static_cast<int>(options.light_samples);
+      sample_lamps(rays, lights, receiver(rays.scene(), p, site.normal), samples, random,
+                   worker.lamps_nearby);
+      return Rgb(light_of(worker.lamps_nearby));
+    };
+  }
+  const FittedFootprint fitted =
+      fit_footprint(passes, nearby, direct, worker.lamps, record.rotation_gradient, bounds);
+  if (what_is_wrong(*fitted.footprint, site.normal)) throw_beyond_range(rays.scene().origin_m, site.position);
+  record.footprint = fitted.footprint;
+  record.radius_m = fitted.radius_m;
+  if (fitted.unresolved > 0)
+    worker.counters.count(kUnresolvedEvent, static_cast<std::uint64_t>(fitted.unresolved));
 }
 
 void clear_own_surface(float lift_m, Hemisphere& h) {

@@ -12,10 +12,14 @@ namespace phos {
 /// Few rays that meet gloss under a coat, which is signed, can add up to less than nothing: that is dark.
 inline constexpr const char* kBelowZeroEvent = "gathered irradiance below zero";
 
+/// E6: a footprint's axis that is as short as --min-radius allows, and along which light is still no
+/// parabola.
+inline constexpr const char* kUnresolvedEvent = "axes of footprints left unresolved";
+
 /// Memory and counts of one thread.
 struct HemisphereWorker : Estimator::Worker {
   std::unique_ptr<HitLight::Worker> light;
-  std::vector<LampSample> lamps;
+  std::vector<LampSample> lamps, lamps_nearby;
 };
 
 /// Const, usable from any thread; holds references.
@@ -31,8 +35,15 @@ struct HemisphereRecords {
 
   /// The record of what hemispheres at a site have shown; with paths = all, direct light is added from
   /// samples of the lamps. No component is below 0 (kBelowZeroEvent). Passes the counts of `worker.light` on
-  /// to the worker.
-  Made record(const RecordSite& site, PlaceLight around, HemisphereWorker& worker) const;
+  /// to the worker. `passes` are what `around` was made of: a footprint follows from them where records are
+  /// to have one; those of its axes that are off by more than rho at their least length are counted
+  /// (kUnresolvedEvent).
+  Made record(const RecordSite& site, PlaceLight around, std::span<const Hemisphere> passes,
+              HemisphereWorker& worker) const;
+
+ private:
+  void fit(const RecordSite& site, std::span<const Hemisphere> passes, HemisphereWorker& worker,
+           IrradianceRecord& record) const;
 };
 
 /// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cache/direct_light.h"
+#include "cache/footprint_columns.h"
 #include "cache/record_check.h"
 #include "cache/record_index.h"
 #include "core/error.h"
@@ -32,6 +33,7 @@ const char* what_is_wrong(const IrradianceRecord& r) {
   if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) return "a normal that is not of unit length";
   if (glm::any(glm::lessThan(r.irradiance, Vec3(0)))) return "negative irradiance";
   if (!(r.shared >= 0 && r.shared <= 1)) return "a shared part of the variance outside of 0 .. 1";
+  if (r.footprint) return what_is_wrong(*r.footprint, r.normal);
   return nullptr;
 }
 
@@ -70,7 +72,9 @@ bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3
 }
 
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
-  const Vec3 turn = glm::cross(r.normal, n), step = p - r.position;
+  const Vec3 step = p - r.position;
+  if (r.footprint) return glm::max(r.irradiance + r.footprint->change(step, n), Rgb(0));
+  const Vec3 turn = glm::cross(r.normal, n);
   Rgb e;
   for (int c = 0; c < 3; ++c) {
     const float value =
@@ -78,6 +82,11 @@ Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
     e[c] = std::min(std::max(value, 0.f), kGrowthLimit * r.irradiance[c]);
   }
   return e;
+}
+
+bool any_footprint(std::span<const IrradianceRecord> records) {
+  return std::any_of(records.begin(), records.end(),
+                     [](const IrradianceRecord& r) { return r.footprint != nullptr; });
 }
 
 void append(IrradianceCache& all, const IrradianceCache& more) {
@@ -136,6 +145,8 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
   file.add<float>("translation_gradient", flat(translation), {n, 3, 3}, "lx/m");
   if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
     file.add<float>("shared", shared, {n}, "1");
+  const FootprintColumns footprints(cache.records);
+  footprints.add_to(file);
   RecordIndex index;
   if (provenance.extra.find("part")) {
     file.add<float>("least_radius", least_radius_m, {n}, "m");
@@ -174,6 +185,7 @@ RecordColumns::RecordColumns(const Container& file, RecordsOf of) : file_(file) 
   rotation_ = column("rotation_gradient", {n, 3, 3});
   translation_ = column("translation_gradient", {n, 3, 3});
   if (file.has("shared")) shared_ = column("shared", {n});
+  footprints_ = read_footprints(file, file.vectors("normal"));
   const Json *accuracy = file.provenance().extra.find("accuracy"),
              *quantity = file.provenance().extra.find("quantity");
   if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !quantity ||
@@ -204,6 +216,7 @@ IrradianceRecord RecordColumns::operator[](std::size_t i) const {
   r.irradiance = vector(irradiance_, i), r.stderr_lx = vector(stderr_, i);
   r.distance_m = distance_[i], r.radius_m = radius_[i];
   if (shared_) r.shared = shared_[i];
+  if (!footprints_.empty()) r.footprint = footprints_[i];
   for (std::size_t c = 0; c < 3; ++c) {
     r.rotation_gradient[c] = vector(rotation_, 3 * i + c);
     r.translation_gradient[c] = vector(translation_, 3 * i + c);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cache/blend.h"
+#include "cache/footprint.h"
 #include "core/vector.h"
 #include "file/container.h"
 #include "scene/rays.h"
@@ -24,13 +25,15 @@ struct IrradianceRecord {
   /// Part of its variance that records about it have too (0 to 1), so that it does not average out.
   float shared = kSharedByZones;
   float distance_m = 0;  ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
-  float radius_m = 0;    ///< R of the weight; the zone of influence is accuracy * radius
+  float radius_m = 0;    ///< R of the weight; the zone of influence is accuracy * radius, at most
   Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
   Vec3 translation_gradient[3]{Vec3(0), Vec3(0),
                                Vec3(0)};  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
   /// Its share among others, in (0, 1]: less for a record of a film that fades in or out. Of no influence
   /// where it is alone. Not in files.
   float weight = 1;
+  /// Its shape, and how its light changes in it; null: a disc, and the gradients above.
+  std::shared_ptr<const AdaptiveFootprint> footprint{};
 };
 
 struct IrradianceCache {
@@ -48,6 +51,9 @@ struct IrradianceCache {
 inline double reading_accuracy(double placed, double most = 0.5) {
   return std::min(2.5 * placed, std::max(placed, most));
 }
+
+/// Has any of them a footprint?
+bool any_footprint(std::span<const IrradianceRecord> records);
 
 /// Appends the records of another cache of the same light, each with the reach that it was placed with.
 void append(IrradianceCache& all, const IrradianceCache& more);
@@ -80,6 +86,9 @@ class RecordColumns {
   Vec3 position(std::size_t i) const { return vector(position_, i); }
   Vec3 normal(std::size_t i) const { return vector(normal_, i); }
   float radius_m(std::size_t i) const { return radius_[i]; }
+  const AdaptiveFootprint* footprint(std::size_t i) const {
+    return footprints_.empty() ? nullptr : footprints_[i].get();
+  }
   IrradianceRecord operator[](std::size_t i) const;
   /// All of them, in memory.
   IrradianceCache cache() const;
@@ -91,7 +100,8 @@ class RecordColumns {
   double accuracy_ = 0;
   std::string quantity_;
   const float *position_, *normal_, *irradiance_, *stderr_, *distance_, *radius_, *rotation_, *translation_;
-  const float* shared_ = nullptr;  // not in every file
+  const float* shared_ = nullptr;                                     // not in every file
+  std::vector<std::shared_ptr<const AdaptiveFootprint>> footprints_;  // likewise
 };
 
 /// The least weight that counts: below it a record is not valid, and a point without others is a miss.
@@ -101,9 +111,15 @@ inline constexpr float kFrontTolerance = 0.01f;
 /// An extrapolated irradiance is at most this many times the record's.
 inline constexpr float kGrowthLimit = 2;
 
-/// eps of FORMULAS A1, robust form: |p - p_i|/R_i + |n - n_i|/sqrt(2).
+/// eps of FORMULAS A1, robust form: |p - p_i|/R_i + |n - n_i|/sqrt(2); R_i is that of the direction where the
+/// record has a footprint.
 inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+  if (r.footprint) return r.footprint->error(p - r.position, n, r.normal, r.radius_m);
   return glm::length(p - r.position) / r.radius_m + glm::length(n - r.normal) * 0.70710678f;
+}
+/// Of the direction in which the record reaches least far.
+inline float least_radius_m(const IrradianceRecord& r) {
+  return r.footprint ? r.radius_m * (r.footprint->shortest_m() / r.footprint->longest_m()) : r.radius_m;
 }
 /// FORMULAS A6: is the record in front of p's surface (so that it must not light p)? Also true unless dot(n,
 /// n_i) > 0.
@@ -116,14 +132,15 @@ inline constexpr float kRoughness = 0.125f;
 /// halfway; if that is not clear, by kRoughness of their distance, but no more than halfway to what is above
 /// them, so that neither flat nor gently curved surfaces stand in their own way, and thin walls do.
 bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n);
-/// A5 without clamping below: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]. lx
+/// A5: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]; or E_i + change() of its
+/// footprint, which has been tested, at least 0. lx
 Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 
 /// Weight of FORMULAS A4 "lin": 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and
 /// lookup.
 inline float record_weight(float eps, float accuracy) { return eps < accuracy ? 1.f - eps / accuracy : 0.f; }
 
-/// The weight of a record at p, n; 0 beyond its reach.
+/// The weight of a record that serves a disc at p, n; 0 beyond its reach. No footprint gives it more.
 inline float weight_at(const Vec3& record_position, const Vec3& record_normal, float radius_m, float accuracy,
                        const Vec3& p, const Vec3& n) {
   const Vec3 d = p - record_position;
@@ -132,6 +149,12 @@ inline float weight_at(const Vec3& record_position, const Vec3& record_normal, f
   const float eps =
       glm::length(d) / radius_m + glm::length(n - record_normal) * 0.70710678f;  // record_error()
   return record_weight(eps, accuracy);
+}
+
+/// The same of a record with a footprint, which weight_at() of its longest axis has let pass.
+inline float weight_within(const AdaptiveFootprint& footprint, const IrradianceRecord& r, float accuracy,
+                           const Vec3& p, const Vec3& n) {
+  return record_weight(footprint.error(p - r.position, n, r.normal, r.radius_m), accuracy);
 }
 
 struct RecordIndex;

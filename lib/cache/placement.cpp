@@ -86,7 +86,9 @@ PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator
   Placer placer(maker, growth);
   for (int pass = 1; pass <= placement.passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
-    if (run_pass(candidates, pass, growth, placer) == 0) break;
+    const std::size_t placed = run_pass(candidates, pass, growth, placer);
+    const std::size_t shrunk = pass < placement.passes ? growth.compare() : 0;
+    if (placed == 0 && shrunk == 0) break;
   }
   const Cover cover = cover_of(candidates, growth);
   report.candidates = cover.sites, report.uncovered = cover.open;

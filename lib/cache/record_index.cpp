@@ -93,10 +93,11 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
     const std::uint32_t end = cell_[2 * cell + 3];
     for (std::uint32_t e = cell_[2 * cell + 1]; e < end; ++e) {
       const std::uint32_t i = entry_[e];
-      const float w =
-          weight_at(records_.position(i), records_.normal(i), records_.radius_m(i), accuracy, p, n);
+      float w = weight_at(records_.position(i), records_.normal(i), records_.radius_m(i), accuracy, p, n);
       if (!(w > kLeastWeight)) continue;
       const IrradianceRecord r = records_[i];
+      if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
+      if (!(w > kLeastWeight)) continue;
       if (record_in_front(r, p, n)) continue;
       if (leak_test_ && !record_in_sight(*leak_test_, r, p, n)) continue;
       if (!visit(r, w * r.weight)) return;

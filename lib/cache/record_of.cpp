@@ -115,7 +115,10 @@ void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance,
   bool finite = is_finite(irradiance) && is_finite(stderr_lx);
   for (int c = 0; c < 3; ++c)
     finite = finite && is_finite(rotation_gradient[c]) && is_finite(translation_gradient[c]);
-  if (finite) return;
+  if (!finite) throw_beyond_range(origin_m, p);
+}
+
+void throw_beyond_range(const DVec3& origin_m, const Vec3& p) {
   throw Error(ExitCode::numerical, "",
               "irradiance at " + place_text(origin_m, p) +
                   " exceeds the range of numbers; give the lights or the scene other units");

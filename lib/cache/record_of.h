@@ -40,6 +40,9 @@ float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient
 void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance, const Rgb& stderr_lx,
                     const Vec3 (&rotation_gradient)[3], const Vec3 (&translation_gradient)[3]);
 
+/// What require_finite() throws.
+[[noreturn]] void throw_beyond_range(const DVec3& origin_m, const Vec3& p);
+
 /// The record of such a place; its radius is the distance, at most max_radius_m, and no more than where the
 /// gradient would change a channel by its own value (A7). Throws Error(numerical) where a value exceeds the
 /// range of numbers; `origin_m` is the scene's.

@@ -26,6 +26,10 @@ const Names<GradientMode> kGradients{{"auto", GradientMode::automatic},
                                      {"blend", GradientMode::blend},
                                      {"none", GradientMode::none}};
 const Names<RadiusRule> kRadii{{"harmonic", RadiusRule::harmonic}, {"least", RadiusRule::least}};
+const Names<Footprint> kFootprints{{"circle", Footprint::circle},
+                                   {"circle-min", Footprint::circle_min},
+                                   {"circle-harmonic", Footprint::circle_harmonic},
+                                   {"adaptive", Footprint::adaptive}};
 const Names<LeakTest> kLeakTests{{"none", LeakTest::none}, {"ray", LeakTest::ray}};
 const Names<Kernel> kKernels{
     {"disc", Kernel::disc}, {"epanechnikov", Kernel::epanechnikov}, {"cone", Kernel::cone}};
@@ -50,6 +54,11 @@ void RecordOptions::resolve(float diagonal_m) {
     throw Error(ExitCode::usage, "--gather-bounces",
                 "0 leaves no indirect light; give 1 for surfaces lit by lamps alone, or -1 for all");
   }
+  if (footprint != Footprint::circle && estimate != Estimate::gather)
+    throw Error(ExitCode::usage, "--footprint",
+                text(name_in(kFootprints, footprint), " follows from gathered rays; give --estimate gather"));
+  if (footprint == Footprint::circle_min) radius = RadiusRule::least;
+  if (footprint == Footprint::circle_harmonic) radius = RadiusRule::harmonic;
   using G = GradientMode;
   const bool photons = estimate == Estimate::hull || estimate == Estimate::kernel;
   const std::vector<G> allowed =
@@ -75,7 +84,8 @@ void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("max-radius", r.max_radius_m, "METRES", "largest radius (default: scene diagonal / 4)",
                  kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
-                           "ray: a record serves a point only if the two can see each other");
+                           "ray: a record serves a point only if the two can see each other",
+                           Recorded::as_resolved);
 }
 
 void declare_photon_options(Options& options, RecordOptions& r) {
@@ -99,12 +109,13 @@ void declare_gather_options(Options& options, RecordOptions& r) {
   options.choice<GatherFrom>(
       "gather-from", r.gather_from, kSources,
       "indirect light where rays land: a coarse cache made from the photons first, or the "
-      "photons there (ten times the work); a cache among the inputs is read instead");
+      "photons there (ten times the work); a cache among the inputs is read instead",
+      Recorded::as_resolved);
   options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
   options.integer("source-photons", r.source_photons, "N",
                   "photons that a zone of the coarse cache should hold at least", {16, 1e6});
   options.choice<RadiusRule>("radius", r.radius, kRadii,
-                             "radius from the harmonic mean or the least distance");
+                             "radius from the harmonic mean or the least distance", Recorded::as_resolved);
 }
 
 const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
@@ -114,16 +125,18 @@ void declare_options(Options& options, RecordOptions& r) {
   options.choice<Estimate>(
       "estimate", r.estimate, kEstimates,
       "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
-      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above",
+      Recorded::as_resolved);
   declare_reach_options(options, r);
   options.choice<Quantity>("paths", r.paths, kQuantities,
-                           "light that counts: indirect leaves out what comes straight from a lamp");
+                           "light that counts: indirect leaves out what comes straight from a lamp",
+                           Recorded::as_resolved);
   options.choice<GradientMode>(
       "gradients", r.gradients, kGradients,
       "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
       "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
   options.section("Estimates from photons");
-  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel", Recorded::as_resolved);
   options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
                   {1, 64});
   declare_photon_options(options, r);
@@ -136,17 +149,45 @@ void declare_options(Options& options, RecordOptions& r) {
                   {1, 65536});
 }
 
+void declare_footprint_options(Options& options, RecordOptions& r) {
+  options.section("Zones of records");
+  options.choice<Footprint>(
+      "footprint", r.footprint, kFootprints,
+      "what a record serves: a disc; with --estimate gather also a disc by the least distance, one by the "
+      "harmonic mean that shrinks where records about it say otherwise, or eight axes of their own lengths "
+      "with the change of light along each (half the records; drawn on the CPU)",
+      Recorded::unless_default);
+  options.number(
+      "rho", r.rho, "R",
+      "of adaptive footprints: relative error of light along an axis, which is halved until it is met; at "
+      "most 0.05 where direct light is cached, or shadows are missed",
+      {1e-3, 1, false}, Recorded::unless_default);
+  options.choice<Quantity>(
+      "direct", r.paths, {{"traced", Quantity::indirect}, {"cached", Quantity::all}},
+      "light straight from the lamps: traced where it is seen, or cached in the records (the "
+      "same as --paths all); pays for many or large lamps, with --footprint adaptive",
+      Recorded::no);
+}
+
+void require_one_light(const Options& given) {
+  if (given.given("direct") && given.given("paths"))
+    throw Error(ExitCode::usage, "--direct", "says what --paths says; give one of the two");
+}
+
 void declare_raster_options(Options& options, RecordOptions& r) {
   options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
                   {8, 1024});
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
                                "what stands for directions beyond the plane: nothing, the plane's own mean "
-                               "(coverage), or its border pixels (stretch)");
+                               "(coverage), or its border pixels (stretch)",
+                               Recorded::as_resolved);
 }
 
 void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {
   const Adoption from(given, earlier);
   from.choice("gradients", r.gradients, kGradients);
+  from.choice_unless(Footprint::circle, "footprint", r.footprint, kFootprints);
+  from.number_unless(RecordOptions().rho, "rho", r.rho);
   adopt_all_but_gradients(r, from);
 }
 
@@ -155,7 +196,7 @@ void adopt_all_but_gradients(RecordOptions& r, const Adoption& from) {
   from.number("accuracy", r.accuracy);
   from.number("min-radius", r.min_radius_m);
   from.number("max-radius", r.max_radius_m);
-  from.choice("paths", r.paths, kQuantities);
+  from.choice("paths", r.paths, kQuantities, "direct");
   from.choice("leak-test", r.leak_test, kLeakTests);
   from.choice("kernel", r.kernel, kKernels);
   from.integer("hemisphere-rings", r.hemisphere_rings);

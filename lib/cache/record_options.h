@@ -23,6 +23,14 @@ enum class Estimate {
   gather,  ///< stratified cosine-weighted rays, each lit where it lands
   raster,  ///< the scene drawn on one plane over the place (thesis 4.4)
 };
+/// The zone that a record serves (Ribardiere et al. 2011 compare the last three).
+enum class Footprint {
+  circle,           ///< a disc; radius by RecordOptions::radius, gradient and neighbours (A7)
+  circle_min,       ///< the same by the least distance (their MDIC)
+  circle_harmonic,  ///< by the harmonic mean, and shrunk where records about it say otherwise (HMDIC:
+                    ///< adaptive caching, Krivanek et al. 2006)
+  adaptive,  ///< eight axes, each as long as surroundings and light allow (ARIC)
+};
 enum class RadiusRule { harmonic, least };  ///< A7: harmonic mean, or least distance of the rays
 enum class LeakTest {
   none,
@@ -46,6 +54,8 @@ struct RecordOptions {
   GradientMode gradients = GradientMode::automatic;
   RadiusRule radius = RadiusRule::harmonic;  ///< of gather and raster
   LeakTest leak_test = LeakTest::none;
+  Footprint footprint = Footprint::circle;
+  double rho = 0.05;  ///< relative error of light along the axes of an adaptive footprint (E6)
   // Photons.
   Kernel kernel = Kernel::disc;
   std::int64_t hemisphere_rings = 8;
@@ -65,15 +75,19 @@ struct RecordOptions {
   std::int64_t raster_side = 64;      ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;
 
-  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size), and the
-  /// estimator's own gradients. Throws Error(usage) if the smaller radius exceeds the larger, or if the
-  /// estimator has no such gradients.
+  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size), the
+  /// estimator's own gradients, and the rule of the radius that a footprint stands for. Throws Error(usage)
+  /// if the smaller radius exceeds the larger, or if the estimator has no such gradients or footprint.
   void resolve(float diagonal_m);
 };
 
 /// All but those of --estimate raster.
 void declare_options(Options& options, RecordOptions& records);
 void declare_raster_options(Options& options, RecordOptions& records);
+/// --footprint, --rho and --direct (another name of --paths).
+void declare_footprint_options(Options& options, RecordOptions& records);
+/// Throws Error(usage) if both --direct and --paths were given.
+void require_one_light(const Options& given);
 // Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays
 // with what they read where they land.
 void declare_reach_options(Options& options, RecordOptions& records);

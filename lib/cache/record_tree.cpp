@@ -96,10 +96,13 @@ struct RecordTree::Impl {
     const DVec3 point(p);
     while (cell != kNone) {
       for (const Entry& e : cells[cell].entries) {
-        const float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
-        if (!(w > kLeastWeight) || record_in_front(records[e.record], p, n)) continue;
-        if (leak_test && !record_in_sight(*leak_test, records[e.record], p, n)) continue;
-        if (!visit(records[e.record], w * records[e.record].weight)) return;
+        float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
+        if (!(w > kLeastWeight)) continue;
+        const IrradianceRecord& r = records[e.record];
+        if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
+        if (!(w > kLeastWeight) || record_in_front(r, p, n)) continue;
+        if (leak_test && !record_in_sight(*leak_test, r, p, n)) continue;
+        if (!visit(r, w * r.weight)) return;
       }
       side /= 2;
       const unsigned o = octant_of(point, cell_lo + side);

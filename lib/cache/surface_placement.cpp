@@ -119,7 +119,8 @@ bool SurfaceCover::valid(const IrradianceRecord& record, const SurfacePoint& poi
   return options_.leak_test == LeakTest::none || record_in_sight(rays_, record, p, n);
 }
 
-/// A zone of influence is convex on a flat triangle: what covers all corners covers the piece.
+/// A disc is convex on a flat triangle: what covers all corners covers the piece. A footprint is not: pieces
+/// are cut until they are small beside its shortest axis.
 Finding SurfaceCover::find(const Piece& piece, const SurfacePoint& middle, const SurfacePoint (&corner)[3],
                            float length_m) const {
   const bool last = piece.depth >= kDeepest;
@@ -127,8 +128,8 @@ Finding SurfaceCover::find(const Piece& piece, const SurfacePoint& middle, const
   growth_.tree().valid(middle.position, middle.smooth_normal, records);
   float reach_m = 0;
   for (const IrradianceRecord* r : records) {
-    reach_m = std::max(reach_m, accuracy_ * r->radius_m);
-    if (std::all_of(corner, corner + 3, [&](const SurfacePoint& p) { return valid(*r, p); }))
+    reach_m = std::max(reach_m, accuracy_ * least_radius_m(*r));
+    if (!r->footprint && std::all_of(corner, corner + 3, [&](const SurfacePoint& p) { return valid(*r, p); }))
       return Finding::covered;
   }
   if (!records.empty()) return last || length_m <= kFine * reach_m ? Finding::covered : Finding::cut;
@@ -238,6 +239,7 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   for (int pass = 1; pass <= placement.passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
     cover.pass(pass);
+    if (pass < placement.passes) growth.compare();
     report.uncovered_share = cover.open_share(pass, true);
     report.uncovered_share_of_triangles = cover.open_share(pass, false);
     if (std::max(*report.uncovered_share, *report.uncovered_share_of_triangles) < kSurfaceShare) break;

@@ -19,6 +19,7 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   coarse.estimate = Estimate::hull;
   coarse.gradients = GradientMode::analytic;
   coarse.leak_test = LeakTest::none;
+  coarse.footprint = Footprint::circle;
   coarse.accuracy = fine.source_accuracy;
   coarse.min_photons = fine.source_photons;
   coarse.max_photons = 4 * fine.source_photons;
@@ -31,7 +32,8 @@ EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, 
   for (const IrradianceRecord& r : records) {
     const double reach_m = accuracy * static_cast<double>(r.radius_m),
                  error = static_cast<double>(luminance(r.stderr_lx));
-    noise += std::numbers::pi * reach_m * reach_m * error * error;
+    const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
+    noise += std::numbers::pi * reach_m * reach_m * share * error * error;
     const auto lux = static_cast<double>(luminance(r.irradiance));
     light += lux, squares += lux * lux, errors += error * error;
   }

@@ -48,6 +48,7 @@ constexpr Event kEvents[] = {
     {"records with shrunk zone", kAny, "records", ""},
     {"records with too few photons", kAny, "records", ""},
     {"records without photons", kAny, "records", ""},
+    {"axes of footprints left unresolved", kAny, "axes", ""},
     {"candidates left uncovered", kAny, "candidates", ""},
     {"radii clamped to a neighbour", kAny, "records", ""},
     {"radii raised to the smallest", kAny, "records", ""},

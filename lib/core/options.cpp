@@ -26,6 +26,7 @@ struct Declaration {
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
   std::string default_text;
+  Json initial;  // value at the declaration, of Recorded::unless_default
   CLI::Option* parsed = nullptr;
 };
 
@@ -133,6 +134,7 @@ struct Options::Impl {
   }
   /// An option that takes one value; `set` gets its text.
   void add(Declaration& d, const std::function<void(const std::string&)>& set) {
+    d.initial = d.value();
     d.parsed = app.add_option_function<std::string>(flags_of(d), set)->take_last();
   }
   const Declaration* find(const std::string& name) const {
@@ -291,11 +293,14 @@ void Options::file(const std::string& name, std::string& value, const std::strin
 
 void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names,
                               std::size_t index, std::function<void(std::size_t)> set,
-                              const std::string& help, Recorded recorded) {
+                              std::function<std::size_t()> current, const std::string& help,
+                              Recorded recorded) {
   Declaration& d = impl_->declare(name, "WHICH", help, recorded);
   d.choices = names, d.default_text = names[index], d.kind = "choice";
   const auto chosen = std::make_shared<std::size_t>(index);
   d.value = [chosen, names] { return Json(names[*chosen]); };
+  if (recorded == Recorded::as_resolved || recorded == Recorded::unless_default)
+    d.value = [current, names] { return Json(names[current()]); };
   impl_->add(d, [chosen, names, set, n = d.name](const std::string& s) {
     const auto found = std::find(names.begin(), names.end(), s);
     if (found == names.end()) {
@@ -408,9 +413,13 @@ std::string Options::first_given(std::initializer_list<const char*> names) const
 
 Json Options::recorded() const {
   Json all = Json::Object{};
-  for (const Declaration& d : impl_->declarations)
-    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && given(d.name)))
-      all[d.name] = d.value();
+  for (const Declaration& d : impl_->declarations) {
+    const Json value = d.value();
+    if (d.recorded == Recorded::yes || d.recorded == Recorded::as_resolved ||
+        (d.recorded == Recorded::if_given && given(d.name)) ||
+        (d.recorded == Recorded::unless_default && !(value == d.initial)))
+      all[d.name] = value;
+  }
   return all;
 }
 

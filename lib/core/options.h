@@ -17,8 +17,9 @@ namespace phos {
 
 /// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths,
 /// threads). if_given: only where it was given, so that commands that do without are what they were before
-/// there was such an option.
-enum class Recorded { yes, no, if_given };
+/// there was such an option. as_resolved: of a choice, its value at the end, which something else than the
+/// command line may have settled. unless_default: likewise, but only where that is not the default.
+enum class Recorded { yes, no, if_given, as_resolved, unless_default };
 
 struct Range {
   double lo = -std::numeric_limits<double>::infinity();
@@ -66,8 +67,14 @@ class Options {
       names.push_back(values[i].first);
       if (values[i].second == value) index = i;
     }
+    const auto current = [&value, values] {
+      std::size_t i = 0;
+      while (i + 1 < values.size() && values[i].second != value) ++i;
+      return i;
+    };
     choice_of_names(
-        name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, help, recorded);
+        name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, current, help,
+        recorded);
   }
 
   /// Positional inputs (never recorded).
@@ -98,7 +105,8 @@ class Options {
 
  private:
   void choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
-                       std::function<void(std::size_t)> set, const std::string& help, Recorded recorded);
+                       std::function<void(std::size_t)> set, std::function<std::size_t()> current,
+                       const std::string& help, Recorded recorded);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

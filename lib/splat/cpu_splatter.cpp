@@ -32,6 +32,24 @@ void load(SplatTile& tile, const GBuffer& g, const TileWindow& window) {
   }
 }
 
+/// A record with a footprint, which the kernel knows nothing of.
+void add_footprint(SplatTile& tile, const IrradianceRecord& r, float accuracy, float per_unit) {
+  const float reach_m = accuracy * r.radius_m;
+  for (int t = 0; t < kTilePixels; ++t) {
+    const Vec3 p(tile.px[t], tile.py[t], tile.pz[t]), n(tile.nx[t], tile.ny[t], tile.nz[t]),
+        step = p - r.position;
+    if (!(glm::dot(step, step) < reach_m * reach_m)) continue;
+    float w = weight_within(*r.footprint, r, accuracy, p, n);
+    if (!(w > kLeastWeight) || record_in_front(r, p, n)) continue;
+    w *= r.weight;
+    const Rgb e = extrapolate(r, p, n);
+    for (int c = 0; c < 3; ++c) tile.light[c][t] += w * e[c], tile.error[c][t] += w * r.stderr_lx[c];
+    tile.light[3][t] += w, tile.error[3][t] += w > 0 ? 1.f : 0.f;
+    const float value = luminance(e) * per_unit;
+    tile.spread[0][t] += w * w, tile.spread[1][t] += w * r.shared, tile.spread[2][t] += w * value * value;
+  }
+}
+
 void store(const SplatTile& tile, SplatBuffer& buffer, const TileWindow& window) {
   for (int y = 0; y < window.rows; ++y) {
     for (int x = 0; x < window.columns; ++x) {
@@ -134,7 +152,18 @@ SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accur
       const TileWindow window{x0, y0, std::min(kTileSide, gbuffer.width - x0),
                               std::min(kTileSide, gbuffer.height - y0), gbuffer.width};
       load(tile, gbuffer, window);
-      kernel(tile, packed.data(), list.data(), list.size(), 1 / a, kLeastWeight, 1 / buffer.unit_lx);
+      // Runs of records of one kind, in their order.
+      const auto shaped = [&](std::size_t k) { return records[list[k]].footprint != nullptr; };
+      for (std::size_t first = 0, last = 0; first < list.size(); first = last) {
+        while (last < list.size() && shaped(last) == shaped(first)) ++last;
+        if (!shaped(first)) {
+          kernel(tile, packed.data(), list.data() + first, last - first, 1 / a, kLeastWeight,
+                 1 / buffer.unit_lx);
+          continue;
+        }
+        for (std::size_t k = first; k < last; ++k)
+          add_footprint(tile, records[list[k]], a, 1 / buffer.unit_lx);
+      }
       store(tile, buffer, window);
     }
   });

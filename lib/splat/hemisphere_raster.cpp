@@ -97,7 +97,8 @@ void RasterEstimator::sample(const RecordSite& site, Hemisphere& h, Worker& work
 Made RasterEstimator::make(const RecordSite& site, Worker& worker) const {
   auto& w = static_cast<RasterWorker&>(worker);
   sample(site, w.hemisphere, w);
-  return impl_->record(site, light_of(std::span(&w.hemisphere, 1), impl_->options), w);
+  const std::span<const Hemisphere> passes(&w.hemisphere, 1);
+  return impl_->record(site, light_of(passes, impl_->options), passes, w);
 }
 
 }  // namespace phos

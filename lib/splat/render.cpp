@@ -213,7 +213,7 @@ class Painter {
   }
 
  private:
-  bool by_gl() const { return options_.splat == SplatBy::gl; }
+  bool by_gl() const { return options_.splat == SplatBy::gl && !any_footprint(cache_.records); }
   bool gloss_by_gl() const { return gloss_ && options_.gloss_splat == SplatBy::gl; }
   bool cached_direct() const { return cache_.quantity == "all"; }
 

@@ -1,0 +1,219 @@
+#include "cache/footprint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phos {
+namespace {
+
+constexpr int kAxes = AdaptiveFootprint::kAxes;
+constexpr float kOverhead = 0.8660254f;      // cosine: nearer to the normal than 30 degrees has no direction
+constexpr float kLeastLight = 1e-3f;         // of the light at the record: less does not count as light (E6)
+constexpr float kLeastNearness2 = 1.f / 16;  // squared: how near equivalent lights come, of their distance
+constexpr float kLeastEmitterCosine = 0.1f;  // B4
+constexpr float kLeastCosine = 0.05f;        // D2: grazing rays
+constexpr float kSlope = 2;                  // E7
+constexpr float kShorter = 0.75f;
+constexpr std::size_t kLanes = 8;
+
+Vec2 axis_of(int k) { return AdaptiveFootprint::direction(k); }
+
+int nearest_axis(const Vec2& v) {
+  int best = 0;
+  for (int k = 1; k < kAxes; ++k)
+    if (glm::dot(v, axis_of(k)) > glm::dot(v, axis_of(best))) best = k;
+  return best;
+}
+
+/// What a record with this parabola says of its axis.
+Rgb told(const Rgb& at_place, const Rgb& slope, const Rgb& bend, float s) {
+  return glm::max(at_place + slope * s + bend * (0.5f * s * s), Rgb(0));
+}
+
+template <class Radii>
+void limit_slopes(Radii& radius_m) {
+  for (int round = 0; round < kAxes; ++round)
+    for (std::size_t k = 0; k < radius_m.size(); ++k)
+      radius_m[k] = std::min(radius_m[k],
+                             kSlope * std::min(radius_m[(k + 1) % kAxes], radius_m[(k + kAxes - 1) % kAxes]));
+}
+
+}  // namespace
+
+AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float)>& light, float length_m, float least_m,
+                 float rho) {
+  AxisFit fit;
+  fit.length_m = std::max(length_m, least_m);
+  Rgb quarter = light(fit.length_m * 0.25f), half = light(fit.length_m * 0.5f),
+      most = light(fit.length_m * 0.75f), all = light(fit.length_m);
+  fit.evaluations = 5;
+  const float floor = kLeastLight * max_component(at_place);
+  const auto good = [&](const Rgb& truth, float s) {
+    const Rgb off = glm::abs(told(at_place, fit.slope, fit.bend, s) - truth);
+    return max_component(off) <= rho * std::max(max_component(truth), floor);
+  };
+  for (;;) {
+    fit.slope = 4.f * half - all - 3.f * at_place;
+    fit.bend = 4.f * (all - 2.f * half + at_place);
+    fit.resolved = good(quarter, 0.25f) && good(most, 0.75f);
+    if (fit.resolved || !(fit.length_m * 0.5f >= least_m)) return fit;
+    fit.length_m *= 0.5f;
+    all = half, half = quarter;
+    quarter = light(fit.length_m * 0.25f), most = light(fit.length_m * 0.75f);
+    fit.evaluations += 2;
+  }
+}
+
+LightNearby::LightNearby(std::span<const Hemisphere> passes, GradientMode mode, float least_m)
+    : frame_(passes.front().frame) {
+  double rays = 0;
+  for (const Hemisphere& h : passes) rays += static_cast<double>(h.size());
+  for (const Hemisphere& h : passes) {
+    const auto weight = static_cast<float>(static_cast<double>(h.size()) / rays);
+    for (std::size_t i = 0; i < h.size(); ++i) {
+      const Rgb light = weight * h.projected_sr[i] * h.radiance[i];
+      const float seen = weight * h.projected_sr[i] * (1 / kPi);
+      const Vec3 w = frame_.to_local(h.direction[i]);
+      direction_.push_back(w), light_.push_back(light);
+      const float d = std::max(h.distance_m[i], least_m);
+      if (!std::isfinite(d)) {
+        constant_ += light, constant_seen_ += seen;
+        continue;
+      }
+      Vec3 n = frame_.to_local(h.hit_normal[i]);
+      float cosine = -glm::dot(n, w);
+      if (cosine < kLeastEmitterCosine) n = -w, cosine = 1;
+      red_.push_back(light.x), green_.push_back(light.y), blue_.push_back(light.z), seen_.push_back(seen);
+      towards_x_.push_back(2 * w.x / d), towards_y_.push_back(2 * w.y / d);
+      facing_x_.push_back(n.x / (cosine * d)), facing_y_.push_back(n.y / (cosine * d));
+      inverse_d2_.push_back(1 / d / d);
+    }
+    if (mode != GradientMode::hybrid) continue;
+    const Gradients seen = ray_gradients(h, mode, least_m),
+                    blind = ray_gradients(h, GradientMode::analytic, least_m);
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 g = weight * (seen.translation[c] - blind.translation[c]);
+      occlusion_[0][c] += glm::dot(g, frame_.x), occlusion_[1][c] += glm::dot(g, frame_.y);
+    }
+    Hemisphere even = h;
+    std::fill(even.radiance.begin(), even.radiance.end(), Rgb(1 / kPi));
+    const Vec3 g = weight * (ray_gradients(even, mode, least_m).translation[0] -
+                             ray_gradients(even, GradientMode::analytic, least_m).translation[0]);
+    occlusion_seen_[0] += glm::dot(g, frame_.x), occlusion_seen_[1] += glm::dot(g, frame_.y);
+  }
+  share_.resize(red_.size());
+}
+
+LightNearby::Light LightNearby::at(const Vec2& step) const {
+  const std::size_t n = red_.size();
+  const float x = step.x, y = step.y, s2 = glm::dot(step, step);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float near2 = 1 - (towards_x_[i] * x + towards_y_[i] * y) + s2 * inverse_d2_[i];
+    const float bounded = near2 > kLeastNearness2 ? near2 : kLeastNearness2;
+    const float facing = 1 + facing_x_[i] * x + facing_y_[i] * y;
+    share_[i] = (facing > 0 ? facing : 0) / (bounded * bounded);
+  }
+  float sum[4][kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= n; i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      sum[0][lane] += share_[i + lane] * red_[i + lane];
+      sum[1][lane] += share_[i + lane] * green_[i + lane];
+      sum[2][lane] += share_[i + lane] * blue_[i + lane];
+      sum[3][lane] += share_[i + lane] * seen_[i + lane];
+    }
+  for (; i < n; ++i) {
+    sum[0][0] += share_[i] * red_[i], sum[1][0] += share_[i] * green_[i];
+    sum[2][0] += share_[i] * blue_[i], sum[3][0] += share_[i] * seen_[i];
+  }
+  Light light{constant_ + step.x * occlusion_[0] + step.y * occlusion_[1],
+              constant_seen_ + step.x * occlusion_seen_[0] + step.y * occlusion_seen_[1]};
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    light.irradiance += Rgb(sum[0][lane], sum[1][lane], sum[2][lane]), light.seen += sum[3][lane];
+  if (light.seen > 0) light.irradiance /= light.seen;
+  return light;
+}
+
+Rgb LightNearby::bend_by_turn(const Vec2& axis, float sine, std::span<const LampSample> lamps) const {
+  const float less = std::sqrt(1 - sine * sine) - 1;
+  Rgb sum(0);
+  const auto add = [&](const Vec3& w, const Rgb& light) {
+    const float below = -((1 + less) * w.z + sine * glm::dot(Vec2(w), axis));
+    sum += (less + std::max(below, 0.f) / std::max(w.z, kLeastCosine)) * light;
+  };
+  for (std::size_t i = 0; i < light_.size(); ++i) add(direction_[i], light_[i]);
+  for (const LampSample& lamp : lamps) add(frame_.to_local(lamp.direction), lamp.irradiance);
+  return sum;
+}
+
+std::array<float, kAxes> radii_by_surroundings(std::span<const Hemisphere> passes,
+                                               const FootprintBounds& bounds) {
+  std::array<float, kAxes> nearest, radius;
+  nearest.fill(kInfinity);
+  const Frame& frame = passes.front().frame;
+  for (const Hemisphere& h : passes)
+    for (std::size_t i = 0; i < h.size(); ++i) {
+      const Vec3 w = frame.to_local(h.direction[i]);
+      if (w.z >= kOverhead) continue;
+      float& d = nearest[static_cast<std::size_t>(nearest_axis(Vec2(w)))];
+      d = std::min(d, h.distance_m[i]);
+    }
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    radius[k] = nearest[k];
+    if (std::isfinite(nearest[k])) continue;
+    const float before = nearest[(k + kAxes - 1) % kAxes], after = nearest[(k + 1) % kAxes];
+    radius[k] = 0.5f * std::min(before, bounds.most_m) + 0.5f * std::min(after, bounds.most_m);
+  }
+  for (float& r : radius) r = std::clamp(r, bounds.least_m, bounds.most_m);
+  limit_slopes(radius);
+  return radius;
+}
+
+FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNearby& nearby,
+                              const std::function<Rgb(const Vec2&)>& direct,
+                              std::span<const LampSample> lamps, const Vec3 (&rotation)[3],
+                              const FootprintBounds& bounds) {
+  const Frame& frame = nearby.frame();
+  const auto light_at = [&](const Vec2& step) {
+    Rgb light = glm::max(nearby.at(step).irradiance, Rgb(0));
+    if (direct) light += direct(step);
+    return light;
+  };
+  const Rgb here = light_at(Vec2(0));
+  const std::array<float, kAxes> around = radii_by_surroundings(passes, bounds);
+  FittedFootprint fitted;
+  std::array<float, kAxes> length;
+  AdaptiveFootprint::Axes axes;
+  for (int k = 0; k < kAxes; ++k) {
+    const Vec2 u = axis_of(k);
+    float radius = around[static_cast<std::size_t>(k)];
+    // A7: occlusion is known to first order only.
+    const float change = max_component(glm::abs(u.x * nearby.occlusion(0) + u.y * nearby.occlusion(1)));
+    if (change * radius > max_component(here))
+      radius = std::max(bounds.least_m, max_component(here) / change);
+    while (!(std::fabs(nearby.at(bounds.accuracy * radius * u).seen - 1) <= bounds.unseen) &&
+           radius * kShorter >= bounds.least_m)
+      radius *= kShorter;
+    const AxisFit fit = fit_axis(
+        here, [&](float d) { return light_at(d * u); }, bounds.accuracy * radius,
+        bounds.accuracy * bounds.least_m, bounds.rho);
+    fitted.unresolved += !fit.resolved;
+    length[static_cast<std::size_t>(k)] = fit.length_m;
+    AdaptiveFootprint::Axis& axis = axes[static_cast<std::size_t>(k)];
+    axis = {fit.length_m, fit.slope, fit.bend};
+    const Vec3 around_which = glm::cross(frame.z, u.x * frame.x + u.y * frame.y);
+    for (int c = 0; c < 3; ++c) axis.turn_slope[c] = glm::dot(around_which, rotation[c]);
+    constexpr float kSine = AdaptiveFootprint::kMostSine;
+    axis.turn_bend = 2 / (kSine * kSine) * nearby.bend_by_turn(u, kSine, lamps);
+  }
+  limit_slopes(length);
+  for (std::size_t k = 0; k < kAxes; ++k) {
+    const float shorter = length[k] / axes[k].length_m;
+    axes[k].length_m = length[k], axes[k].slope *= shorter, axes[k].bend *= shorter * shorter;
+  }
+  fitted.footprint = std::make_shared<AdaptiveFootprint>(frame.x, frame.z, axes);
+  fitted.radius_m = fitted.footprint->longest_m() / bounds.accuracy;
+  return fitted;
+}
+
+}  // namespace phos
