@@ -110,6 +110,11 @@ Json describe_light(const Scene& scene, const Light& light) {
     j["rotation_deg"] = glm::degrees(map.rotation_rad());
     j["mean_luminance_cd_m2"] = numbers(Rgb(map.integral_lx() / (4 * std::numbers::pi)));
     j["horizontal_illuminance_lx"] = numbers(Rgb(map.irradiance_up_lx()));
+    if (const auto& sun = map.sun()) {
+      j["sun_illuminance_lx"] = numbers(sun->illuminance_lx);
+      j["sun_direction"] = numbers(Vec3(sun->towards));
+      j["sun_diameter_deg"] = static_cast<float>(glm::degrees(2 * sun->radius_rad));
+    }
     return j;
   }
   j[light.kind == Light::Kind::directional ? "illuminance_lx" : "intensity_cd"] = numbers(light.intensity);

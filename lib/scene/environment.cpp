@@ -49,8 +49,9 @@ Rgb into_gamut(const Rgb& c) {
 
 }  // namespace
 
-Environment::Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad)
-    : width_(width), height_(height), rotation_rad_(rotation_rad), texels_(std::move(texels)) {
+Environment::Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad,
+                         const std::optional<Sun>& sun)
+    : width_(width), height_(height), rotation_rad_(rotation_rad), texels_(std::move(texels)), sun_(sun) {
   PHOS_CHECK(width > 0 && height > 0 &&
                  texels_.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
              width, " x ", height, " of ", texels_.size(), " texels");
@@ -60,6 +61,7 @@ Environment::Environment(int width, int height, std::vector<Rgb> texels, double 
     row_edge_.push_back(sine * sine);
   }
   integrate();
+  if (sun_) add_sun();
   by_flux_ = make_table([](double luminance) { return luminance; });
   if (!(cap_ > 0)) return;
   by_both_ = make_table(
@@ -93,6 +95,21 @@ void Environment::integrate() {
   if (!(brightest > cap)) return;
   cap_ = cap;
   capped_lx_ = sum_of([&](const DVec3& texel) { return DVec3(std::min(luminous(texel), cap)); }).x;
+}
+
+/// A disc of one luminance L and radius r gives pi L sin^2(r) on a surface that faces it.
+void Environment::add_sun() {
+  PHOS_CHECK(sun_->radius_rad > 0 && sun_->radius_rad < kTurn / 4 && valid(sun_->illuminance_lx),
+             "sun of radius ", sun_->radius_rad);
+  const double half = std::sin(sun_->radius_rad / 2), sine = std::sin(sun_->radius_rad);
+  sun_chord2_ = 4 * half * half, sun_sr_ = kTurn * 2 * half * half;
+  const DVec3 cd_m2 = DVec3(sun_->illuminance_lx) / (kTurn / 2 * sine * sine);
+  sun_cd_m2_ = Rgb(cd_m2);
+  integral_lx_ += cd_m2 * sun_sr_;
+  const double lx = luminous(cd_m2) * sun_sr_;
+  if (!(lx > 0)) return;
+  sun_share_ = lx / (lx + luminous_lx_);
+  sun_chance_ = luminous_lx_ > 0 ? std::min(sun_share_, 0.5) : 1;
 }
 
 template <class Weight>
@@ -130,14 +147,59 @@ float Environment::density_of(std::size_t texel) const {
   return static_cast<float>(0.5 * by_flux + 0.5 * std::min(luminance, cap_) / capped_lx_);
 }
 
+bool Environment::in_sun(const Vec3& direction) const {
+  const DVec3 apart = DVec3(direction) - sun_->towards;
+  return glm::dot(apart, apart) <= sun_chord2_;
+}
+
+/// Uniform over the disc's solid angle.
+Vec3 Environment::sample_sun(const Vec2& u) const {
+  // sin^2(theta / 2) is even in it.
+  const double q = 0.25 * sun_chord2_ * static_cast<double>(u.y), sine = 2 * std::sqrt(q * (1 - q));
+  const DVec3 side =
+      glm::normalize(std::fabs(sun_->towards.y) < 0.9 ? glm::cross(DVec3(0, 1, 0), sun_->towards)
+                                                      : glm::cross(DVec3(1, 0, 0), sun_->towards));
+  const DVec3 other = glm::cross(sun_->towards, side);
+  const Vec2 around = cos_sin(u.x);
+  return Vec3(sine * (static_cast<double>(around.x) * side + static_cast<double>(around.y) * other) +
+              (1 - 2 * q) * sun_->towards);
+}
+
+float Environment::density(const Vec3& direction) const {
+  const float map = density_of(texel_at(direction));
+  if (!(sun_chance_ > 0)) return map;
+  const double disc = in_sun(direction) ? sun_chance_ / sun_sr_ : 0;
+  return static_cast<float>(disc + (1 - sun_chance_) * static_cast<double>(map));
+}
+
 Environment::Sample Environment::sample(const Vec2& u) const {
-  return draw(by_both_.row_cdf.empty() ? by_flux_ : by_both_, u);
+  const Table& table = by_both_.row_cdf.empty() ? by_flux_ : by_both_;
+  if (!(sun_chance_ > 0)) return draw(table, u);
+  const double chance = sun_chance_, y = static_cast<double>(u.y);
+  const bool sun = y < chance;
+  const auto rest = static_cast<float>(sun ? y / chance : (y - chance) / (1 - chance));
+  Sample sample;
+  sample.direction = sun ? sample_sun({u.x, rest}) : draw(table, {u.x, rest}).direction;
+  sample.luminance = luminance(sample.direction), sample.density = density(sample.direction);
+  return sample;
 }
 
 Environment::Sample Environment::sample_flux(const Vec2& u) const {
-  Sample sample = draw(by_flux_, u);
-  if (sample.density > 0)
+  const double y = static_cast<double>(u.y);
+  Sample sample;
+  if (y < sun_share_) {
+    sample.direction = sample_sun({u.x, static_cast<float>(y / sun_share_)});
+  } else if (sun_share_ > 0) {
+    sample.direction =
+        draw(by_flux_, {u.x, static_cast<float>((y - sun_share_) / (1 - sun_share_))}).direction;
+  } else {
+    sample = draw(by_flux_, u);
+    if (!(sample.density > 0)) return sample;
     sample.density = static_cast<float>(luminous(DVec3(sample.luminance)) / luminous_lx_);
+    return sample;
+  }
+  sample.luminance = luminance(sample.direction);
+  sample.density = static_cast<float>(luminous(DVec3(sample.luminance)) / luminous(integral_lx_));
   return sample;
 }
 

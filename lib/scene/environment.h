@@ -1,7 +1,8 @@
-// Light from infinitely far away, by direction: an environment map.
+// Light from infinitely far away, by direction: an environment map and a sun.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,35 @@ namespace phos {
 /// Luminance over the sphere, constant over each texel of an equirectangular map: every sum over it is exact,
 /// and a sun of one texel is a sun of one texel. +Y is up: row 0 is the topmost. As in OpenEXR and Mitsuba,
 /// the middle of the picture shows +Z, and +X a quarter of the width to the left of it. The map is turned
-/// about +Y by `rotation_rad`, counter-clockwise seen from above: +Z goes towards +X.
+/// about +Y by `rotation_rad`, counter-clockwise seen from above: +Z goes towards +X. A sun, if there is one,
+/// is no texel but an exact disc: its luminance is added to the map's.
 class Environment {
  public:
+  struct Sun {
+    DVec3 towards{0, 1, 0};  ///< its middle, unit
+    double radius_rad = 0;   ///< half its angle across, above 0
+    Rgb illuminance_lx{0};   ///< of a surface that faces it
+  };
+
   /// cd/m2, row by row. There must be width x height texels, finite and not negative.
-  Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad = 0);
+  Environment(int width, int height, std::vector<Rgb> texels, double rotation_rad = 0,
+              const std::optional<Sun>& sun = std::nullopt);
 
   int width() const { return width_; }
   int height() const { return height_; }
   double rotation_rad() const { return rotation_rad_; }
   const std::vector<Rgb>& texels() const { return texels_; }
+  const std::optional<Sun>& sun() const { return sun_; }
+  /// Same text, same light: what a map that was computed is known by, instead of the last bits of its texels.
+  /// Empty for other maps.
+  const std::string& recipe() const { return recipe_; }
+  void set_recipe(std::string recipe) { recipe_ = std::move(recipe); }
 
-  /// Luminance seen in a direction (unit), cd/m2.
-  Rgb luminance(const Vec3& direction) const { return texels_[texel_at(direction)]; }
+  /// Luminance seen in a direction (unit), cd/m2, the sun included.
+  Rgb luminance(const Vec3& direction) const {
+    const Rgb& map = texels_[texel_at(direction)];
+    return sun_ && in_sun(direction) ? map + sun_cd_m2_ : map;
+  }
 
   struct Sample {
     Vec3 direction{0, 1, 0};  ///< unit, towards the environment
@@ -33,17 +50,18 @@ class Environment {
   };
   /// A direction in which a point looks for light: half of them with density in proportion to the luminance,
   /// half to what of it is below four times its mean, so that the sky is still seen where a small sun is
-  /// hidden (of a map without such peaks, all by luminance). Rows by u.y, columns by u.x, both monotonous, so
-  /// that strata of `u` are strata of the sphere. Density 0 where the map is black.
+  /// hidden (of a map without such peaks, all by luminance). A sun gets its share of the light, but at most
+  /// half of them, the smallest u.y. Rows by u.y, columns by u.x, both monotonous, so that strata of `u` are
+  /// strata of the sphere. Density 0 where all is black.
   Sample sample(const Vec2& u) const;
   /// Density per sr with which sample() chooses a direction.
-  float density(const Vec3& direction) const { return density_of(texel_at(direction)); }
+  float density(const Vec3& direction) const;
   /// A direction with density in proportion to the luminance alone: photons that start with it carry alike.
   Sample sample_flux(const Vec2& u) const;
 
-  /// Integral of the luminance over the sphere, lx (cd/m2 sr).
+  /// Integral of the luminance over the sphere, lx (cd/m2 sr), the sun included.
   const DVec3& integral_lx() const { return integral_lx_; }
-  /// Irradiance of an unoccluded surface that faces up, lx.
+  /// Irradiance of an unoccluded surface that faces up, lx, by the map alone.
   DVec3 irradiance_up_lx() const;
 
  private:
@@ -57,6 +75,9 @@ class Environment {
   Sample draw(const Table& table, const Vec2& u) const;
   std::size_t texel_at(const Vec3& direction) const;
   float density_of(std::size_t texel) const;
+  bool in_sun(const Vec3& direction) const;
+  Vec3 sample_sun(const Vec2& u) const;
+  void add_sun();
   double texel_sr(int row) const;
   void integrate();
 
@@ -66,9 +87,15 @@ class Environment {
   // sin^2(theta / 2) at the upper edge of each row, and at the last one's lower.
   std::vector<double> row_edge_;
   DVec3 integral_lx_{0};
-  double luminous_lx_ = 0;          // luminance of the integral
+  double luminous_lx_ = 0;          // luminance of the map's integral
   double cap_ = 0, capped_lx_ = 0;  // cd/m2; luminance of the integral of what is below it. 0: no peaks
   Table by_flux_, by_both_;         // the second is empty where there are no peaks
+  std::optional<Sun> sun_;
+  Rgb sun_cd_m2_{0};
+  double sun_chord2_ = -1;             // of directions within the disc to its middle, squared, at most
+  double sun_sr_ = 0, sun_share_ = 0;  // of the flux
+  double sun_chance_ = 0;              // in sample()
+  std::string recipe_;
 };
 
 /// An environment map as it was read.

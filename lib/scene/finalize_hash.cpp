@@ -116,6 +116,7 @@ void add_light(Hasher& hasher, const Scene& scene, const Light& light) {
 /// Empty where there is none.
 std::string hash_environment(const Environment* environment) {
   if (!environment) return {};
+  if (!environment->recipe().empty()) return hash_text(environment->recipe()).hex();
   Hasher hasher;
   hasher.add(environment->width());
   hasher.add(environment->height());

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "scene/daylight.h"
 #include "scene/environment.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
@@ -42,6 +43,7 @@ void declare_light_options(Options& options, SceneOptions& scene) {
                  {-360, 360});
   options.number("environment-scale", scene.environment_scale, "X",
                  "multiplies the luminance of the environment (default: 1)", kPositive);
+  declare_options(options, scene.daylight);
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {
@@ -49,6 +51,10 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
     throw Error(ExitCode::usage, "--time", "give either --time or --frame");
   if (options.environment.empty() && (options.environment_rotation_deg || options.environment_scale))
     throw Error(ExitCode::usage, "--environment", "is missing; rotation and scale are of its map");
+  if (!options.environment.empty() && options.daylight.any())
+    throw Error(ExitCode::usage, options.daylight.sky.empty() ? "--sun" : "--sky",
+                "and --environment both say what is beyond the scene; leave one of them out");
+  const Daylight daylight = resolve(options.daylight);
   const std::string bytes = scene_bytes(path);
   Scene scene;
   try {
@@ -69,6 +75,10 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
           options.environment, ": ", file.outside_gamut,
           " texels have colours outside of Rec.709; they are made less saturated, their luminance is kept"));
     }
+  }
+  if (options.daylight.any()) {
+    scene.environment = std::make_shared<const Environment>(make_environment(daylight));
+    scene.warnings.insert(scene.warnings.end(), daylight.warnings.begin(), daylight.warnings.end());
   }
   finalize(scene);
   return scene;

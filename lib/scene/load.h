@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "scene/daylight_options.h"
 #include "scene/luminaire_options.h"
 #include "scene/scene.h"
 
@@ -17,15 +18,16 @@ struct SceneOptions {
   std::optional<double> frame;   ///< the same, in frames
   std::string environment;       ///< file of an environment map; "": none
   std::optional<double> environment_rotation_deg, environment_scale;
+  DaylightOptions daylight;
   LuminaireOptions luminaires;
 };
 void declare_options(Options& options, SceneOptions& scene);
-/// Those that hold at every time: luminaires and the environment.
+/// Those that hold at every time: luminaires, the environment, sky and sun.
 void declare_light_options(Options& options, SceneOptions& scene);
 
-/// Loads and finalizes, with the environment map that the options name. The format is told from the content.
-/// Throws Error(bad_input): missing, not a scene, truncated, unknown required extension (named), glTF 1.0,
-/// index out of range, NaN vertex, no triangles, ...
+/// Loads and finalizes, with the environment map or the daylight that the options name. The format is told
+/// from the content. Throws Error(bad_input): missing, not a scene, truncated, unknown required extension
+/// (named), glTF 1.0, index out of range, NaN vertex, no triangles, ...
 Scene load_scene(const std::string& path, const SceneOptions& options = {});
 
 /// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing

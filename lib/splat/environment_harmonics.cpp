@@ -103,13 +103,36 @@ std::vector<double> cosine_factors(int order) {
   return factors;
 }
 
+/// A disc's coefficients are those of its middle, times the means of the Legendre polynomials over it.
+void add_sun(const Environment::Sun& sun, const HarmonicBasis<double>& basis, std::vector<DVec3>& sum) {
+  const DVec3 towards = glm::normalize(sun.towards);
+  const Frame frame = environment_frame();
+  std::vector<double> values(at(basis.count()));
+  basis.evaluate(BasisKind::sh, glm::dot(towards, DVec3(frame.x)), glm::dot(towards, DVec3(frame.y)),
+                 glm::dot(towards, DVec3(frame.z)), values.data());
+  // Mean of P_l over 1 - t(1 - cos r), by its integral (P_(l-1) - P_(l+1)) / (2 l + 1).
+  const double x = std::cos(sun.radius_rad), sine = std::sin(sun.radius_rad);
+  const double half = std::sin(sun.radius_rad / 2), drop = 2 * half * half;
+  const DVec3 lx = DVec3(sun.illuminance_lx) * (2 * drop / (sine * sine));  // luminance times solid angle
+  double before = 1, now = x;
+  for (int l = 0; l < basis.order(); ++l) {
+    double mean = 1;
+    if (l > 0) {
+      const double next = ((2 * l + 1) * x * now - l * before) / (l + 1);
+      mean = (before - next) / ((2 * l + 1) * drop);
+      before = now, now = next;
+    }
+    for (int i = l * l; i < (l + 1) * (l + 1); ++i) sum[at(i)] += values[at(i)] * mean * lx;
+  }
+}
+
 }  // namespace
 
 std::vector<float> project_environment(const Environment& map, int order) {
   const HarmonicBasis<double> basis(order);
   const Circle circle(map.width());
   using Sums = std::vector<DVec3>;
-  const Sums sums = parallel_reduce(
+  Sums sums = parallel_reduce(
       at(map.height()), 8, Sums(at(basis.count()), DVec3(0)),
       [&](std::size_t begin, std::size_t end) {
         Sums part(at(basis.count()), DVec3(0));
@@ -120,6 +143,7 @@ std::vector<float> project_environment(const Environment& map, int order) {
       [](Sums& total, const Sums& part) {
         for (std::size_t i = 0; i < total.size(); ++i) total[i] += part[i];
       });
+  if (map.sun()) add_sun(*map.sun(), basis, sums);
   std::vector<float> coefficients;
   for (const DVec3& s : sums)
     for (int c = 0; c < 3; ++c) coefficients.push_back(static_cast<float>(s[c]));
