@@ -7,6 +7,7 @@
 #include "photon/trace.h"
 #include "scene/load.h"
 #include "scene/rays.h"
+#include "scene/sky_access.h"
 
 namespace {
 
@@ -27,6 +28,14 @@ void report(Tool& tool, const PhotonTotals& totals) {
                   : "every photon left the scene: the map is empty; do the lights face surfaces?");
   tool.stat("paths", totals.paths);
   tool.stat("stored", totals.stored);
+}
+
+/// Light of a sky that nothing of the scene lets in, or that --portals cannot aim.
+void report_openings(Tool& tool, const RayScene& rays, const PhotonOptions& options) {
+  if (!rays.scene().environment || options.paths == 0) return;
+  if (const std::optional<std::string> closed = closed_to_the_sky(rays)) tool.warn(*closed);
+  if (tool.counters()[kNoPortalEvent] > 0)
+    tool.warn("--portals auto: no place sees the sky from within; photons are not aimed");
 }
 
 void check_events(const Counters& counters, const PhotonTotals& totals) {
@@ -72,6 +81,7 @@ int main(int argc, char** argv) {
       const Tool::Timer timer = tool.time("trace");
       photons = trace_photons(*rays, options, tool.seed(), totals, tool.counters());
     }
+    report_openings(tool, *rays, options);
     check_events(tool.counters(), totals);
     report(tool, totals);
     const Provenance provenance = tool.provenance("photons", scene->hash, scene->parts);

@@ -1,12 +1,14 @@
 // phos-sense: scene, caches, points -> lux and its standard error at sensors.
 #include <cstdio>
 
+#include "cache/daylight_factor.h"
 #include "cache/sensor_grid.h"
 #include "cache/sensors.h"
 #include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "file/tool.h"
 #include "reference/point_irradiance.h"
+#include "scene/daylight.h"
 #include "scene/film.h"
 #include "scene/load.h"
 #include "temporal/film_inputs.h"
@@ -55,8 +57,9 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
 }
 
 void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::span<const Reading> readings,
-               const SensorReport& report) {
+               const SensorReport& report, std::optional<double> open_lx) {
   Json summary = summarise(readings);
+  if (open_lx) add_daylight_factors(summary, *open_lx);
   summary["misses"] = report.uncovered;
   summary["records_made"] = report.records_made;
   summary["sensors_inside_solids"] = report.inside;
@@ -66,6 +69,7 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
   for (const auto& [name, value] : summary.as_object()) tool.stat(name, value);
   if (!inputs.summary.empty()) write_text(inputs.summary, {{summary.dump(2), "\n"}});
   tool.say(summary_line(summary));
+  if (open_lx && !readings.empty()) tool.say(daylight_line(summary));
   if (sensors.left_out > 0)
     tool.say(text(sensors.left_out,
                   " points of the grid are left out: in solids, behind walls, near walls, or "
@@ -92,7 +96,7 @@ int main(int argc, char** argv) {
   GridOptions grid;
   SensorOptions sense;
   PointOptions exactly;
-  bool exact = false, allow_mismatch = false;
+  bool exact = false, allow_mismatch = false, factors = false;
   std::string isa;
   Options& options = tool.options();
   options.inputs("SCENE [CACHE]", inputs.paths,
@@ -112,6 +116,11 @@ int main(int argc, char** argv) {
   options.number("error", exactly.relative_error, "SHARE",
                  "with --exact, stop at this standard error relative to the value", kPositive);
   declare_isa(options, isa);
+  options.flag(
+      "daylight-factor", factors,
+      "two more columns: E_lx and its standard error in percent of the illuminance in the open under "
+      "the same sky (--sky overcast, by the norm; no sun, no lamps)",
+      Recorded::if_given);
   options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON");
   options.flag("allow-mismatch", allow_mismatch, "use caches of another scene or another version of it");
   options.example("phos-sense room.glb room.irradiance --grid 0.5 --height 0.8 --margin 0.5 -o desk.csv",
@@ -134,6 +143,10 @@ int main(int argc, char** argv) {
       if (files.back().provenance().kind != "radiance") files.back() = Container::open(path, "irradiance");
       if (!allow_mismatch) require_same_scene(files.back(), inputs.scene, scene);
     }
+    std::optional<double> open_lx;
+    if (factors) open_lx = open_sky_lx(scene);
+    if (factors && !is_overcast(scene_options.daylight))
+      tool.warn("daylight factors are by the norm of an overcast sky (--sky overcast, cie:1 or cie:3)");
     const RayScene rays(scene, {isa});
     const Luminaires lights(scene);
     const Sensors sensors = find_sensors(inputs.points, grid, rays);
@@ -160,7 +173,7 @@ int main(int argc, char** argv) {
     tool.counters().merge(report.counters);
     tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");
-    write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings));
-    report_on(tool, inputs, sensors, readings, report);
+    write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings, open_lx));
+    report_on(tool, inputs, sensors, readings, report, open_lx);
   });
 }

@@ -237,10 +237,12 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
   return readings;
 }
 
-std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings) {
+std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
+                                    std::optional<double> open_lx) {
   const std::size_t n = readings.size();
   std::vector<std::string> pieces(1 + (n + kLines - 1) / kLines);
-  pieces[0] = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx\n";
+  pieces[0] = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx";
+  pieces[0] += open_lx ? ",daylight_factor_percent,daylight_factor_stderr_percent\n" : "\n";
   parallel_chunks(n, kLines, [&](std::size_t begin, std::size_t end) {
     std::string& out = pieces[1 + begin / kLines];
     out.reserve((end - begin) * 112);
@@ -252,6 +254,9 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
       for (const float v :
            {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})
         out += ',', out += shortest(v);
+      if (open_lx)
+        for (const float lx : {r.illuminance_lx, r.stderr_lx})
+          out += ',', out += shortest(static_cast<float>(100 * static_cast<double>(lx) / *open_lx));
       out += '\n';
     }
   });

@@ -105,8 +105,10 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
                                         const SensorOptions& options, SensorReport& report);
 
 /// id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx and a line for each sensor, shortest numbers, in
-/// pieces that follow each other.
-std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings);
+/// pieces that follow each other. With the illuminance in the open also
+/// daylight_factor_percent,daylight_factor_stderr_percent: E and stderr as shares of it.
+std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
+                                    std::optional<double> open_lx = std::nullopt);
 
 /// number, mean_lx, min_lx, max_lx, U0 = min/mean, Ud = min/max (absent where everything is dark or there is
 /// no sensor).

@@ -110,10 +110,11 @@ std::string scene_change(const Json& then, const Json& now) {
     return text("time ", shortest(time_then->as_number()), " s is now ", shortest(time_now->as_number()),
                 " s");
   const Json *sky_then = then.find("environment"), *sky_now = now.find("environment");
-  if (sky_then != nullptr && sky_now == nullptr) return "it had an environment or a sky; give the same --environment, --sky, --sun";
+  if (sky_then != nullptr && sky_now == nullptr)
+    return "it had an environment or a sky; give the same --environment, --sky, --sun";
   if (sky_then == nullptr && sky_now != nullptr) return "it had no --environment, --sky or --sun";
   if (sky_then != nullptr && !(*sky_then == *sky_now))
-    return "another --environment, --sky or --sun, or another option of theirs";
+    return "another --environment, --sky or --sun, or its rotation or scale, or another option of theirs";
   const Json *lamps_then = then.find("luminaires"), *lamps_now = now.find("luminaires");
   if (lamps_then != nullptr && lamps_now == nullptr)
     return "it had measured luminaires; give the same --luminaire";

@@ -46,13 +46,14 @@ double sample_spot_cosine(double cos_inner, double cos_outer, float u) {
   return std::clamp(cosine, -1.0, 1.0);
 }
 
-Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed)
-    : scene_(&scene), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
+Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed,
+                 const Portals* portals)
+    : scene_(&scene), portals_(portals), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
   if (luminaires_.size() == 0)
     throw Error(
         ExitCode::bad_input, scene.path,
         "no light: the scene has no lamp and no emissive material; add one (phos-scene shows what it has)");
-  share_ = luminaires_.power_shares(minimum_share);
+  share_ = luminaires_.power_shares(minimum_share, portals ? portals->flux_lm() : -1);
   Rgb total(0);
   double shares = 0;
   for (std::size_t i = 0; i < share_.size(); ++i) {
@@ -180,7 +181,41 @@ EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const
   return photon;
 }
 
+/// One path in kStray of the environment's is not aimed at the portals, so that no light is lost that comes
+/// by another way. Each carries its light over the density with which both together draw its line (balance
+/// heuristic; Veach 1997, 9.2.2), so that those on their way through a portal carry about alike.
+EmittedPhoton Emitter::aimed(RandomStream& random) const {
+  constexpr float kStray = 0.1f;
+  const Environment& light = *scene_->environment;
+  const bool stray = random.uniform() < kStray;
+  const float u_piece = random.uniform();
+  const Vec2 u = random.uniform2(), u_place = random.uniform2();
+  const Vec3 towards = stray ? light.sample_flux(u).direction : portals_->sample_direction(u);
+  const Vec3 direction = -towards, centre = scene_->bounds.centre();
+  const float radius_m = bounding_radius_m_;
+  const Frame frame = make_frame(direction);
+  Vec2 disc = radius_m * sample_disc(u_place);
+  if (!stray) {
+    Vec3 point;
+    if (!portals_->sample_point(direction, u_piece, u_place, point)) return {};
+    disc = {glm::dot(point - centre, frame.x), glm::dot(point - centre, frame.y)};
+  }
+  const Vec3 middle = centre + disc.x * frame.x + disc.y * frame.y;
+  EmittedPhoton photon;
+  photon.ray.origin = middle - 1.001f * radius_m * direction;
+  photon.ray.direction = direction;
+  photon.source_normal = direction;
+  photon.from_infinity = true;
+  const double disc_m2 = std::numbers::pi * static_cast<double>(radius_m) * static_cast<double>(radius_m);
+  const bool within = glm::dot(disc, disc) <= radius_m * radius_m;
+  const double density = static_cast<double>(kStray) * (within ? light.flux_density(towards) / disc_m2 : 0) +
+                         static_cast<double>(1 - kStray) * portals_->density(middle, direction);
+  if (density > 0) photon.flux_lm = Rgb(DVec3(light.luminance(towards)) / density);
+  return photon;
+}
+
 EmittedPhoton Emitter::from_environment(RandomStream& random) const {
+  if (portals_) return aimed(random);
   const Environment::Sample sample = scene_->environment->sample_flux(random.uniform2());
   if (!(sample.density > 0)) return {};
   return from_infinity(-sample.direction, sample.luminance / sample.density, random);

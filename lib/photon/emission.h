@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "photon/portals.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -22,8 +23,10 @@ struct EmittedPhoton {
 class Emitter {
  public:
   /// Each light gets a share of the paths in proportion to its flux, but at least minimum_share / (number of
-  /// lights). Throws Error(bad_input) if no light shines.
-  Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed);
+  /// lights). Throws Error(bad_input) if no light shines. With `portals`, nine in ten paths of the
+  /// environment are aimed at them, and its flux counts as what comes through them.
+  Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed,
+          const Portals* portals = nullptr);
 
   /// The light that a path starts from. Lights are dealt by a van der Corput sequence with a random start:
   /// after any number of paths each light has had its share to within a few paths, so that the choice adds no
@@ -47,9 +50,11 @@ class Emitter {
   EmittedPhoton from_point(const Light& light, RandomStream& random) const;
   EmittedPhoton from_spot(const Light& light, RandomStream& random) const;
   EmittedPhoton from_environment(RandomStream& random) const;
+  EmittedPhoton aimed(RandomStream& random) const;
   EmittedPhoton from_infinity(const Vec3& direction, const Rgb& lux, RandomStream& random) const;
 
   const Scene* scene_;
+  const Portals* portals_;
   Luminaires luminaires_;
   std::uint64_t rotation_ = 0;
   std::vector<double> share_;

@@ -41,10 +41,11 @@ std::string degrees_text(double rad) {
 
 /// Where the sun stands, if the options say.
 std::optional<SunPosition> find_sun(const DaylightOptions& o) {
-  if (!o.sun.empty() && (!o.place.empty() || !o.when.empty()))
-    fail("--sun", "says where the sun stands; leave it out, or --place and --when");
-  if (o.place.empty() != o.when.empty())
-    fail(o.place.empty() ? "--place" : "--when", "is missing: the sun's position needs both place and time");
+  if (!o.sun.empty() && (!o.location.empty() || !o.when.empty()))
+    fail("--sun", "says where the sun stands; leave it out, or --location and --when");
+  if (o.location.empty() != o.when.empty())
+    fail(o.location.empty() ? "--location" : "--when",
+         "is missing: the sun's position needs both location and time");
   SunPosition sun;
   if (!o.sun.empty()) {
     const auto [azimuth, elevation] = read_pair("--sun", o.sun, "AZIMUTH,ELEVATION in degrees, like 180,45");
@@ -52,12 +53,12 @@ std::optional<SunPosition> find_sun(const DaylightOptions& o) {
       fail("--sun",
            text("\"", o.sun, "\" is no place in the sky: azimuth is in -360 .. 360, elevation up to 90"));
     sun.azimuth_rad = glm::radians(azimuth), sun.elevation_rad = glm::radians(elevation);
-  } else if (!o.place.empty()) {
+  } else if (!o.location.empty()) {
     const auto [latitude, longitude] =
-        read_pair("--place", o.place, "LATITUDE,LONGITUDE in degrees, like 52.5,13.4");
+        read_pair("--location", o.location, "LATITUDE,LONGITUDE in degrees, like 52.5,13.4");
     if (std::fabs(latitude) > 90 || std::fabs(longitude) > 180)
-      fail("--place",
-           text("\"", o.place, "\" is not on earth: latitude is in -90 .. 90, longitude in -180 .. 180"));
+      fail("--location",
+           text("\"", o.location, "\" is not on earth: latitude is in -90 .. 90, longitude in -180 .. 180"));
     sun = sun_position(glm::radians(latitude), glm::radians(longitude), parse_instant("--when", o.when));
   } else {
     return std::nullopt;
@@ -105,9 +106,9 @@ void check_belongs(const DaylightOptions& o) {
   const auto only = [](bool given, const char* option, const char* why) {
     if (given) fail(option, why);
   };
-  const bool sky = !o.sky.empty(), perez = o.sky == "perez", sun = !o.sun.empty() || !o.place.empty();
+  const bool sky = !o.sky.empty(), perez = o.sky == "perez", sun = !o.sun.empty() || !o.location.empty();
   const char *needs_sky = "is of a sky; give --sky",
-             *needs_sun = "is of the sun; give --sun, or --place and --when",
+             *needs_sun = "is of the sun; give --sun, or --location and --when",
              *needs_perez = "is for --sky perez alone";
   only(!sky && o.sky_lx.has_value(), "--sky-illuminance", needs_sky);
   only(!sun && o.sun_lx.has_value(), "--sun-illuminance", needs_sun);
@@ -180,8 +181,8 @@ Daylight resolve(const DaylightOptions& o) {
     const int type = sky_type(o.sky);
     if (type > 0) d.sky = cie_sky(type), cover = cover_of(type);
     if ((type == 0 || d.sky->has_sun_side()) && !sun)
-      fail("--sun",
-           text("is missing: --sky ", o.sky, " is brighter about the sun; give it, or --place and --when"));
+      fail("--sun", text("is missing: --sky ", o.sky,
+                         " is brighter about the sun; give it, or --location and --when"));
     if (type == 0)
       resolve_perez(o, *sun, d);
     else
@@ -204,6 +205,12 @@ Daylight resolve(const DaylightOptions& o) {
   d.ground_albedo = o.ground_albedo.value_or(0.2);
   d.recipe = recipe_of(d);
   return d;
+}
+
+bool is_overcast(const DaylightOptions& options) {
+  if (options.sky.empty()) return false;
+  const int type = sky_type(options.sky);
+  return type == 1 || type == 3 || type == 16;
 }
 
 Environment make_environment(const Daylight& d) {

@@ -28,6 +28,9 @@ struct Daylight {
 /// cannot be read, where the sun is below the horizon, or where there would be no light at all.
 Daylight resolve(const DaylightOptions& options);
 
+/// Is the sky one of those that daylight factors are of by the norm: overcast, the same all around?
+bool is_overcast(const DaylightOptions& options);
+
 /// The light of it: the sky's luminance as the means of texels of a third of a degree, scaled to its
 /// illuminance; below the horizon the ground's, albedo times illuminance by sky and sun / pi; the sun as it
 /// is. On surfaces of any slope the texels change illuminance by less than a thousandth

@@ -19,10 +19,11 @@ constexpr TextOption kTexts[] = {
      &DaylightOptions::sky},
     {"sun", "AZIMUTH,ELEVATION",
      "where the sun stands, in degrees: clockwise from north, and above the horizon", &DaylightOptions::sun},
-    {"place", "LAT,LON",
+    {"location", "LAT,LON",
      "where the scene is, in degrees, north and east above 0: with --when, instead of --sun",
-     &DaylightOptions::place},
-    {"when", "TIME", "date, time and zone for --place, like 2026-06-21T14:00+02:00", &DaylightOptions::when}};
+     &DaylightOptions::location},
+    {"when", "TIME", "date, time and zone for --location, like 2026-06-21T14:00+02:00",
+     &DaylightOptions::when}};
 
 struct NumberOption {
   const char *name, *unit, *help;

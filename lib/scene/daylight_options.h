@@ -10,14 +10,14 @@
 namespace phos {
 
 struct DaylightOptions {
-  std::string sky;    ///< overcast, clear, cie:1 .. cie:16, perez; "": none
-  std::string sun;    ///< AZIMUTH,ELEVATION in degrees; "": not told so
-  std::string place;  ///< LATITUDE,LONGITUDE in degrees
-  std::string when;   ///< date, time and zone
+  std::string sky;       ///< overcast, clear, cie:1 .. cie:16, perez; "": none
+  std::string sun;       ///< AZIMUTH,ELEVATION in degrees; "": not told so
+  std::string location;  ///< LATITUDE,LONGITUDE in degrees
+  std::string when;      ///< date, time and zone
   std::optional<double> sky_lx, sun_lx, sun_diameter_deg, direct_w_m2, diffuse_w_m2, dew_point_c,
       ground_albedo, north_deg;
 
-  bool any() const { return !sky.empty() || !sun.empty() || !place.empty() || !when.empty(); }
+  bool any() const { return !sky.empty() || !sun.empty() || !location.empty() || !when.empty(); }
 };
 void declare_options(Options& options, DaylightOptions& daylight);
 /// The words of a command line that mean the same.

@@ -223,6 +223,17 @@ Environment::Sample Environment::draw(const Table& table, const Vec2& u) const {
   return sample;
 }
 
+double Environment::flux_density(const Vec3& direction) const {
+  const double all = luminous(integral_lx_);
+  return all > 0 ? luminous(DVec3(luminance(direction))) / all : 0;
+}
+
+Vec3 Environment::middle(int column, int row) const {
+  const double theta = std::numbers::pi * (row + 0.5) / height_;
+  const double phi = kTurn * (0.5 - (column + 0.5) / width_) + rotation_rad_;
+  return Vec3(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
+}
+
 DVec3 Environment::irradiance_up_lx() const {
   const auto columns = static_cast<std::size_t>(width_);
   DVec3 sum(0);

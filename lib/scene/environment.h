@@ -59,6 +59,11 @@ class Environment {
   /// A direction with density in proportion to the luminance alone: photons that start with it carry alike.
   Sample sample_flux(const Vec2& u) const;
 
+  /// Density per sr with which sample_flux() chooses a direction.
+  double flux_density(const Vec3& direction) const;
+  /// Direction of the middle of a texel.
+  Vec3 middle(int column, int row) const;
+
   /// Integral of the luminance over the sphere, lx (cd/m2 sr), the sun included.
   const DVec3& integral_lx() const { return integral_lx_; }
   /// Irradiance of an unoccluded surface that faces up, lx, by the map alone.

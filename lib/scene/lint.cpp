@@ -11,6 +11,7 @@
 #include "scene/finalize.h"
 #include "scene/load_textures.h"
 #include "scene/merl.h"
+#include "scene/sky_access.h"
 
 namespace phos {
 namespace {
@@ -26,6 +27,7 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
+    check_sky();
     check_lamps();
     check_materials();
     check_tangents();
@@ -85,6 +87,13 @@ class Linter {
           "glTF counts in cd, lx and cd/m2; lamps given in millicandela, or emission scaled for display, are "
           "too bright");
     }
+  }
+
+  void check_sky() {
+    if (!scene_.environment) return;
+    if (const std::optional<std::string> closed = closed_to_the_sky(RayScene(scene_)))
+      add(Level::warning, "no-opening", *closed,
+          "a window needs a hole in the wall, or a pane of glass (transmission, or dielectric) in it");
   }
 
   void check_lamps() {

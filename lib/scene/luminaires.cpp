@@ -268,16 +268,18 @@ std::int32_t Luminaires::light_of(std::uint32_t triangle) const {
   return instance_light_[scene_->triangle_instance[triangle]];
 }
 
-std::vector<double> Luminaires::power_shares(double minimum_share) const {
+std::vector<double> Luminaires::power_shares(double minimum_share, double environment_lm) const {
   const std::size_t n = size();
+  const auto flux_lm = [&](const Light& light) {
+    const bool other = light.kind == Light::Kind::environment && environment_lm >= 0;
+    return other ? environment_lm : static_cast<double>(luminance(light.flux_lm));
+  };
   double total = 0;
-  for (const Light& light : scene_->light) total += static_cast<double>(luminance(light.flux_lm));
+  for (const Light& light : scene_->light) total += flux_lm(light);
   std::vector<double> shares(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double even = 1 / static_cast<double>(n);
-    const double own = total > 0 && std::isfinite(total)
-                           ? static_cast<double>(luminance(scene_->light[i].flux_lm)) / total
-                           : even;
+    const double own = total > 0 && std::isfinite(total) ? flux_lm(scene_->light[i]) / total : even;
     shares[i] = minimum_share * even + (1 - minimum_share) * own;
   }
   return shares;

@@ -85,8 +85,9 @@ class Luminaires {
   EmissionPoint sample_seen_from(std::size_t i, const Vec3& direction, float u_triangle, const Vec2& u) const;
 
   /// Probability of each light in proportion to its flux (luminance of flux_lm), each at least
-  /// `minimum_share`/size(). All equal where no light has any flux.
-  std::vector<double> power_shares(double minimum_share) const;
+  /// `minimum_share`/size(). All equal where no light has any flux. The environment's flux is
+  /// `environment_lm` instead, if that is not negative.
+  std::vector<double> power_shares(double minimum_share, double environment_lm = -1) const;
 
  private:
   struct Facet {

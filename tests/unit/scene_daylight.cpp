@@ -288,13 +288,13 @@ TEST(Daylight, SaysWhatIsWrong) {
   refuse(o, "--direct-irradiance: is missing");
   o.direct_w_m2 = 500, o.diffuse_w_m2 = 5000;
   refuse(o, "0.01 to 0.6");
-  o = {}, o.place = "52,13";
+  o = {}, o.location = "52,13";
   refuse(o, "--when: is missing");
   o.when = "2026-12-21T23:00+01:00";
   refuse(o, "below the horizon");
   o.when = "2026-12-21T12:00+01:00", o.sun = "1,1";
   refuse(o, "leave it out");
-  o = {}, o.place = "152,13", o.when = "2026-12-21T12:00+01:00";
+  o = {}, o.location = "152,13", o.when = "2026-12-21T12:00+01:00";
   refuse(o, "is not on earth");
   o = {}, o.sky_lx = 100;
   refuse(o, "give --sky");

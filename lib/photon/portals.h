@@ -1,0 +1,64 @@
+// Openings through which light from infinitely far away is aimed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "scene/environment.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// A plane piece of an opening: a parallelogram, or half of one.
+struct Portal {
+  Vec3 corner{0}, edge[2]{Vec3(0), Vec3(0)};
+  bool triangle = false;
+  Vec3 inwards{0};  ///< unit normal: lines count that go that way; 0: both ways
+};
+
+/// Aims lines of light at portals. A line is a direction and a place on a plane across it; its density is per
+/// sr and m2 of that plane. Lines that meet several portals are drawn by each of them: crossings() is how
+/// many.
+class Portals {
+ public:
+  /// Directions in proportion to their luminance times the portals' area seen from there.
+  Portals(std::vector<Portal> pieces, const Environment& light);
+
+  /// Flux of the environment's light through all portals, were nothing in its way, lm (luminance of RGB),
+  /// roughly.
+  double flux_lm() const { return flux_lm_; }
+
+  /// Where the light comes from, unit.
+  Vec3 sample_direction(const Vec2& u) const { return guide_->sample_flux(u).direction; }
+  /// A point on a portal, by what is seen of each by light that travels in `direction`. False: none of it.
+  bool sample_point(const Vec3& direction, float u_piece, const Vec2& u, Vec3& point) const;
+  /// Density with which a line through `point` is aimed: sr^-1 m^-2.
+  double density(const Vec3& point, const Vec3& direction) const;
+
+ private:
+  /// Area of a piece across a direction of travel, m2.
+  double seen_m2(std::size_t piece, const DVec3& direction) const;
+  double seen_m2(const Vec3& direction) const;
+  int crossings(const Vec3& point, const Vec3& direction) const;
+
+  std::vector<Portal> pieces_;
+  std::vector<DVec3> area_m2_;        // vectors, by winding or inwards
+  std::optional<Environment> guide_;  // light times what is seen of the portals from there
+  double flux_lm_ = 0;
+};
+
+/// The scene's surfaces of the nodes and materials of these names, comma by comma. Throws Error(usage) for a
+/// name that there is not.
+std::vector<Portal> named_portals(const Scene& scene, const std::string& names);
+
+/// Where the sky is seen from within. Points all over the scene's surfaces look about; those that see it, but
+/// in less than a quarter of their half space, are within. The box about them is parted into cells; those
+/// through which they see it are the portals, a row of cells beyond them too. It need not be all of them:
+/// photons are not only aimed. Empty where nothing is within. Glass is seen through. Same for any number of
+/// threads.
+std::vector<Portal> find_portals(const RayScene& rays, std::uint64_t seed);
+
+}  // namespace phos

@@ -1,0 +1,137 @@
+// Sensors under skies and suns, against closed forms.
+#include <gtest/gtest.h>
+
+#include "cache/daylight_factor.h"
+#include "cache/direct_light.h"
+#include "core/error.h"
+#include "support/daylight.h"
+
+namespace phos::test {
+namespace {
+
+/// Direct light at a point that faces up, and its standard error.
+std::pair<double, double> lx_at(const Scene& scene, const Vec3& p, int samples = 1024) {
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  RandomStream random(1, Stage::direct_light, 7);
+  const DirectIrradiance e = direct_irradiance(rays, lights, receiver(scene, p, {0, 1, 0}), samples, random);
+  return {static_cast<double>(e.irradiance.y), static_cast<double>(e.stderr_lx.y)};
+}
+
+/// The factor of a sensor, and its standard error, as the table has them, in percent.
+std::pair<double, double> factor_at(const Scene& scene, const Vec3& p, int samples = 4096) {
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  Sensors sensors;
+  sensors.points = {{p, {0, 1, 0}}};
+  SensorOptions options;
+  options.direct_only = true, options.light_samples = samples;
+  SensorReport report;
+  const auto readings = read_light(sensors, rays, lights, {{}, nullptr}, options, report);
+  const auto pieces = sensor_csv(sensors, readings, open_sky_lx(scene));
+  EXPECT_TRUE(pieces[0].ends_with(",daylight_factor_percent,daylight_factor_stderr_percent\n"));
+  const std::string& line = pieces[1];
+  const std::size_t error = line.rfind(','), factor = line.rfind(',', error - 1);
+  return {std::stod(line.substr(factor + 1)), std::stod(line.substr(error + 1))};
+}
+
+}  // namespace
+
+TEST(Sensors, InTheOpenReadWhatWasAskedFor) {
+  for (int type = 1; type <= 16; ++type) {
+    Scene scene = open_floor();
+    surround(scene, sky_of("cie:" + std::to_string(type), "250,40", 8000, 0));
+    const auto [lx, error] = lx_at(scene, {0.1f, 0, 0.2f});
+    EXPECT_NEAR(lx, 8000, 4 * error + 1) << type;
+    EXPECT_LT(error, 80) << type;
+  }
+}
+
+/// E = E_n sin(elevation) by the sun, in a scene of any size.
+TEST(Sensors, InTheSunReadItsIlluminance) {
+  for (const float metres : {1e-6f, 1.f, 1e6f})
+    for (const double elevation : {3.0, 20.0, 60.0, 90.0}) {
+      Scene scene = open_floor(metres);
+      surround(scene, sky_of("", "30," + std::to_string(elevation), 0, 90000));
+      const auto [lx, error] = lx_at(scene, {0, 0, 0}, 256);
+      const double truth = 90000 * std::sin(glm::radians(elevation));
+      EXPECT_NEAR(lx, truth, 4 * error + 1e-5 * truth) << metres << " " << elevation;
+      EXPECT_LT(error, 2e-3 * truth) << elevation;
+    }
+}
+
+/// Sun and sky together, one light: neither eats the other's samples.
+TEST(Sensors, ReadSunAndSkyTogether) {
+  Scene scene = open_floor();
+  surround(scene, sky_of("clear", "30,30", 12000, 80000));
+  const auto [lx, error] = lx_at(scene, {0, 0, 0});
+  EXPECT_NEAR(lx, 52000, 4 * error + 5);
+  EXPECT_LT(error, 0.005 * lx);
+}
+
+/// The sun in the zenith, an edge at height h: a penumbra as wide as h times the sun's angle, the disc's
+/// segment in it.
+TEST(Sensors, SeeThePenumbraOfTheSun) {
+  for (const float scale : {1e-6f, 1.f, 1e6f}) {
+    const float height = 2 * scale;
+    Scene scene = under_an_edge(height, 3 * scale);
+    surround(scene, sky_of("", "0,90", 0, 100000));
+    const double radius = static_cast<double>(height) * std::tan(glm::radians(0.533 / 2));
+    for (const double t : {-1.05, -0.7, -0.25, 0.0, 0.4, 0.9, 1.05}) {
+      const auto [lx, error] = lx_at(scene, {static_cast<float>(t * radius), 0, 0.3f * scale}, 4096);
+      EXPECT_NEAR(lx / 100000, seen_of_disc(t), 4 * error / 100000 + 2e-3) << t << " at " << scale;
+      EXPECT_LT(error, 600);
+    }
+  }
+}
+
+TEST(DaylightFactor, IsAllInTheOpen) {
+  for (const double lx : {1.0, 10000.0}) {
+    Scene scene = open_floor();
+    surround(scene, sky_of("overcast", "", lx));
+    EXPECT_NEAR(open_sky_lx(scene), lx, 1e-5 * lx);
+    const auto [factor, error] = factor_at(scene, {0.3f, 0, 0.1f});
+    EXPECT_NEAR(factor, 100, 4 * error + 0.01);
+    EXPECT_LT(error, 0.5);
+  }
+}
+
+/// Behind a window of a black room: the integral of the overcast sky's luminance over it.
+TEST(DaylightFactor, BehindAWindow) {
+  Scene scene = room_with_window(0);
+  surround(scene, sky_of("overcast", "", 5000));
+  const auto overcast = [](const DVec3& w) { return 9 * 5000 / (7 * std::numbers::pi) * (1 + 2 * w.y) / 3; };
+  for (const DVec3& p : {DVec3(2.5, 0, 3), DVec3(1, 0, 2.5), DVec3(2.5, 0.8, 2), DVec3(4, 0, 1)}) {
+    const double truth = 100 * through_window_lx(p, overcast, 100) / 5000;
+    const auto [factor, error] = factor_at(scene, Vec3(p), 65536);
+    EXPECT_NEAR(factor, truth, 4 * error + 2e-3 * truth);
+    EXPECT_LT(error, 0.05 * truth);
+  }
+}
+
+TEST(DaylightFactor, IsOfTheSkyAlone) {
+  const auto refused = [](Scene scene, const char* why) {
+    try {
+      open_sky_lx(scene);
+      ADD_FAILURE() << why;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::usage);
+      EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
+    }
+  };
+  Scene dark = open_floor();
+  finalize(dark);
+  refused(dark, "needs a sky");
+  Scene sunny = open_floor();
+  surround(sunny, sky_of("clear", "10,40"));
+  refused(sunny, "a sun shines too");
+  Scene lamp = open_floor();
+  add_point_light(lamp, {0, 1, 0}, 5);
+  surround(lamp, sky_of("overcast", ""));
+  refused(lamp, "shines too; take it out");
+  Scene below = open_floor();
+  surround(below, map_of(8, [](int, int y) { return Rgb(y > 3 ? 1.f : 0.f); }));
+  refused(below, "nothing from above");
+}
+
+}  // namespace phos::test
