@@ -68,7 +68,8 @@ const NumberOption kNumbers[] = {
 void declare_options(Options& options, DaylightOptions& daylight) {
   for (const TextOption& o : kTexts)
     options.text(o.name, daylight.*o.value, o.unit, o.help, Recorded::if_given);
-  for (const NumberOption& o : kNumbers) options.number(o.name, daylight.*o.value, o.unit, o.help, o.range);
+  for (const NumberOption& o : kNumbers)
+    options.number(o.name, daylight.*o.value, o.unit, o.help, o.range, Recorded::if_given);
 }
 
 std::vector<std::string> daylight_words(const DaylightOptions& options) {
