@@ -30,7 +30,7 @@ std::array<double, 2> read_pair(const char* option, const std::string& given, co
     const bool apart = i == 0 ? next != end && *next == ',' : next == end;
     if (error != std::errc() || !apart || !std::isfinite(values[i]))
       fail(option, text("\"", given, "\" is not of the form ", form));
-    at = next + 1;
+    if (i == 0) at = next + 1;
   }
   return values;
 }

@@ -56,7 +56,10 @@ std::string light_line(const Json& l) {
   if (const Json* mean = l.find("mean_luminance_cd_m2")) {
     line += text(", ", at(l, "size").as_array()[0].as_integer(), " x ",
                  at(l, "size").as_array()[1].as_integer(), ", mean ", triple(*mean), " cd/m2, ",
-                 triple(at(l, "horizontal_illuminance_lx")), " lx on open ground");
+                 triple(at(l, "horizontal_illuminance_lx")), " lx on open ground",
+                 l.find("sun_illuminance_lx")
+                     ? text("; sun ", triple(at(l, "sun_illuminance_lx")), " lx facing it")
+                     : "");
   }
   if (const Json* lx = l.find("illuminance_lx")) line += text(", ", triple(*lx), " lx");
   if (const Json* luminaire = l.find("luminaire")) {

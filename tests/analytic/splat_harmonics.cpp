@@ -80,6 +80,32 @@ TEST(EnvironmentProjection, OfAConstantIsOneCoefficient) {
   }
 }
 
+/// A disc of the sun is the mean over its directions, times its luminance and solid angle.
+TEST(EnvironmentProjection, OfASunIsTheMeanOverItsDisc) {
+  for (const double radius : {0.0046, 0.2, 1.0}) {
+    const Environment::Sun sun{glm::normalize(DVec3(0.3, 0.5, -0.7)), radius, Rgb(1, 2, 4)};
+    const Environment map(2, 1, {Rgb(0), Rgb(0)}, 0, sun);
+    constexpr int kOrder = 8, kSide = 200;
+    const std::vector<float> c = project_environment(map, kOrder);
+    const Frame frame = environment_frame();
+    const HarmonicBasis<double> basis(kOrder);
+    std::vector<double> values(kOrder * kOrder), sum(values.size());
+    for (int i = 0; i < kSide; ++i)
+      for (int k = 0; k < kSide; ++k) {
+        const Vec2 u((static_cast<float>(i) + 0.5f) / kSide, (static_cast<float>(k) + 0.5f) / kSide);
+        const Vec3 d = frame.to_local(map.sample(u).direction);
+        basis.evaluate(BasisKind::sh, static_cast<double>(d.x), static_cast<double>(d.y),
+                       static_cast<double>(d.z), values.data());
+        for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += values[n] / (kSide * kSide);
+      }
+    const double lx = map.integral_lx().x;
+    for (std::size_t n = 0; n < sum.size(); ++n)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(static_cast<double>(c[3 * n + k]), std::exp2(k) * lx * sum[n], 2e-4 * std::exp2(k) * lx)
+            << radius << " " << n;
+  }
+}
+
 TEST(EnvironmentProjection, IsTheIntegralOverTheTexels) {
   // A coarse map: its texels are far from points.
   const Environment map = soft_map(6, 0.4);
