@@ -186,7 +186,10 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
   AdaptiveFootprint::Axes axes;
   for (int k = 0; k < kAxes; ++k) {
     const Vec2 u = axis_of(k);
+    // Longer than this its neighbours would not let it be (E7).
     float radius = around[static_cast<std::size_t>(k)];
+    if (k > 0) radius = std::min(radius, kSlope * length[static_cast<std::size_t>(k - 1)] / bounds.accuracy);
+    if (k == kAxes - 1) radius = std::min(radius, kSlope * length[0] / bounds.accuracy);
     // A7: occlusion is known to first order only.
     const float change = max_component(glm::abs(u.x * nearby.occlusion(0) + u.y * nearby.occlusion(1)));
     if (change * radius > max_component(here))

@@ -13,6 +13,17 @@ namespace {
 /// A surface of this cosine or more with the site's normal, as near as its rounding, is the site's own.
 constexpr float kOwnSurface = 0.5f;
 
+/// What light does nearby is told by about so many shadow rays to all lamps of an extent together, and no
+/// fewer than that to each.
+constexpr std::int64_t kRaysNearby = 64, kLeastRaysNearby = 4;
+
+int samples_nearby(const Luminaires& lights, std::int64_t most) {
+  std::int64_t extended = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) extended += lights[i].extended();
+  const std::int64_t each = std::max(kRaysNearby / std::max<std::int64_t>(extended, 1), kLeastRaysNearby);
+  return static_cast<int>(std::min(most, each));
+}
+
 }  // namespace
 
 HemisphereRecords::HemisphereRecords(const RayScene& r, const Luminaires& l, const GatherSource& source,
@@ -62,10 +73,10 @@ void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> 
   const LightNearby nearby(passes, options.gradients, least_m);
   std::function<Rgb(const Vec2&)> direct;
   if (options.paths == Quantity::all && lights.size() > 0) {
-    direct = [&](const Vec2& step) {
+    const int samples = samples_nearby(lights, options.light_samples);
+    direct = [&, samples](const Vec2& step) {
       const Vec3 p = site.position + nearby.frame().to_world(Vec3(step, 0));
       RandomStream random(seed, Stage::direct_light, site.item);  // the same places on the lamps
-      const int samples = static_cast<int>(options.light_samples);
       sample_lamps(rays, lights, receiver(rays.scene(), p, site.normal), samples, random,
                    worker.lamps_nearby);
       return Rgb(light_of(worker.lamps_nearby));
