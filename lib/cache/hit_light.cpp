@@ -323,8 +323,8 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
       if (step.density > 0) {
         const auto i = static_cast<std::size_t>(lamp);
         const float cos_light = std::fabs(glm::dot(next.geometric_normal, step.direction));
-        const float other =
-            lamps.probability(point, i) * lights.density(i, next.triangle, next.distance_m, cos_light);
+        const float other = lamps.probability(point, i) *
+                            lights.density(i, point.position, next.triangle, next.distance_m, cos_light);
         weight = step.density / (step.density + other);
       }
       sum += throughput * emitted * weight;

@@ -195,9 +195,9 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   if (lamp < 0) return;
   const auto i = static_cast<std::size_t>(lamp);
   const float cos_light = std::fabs(glm::dot(found.geometric_normal, direction));
-  const float by_lamp =
-      probability(point, i) * (hit ? lights_.density(i, found.triangle, found.distance_m, cos_light)
-                                   : lights_.density_beyond(direction));
+  const float by_lamp = probability(point, i) *
+                        (hit ? lights_.density(i, point.position, found.triangle, found.distance_m, cos_light)
+                             : lights_.density_beyond(direction));
   light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
   light.certain = true;
 }

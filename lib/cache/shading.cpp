@@ -135,8 +135,8 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     const std::int32_t light = max_component(lamp) > 0 ? lights_.light_of(hit.triangle) : -1;
     if (light >= 0) {
       const float cos_light = std::fabs(glm::dot(hit.geometric_normal, sample.direction));
-      const float density =
-          lights_.density(static_cast<std::size_t>(light), hit.triangle, hit.distance_m, cos_light);
+      const float density = lights_.density(static_cast<std::size_t>(light), point.position, hit.triangle,
+                                            hit.distance_m, cos_light);
       from_lamp =
           sample.weight * lamp * (1.f - light_weight(light_samples, density, samples.count, sample.density));
     }

@@ -13,6 +13,15 @@ namespace {
 constexpr float kMostGrowth = 2.5f;
 constexpr std::size_t kLeastForDensity = 16;  // photons nearby that promise how many a zone will hold
 constexpr std::size_t kMostNearest = 512;
+// A zone ends before photon k, where this part of the area between it and the one before is within: rounding
+// must not decide whether the photon counts, nor its distance be told from another.
+constexpr float kOfLastGap = 0.99f;
+
+/// A radius that holds k photons of these radii, and not the one after, m.
+float holding_m(const std::vector<float>& radii, std::size_t k) {
+  const float before = k > 0 ? radii[k - 1] : 0.f, after = radii[k];
+  return std::sqrt(before * before + kOfLastGap * (after - before) * (after + before));
+}
 
 }  // namespace
 
@@ -79,11 +88,12 @@ float Surroundings::zone_radius_m(const ZonePlace& place, const NearPhotons& nea
   float radius = right;
   if (near.radii.size() >= kLeastForDensity) {
     const std::size_t k = near.radii.size(), least = static_cast<std::size_t>(options_.min_photons);
-    const float last = std::max(near.radii.back(), place.rounding_m);
+    const float last = std::max(holding_m(near.radii, k - 1), place.rounding_m);
     const auto holding = [&](double photons) {
       return last * static_cast<float>(std::sqrt(photons / static_cast<double>(k)));
     };
-    const float lower = k >= least && least > 0 ? near.radii[least - 1] : holding(static_cast<double>(least));
+    const float lower =
+        k >= least && least > 0 ? holding_m(near.radii, least - 1) : holding(static_cast<double>(least));
     const float upper = holding(static_cast<double>(options_.max_photons));
     radius = std::max(std::min(radius, upper), lower);
   } else {

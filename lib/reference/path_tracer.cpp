@@ -33,6 +33,7 @@ bool positive(const Rgb& c) { return max_component(c) > 0; }
 /// A path on its way: the next ray, and what the light found along it is worth.
 struct PathTracer::Walk {
   Ray ray;
+  Vec3 from{0};  // where the ray was chosen, before it was lifted off the surface
   Rgb throughput{1};
   float density = 0;         // of the ray's direction, per sr; 0: camera ray or specular, which next-event
                              // estimation cannot make
@@ -96,7 +97,8 @@ Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
   const auto i = static_cast<std::size_t>(light);
   const float cos_light = std::fabs(glm::dot(walk.ray.direction, point.geometric_normal));
   const float chosen = walk.every_light ? 1 : share_[i];
-  const float density = chosen * luminaires_->density(i, point.triangle, point.distance_m, cos_light);
+  const float density =
+      chosen * luminaires_->density(i, walk.from, point.triangle, point.distance_m, cos_light);
   return luminance * power_weight(walk.density, density);
 }
 
@@ -151,6 +153,7 @@ bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum,
   walk.throughput *= next.weight;
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
+  walk.from = point.position;
   ++walk.scatterings;
   if (walk.scatterings >= kRouletteFrom) {
     const float survival = std::min(kMostSurvival, max_component(walk.throughput));
@@ -194,6 +197,7 @@ Rgb PathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) con
   if (local.z <= 0) return lux;
   const Vec3 direction = make_frame(sensor.geometric_normal).to_world(local);
   walk.ray = {sensor.leave(direction), direction, 0, kInfinity};
+  walk.from = sensor.position;
   walk.density = local.z / kPi;
   walk.scatterings = 1;
   PathSample sum;

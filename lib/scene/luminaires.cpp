@@ -74,6 +74,19 @@ Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   return {{scene.position[v[0]], scene.position[v[1]], scene.position[v[2]]}};
 }
 
+/// A triangle is near within this many of its radii from its middle: beyond, points that are uniform over it
+/// weigh nearly alike.
+constexpr float kNearRadii = 2;
+/// Seen under less than this, it is not: directions would be told apart by rounding.
+constexpr double kLeastNear_sr = 1e-4;
+
+/// Square of the distance from the middle of a triangle, or of what it is a part of, within which it is near.
+float near2_m2(const Vec3 corner[3], const Vec3& middle) {
+  float radius_m = 0;
+  for (int i = 0; i < 3; ++i) radius_m = std::max(radius_m, glm::length(corner[i] - middle));
+  return kNearRadii * radius_m * (kNearRadii * radius_m);
+}
+
 /// Mean luminance of a triangle's emission, from 16 points of it.
 double mean_emission(const Scene& scene, std::uint32_t triangle) {
   constexpr int kSide = 4;
@@ -132,7 +145,10 @@ Luminaires::Shape Luminaires::make_shape(const Light& light) const {
     shape.facet[k] = {{c.p[0], c.p[1], c.p[2]},
                       c.normal(),
                       c.error_m(),
-                      area[k] > 0 ? static_cast<float>(share / area[k]) : 0.f};
+                      area[k] > 0 ? static_cast<float>(share / area[k]) : 0.f,
+                      static_cast<float>(share),
+                      point_at(c.p, Vec2(1.f / 3)),
+                      near2_m2(c.p, point_at(c.p, Vec2(1.f / 3)))};
   }
   if (n == 2 && std::fabs(shape.cdf[0] - 0.5) < 1e-6) find_parallelogram(instance, shape);
   return shape;
@@ -151,42 +167,86 @@ void Luminaires::find_parallelogram(const Instance& instance, Shape& shape) cons
       if (glm::length(gap) > 1e-5f * size) continue;
       shape.parallelogram = true;
       shape.corner[0] = static_cast<std::uint8_t>(a), shape.corner[1] = static_cast<std::uint8_t>(b);
+      const Vec3 middle = 0.5f * (p + q);
+      const float near2 = near2_m2(t[0].p, middle);
+      for (Facet& facet : shape.facet) facet.middle = middle, facet.near2_m2 = near2;
     }
   }
 }
 
-Luminaires::Spot Luminaires::choose(const Light& light, const Shape& shape, float u_triangle,
-                                    const Vec2& u) const {
-  const Instance& instance = scene_->instance[light.instance];
-  if (shape.parallelogram) {
-    // Across the square: one triangle below its diagonal, the other above it, turned by half a turn.
-    const bool second = u.x + u.y > 1;
-    const float xs[2] = {u.x, 1 - u.x}, ys[2] = {u.y, 1 - u.y};
-    const float x = xs[second], y = ys[second];
-    // Of the corners after the opposite one, and so on round.
-    const float weight[] = {x, y, 1 - x - y, x, y};
-    const unsigned corner = shape.corner[second];
-    return {instance.first_triangle + second, {weight[3 - corner], weight[4 - corner]}};
-  }
+std::size_t Luminaires::choose_facet(const Shape& shape, float u_triangle) {
   const auto it = std::upper_bound(shape.cdf.begin(), shape.cdf.end(), static_cast<double>(u_triangle));
-  auto k = static_cast<std::size_t>(it - shape.cdf.begin());
-  k = std::min(k, shape.cdf.size() - 1);
-  return {static_cast<std::uint32_t>(instance.first_triangle + k), sample_triangle(u)};
+  return std::min(static_cast<std::size_t>(it - shape.cdf.begin()), shape.cdf.size() - 1);
 }
 
-EmissionPoint Luminaires::sample_point(std::size_t i, float u_triangle, const Vec2& u) const {
-  const Light& light = scene_->light[i];
-  PHOS_CHECK(light.kind == Light::Kind::area && !shape_[i].cdf.empty(), "light ", i, " has no area");
-  const Spot spot = choose(light, shape_[i], u_triangle, u);
-  const Facet& facet = shape_[i].facet[spot.triangle - scene_->instance[light.instance].first_triangle];
+/// Uniform over a facet, or over the parallelogram.
+Luminaires::Spot Luminaires::choose(const Shape& shape, float u_triangle, const Vec2& u) {
+  if (!shape.parallelogram)
+    return {static_cast<std::uint32_t>(choose_facet(shape, u_triangle)), sample_triangle(u)};
+  // Across the square: one triangle below its diagonal, the other above it, turned by half a turn.
+  const bool second = u.x + u.y > 1;
+  const float xs[2] = {u.x, 1 - u.x}, ys[2] = {u.y, 1 - u.y};
+  const float x = xs[second], y = ys[second];
+  // Of the corners after the opposite one, and so on round.
+  const float weight[] = {x, y, 1 - x - y, x, y};
+  const unsigned corner = shape.corner[second];
+  return {second, {weight[3 - corner], weight[4 - corner]}};
+}
+
+/// Uniform over the solid angle of what is near.
+Luminaires::Spot Luminaires::choose(const Shape& shape, std::size_t facet, const Near& near, const Vec2& u) {
+  if (!near.second) return {static_cast<std::uint32_t>(facet), near.first.sample(u)};
+  const auto first = static_cast<float>(near.first.solid_angle_sr() * near.density);
+  const bool second = !(u.x < first);
+  const float along = second ? (u.x - first) / (1 - first) : u.x / first;
+  const Vec2 weights = (second ? *near.second : near.first).sample({std::clamp(along, 0.f, 1.f), u.y});
+  // As see_near() takes the corners: {opposite, p, q} and {q, p, opposite}.
+  float of_corner[3];
+  const unsigned corner = shape.corner[second];
+  const float rest = 1 - weights.x - weights.y;
+  of_corner[corner] = second ? weights.y : rest;
+  of_corner[(corner + (second ? 2 : 1)) % 3] = weights.x;
+  of_corner[(corner + (second ? 1 : 2)) % 3] = second ? rest : weights.y;
+  return {second, {of_corner[1], of_corner[2]}};
+}
+
+std::optional<Luminaires::Near> Luminaires::see_near(const Shape& shape, std::size_t k, const Vec3& from) {
+  const Facet& facet = shape.facet[k];
+  const Vec3 way = facet.middle - from;
+  if (!(glm::dot(way, way) < facet.near2_m2)) return {};
+  if (!shape.parallelogram) {
+    Near near{SphericalTriangle(facet.corner, from), {}};
+    if (!(near.first.solid_angle_sr() > kLeastNear_sr)) return {};
+    near.density = static_cast<double>(facet.share) / near.first.solid_angle_sr();
+    return near;
+  }
+  const unsigned a = shape.corner[0], b = shape.corner[1];
+  const Vec3 *p = shape.facet[0].corner, *q = shape.facet[1].corner;
+  const Vec3 one[] = {p[a], p[(a + 1) % 3], p[(a + 2) % 3]}, other[] = {one[2], one[1], q[b]};
+  Near near{SphericalTriangle(one, from), SphericalTriangle(other, from)};
+  const double sr[] = {near.first.solid_angle_sr(), near.second->solid_angle_sr()};
+  if (!(sr[0] + sr[1] > kLeastNear_sr)) return {};
+  near.density = 1 / (sr[0] + sr[1]);
+  return near;
+}
+
+EmissionPoint Luminaires::point_of(const Light& light, const Shape& shape, const Spot& spot) const {
+  const Facet& facet = shape.facet[spot.triangle];
   EmissionPoint point;
   point.position = point_at(facet.corner, spot.weights);
   point.normal = facet.normal;
   point.error_m = facet.error_m;
-  point.triangle = spot.triangle;
-  point.luminance = emission_at(*scene_, spot.triangle, spot.weights.x, spot.weights.y);
+  point.triangle = scene_->instance[light.instance].first_triangle + spot.triangle;
+  point.luminance = emission_at(*scene_, point.triangle, spot.weights.x, spot.weights.y);
   point.density = facet.density_per_m2;
   return point;
+}
+
+EmissionPoint Luminaires::sample_point(std::size_t i, float u_triangle, const Vec2& u) const {
+  const Light& light = scene_->light[i];
+  const Shape& shape = shape_[i];
+  PHOS_CHECK(light.kind == Light::Kind::area && !shape.cdf.empty(), "light ", i, " has no area");
+  return point_of(light, shape, choose(shape, u_triangle, u));
 }
 
 EmissionPoint Luminaires::sample_seen_from(std::size_t i, const Vec3& direction, float u_triangle,
@@ -208,6 +268,19 @@ EmissionPoint Luminaires::sample_seen_from(std::size_t i, const Vec3& direction,
   return point;
 }
 
+namespace {
+
+/// False where the two places are one.
+bool set_way(const Vec3& from, const Vec3& to, Illumination& light) {
+  const Vec3 way = to - from;
+  light.position = to;
+  light.direction = normalized_or_zero(way);
+  light.distance_m = glm::dot(way, light.direction);
+  return light.direction != Vec3(0);
+}
+
+}  // namespace
+
 bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                             Illumination& result) const {
   const Light& light = scene_->light[i];
@@ -224,39 +297,44 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     result.density = sample.density;
     return result.density > 0;
   }
-  const bool area = light.kind == Light::Kind::area;
-  if (area && shape_[i].cdf.empty()) return false;
-  const EmissionPoint point = area ? sample_point(i, u_triangle, u) : EmissionPoint();
-  result.position = area ? point.position : light.position;
-  const Vec3 way = result.position - from;
-  result.direction = normalized_or_zero(way);
-  if (result.direction == Vec3(0)) return false;
-  result.distance_m = glm::dot(way, result.direction);
-  const float distance2_m2 = result.distance_m * result.distance_m;
-  if (area) {
-    const float cosine = -glm::dot(result.direction, point.normal);
-    const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
-    if (!(cos_light > 0)) return false;
-    result.value =
-        light.fitting < 0
-            ? point.luminance
-            : scene_->fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
-    result.normal = cosine > 0 ? point.normal : -point.normal;
-    result.error_m = point.error_m;
-    result.density = point.density * distance2_m2 / cos_light;
-    return result.density > 0 && std::isfinite(result.density);
-  }
+  if (light.kind == Light::Kind::area) return illuminate_from_area(i, from, u_triangle, u, result);
+  if (!set_way(from, light.position, result)) return false;
   const float share = intensity_share(*scene_, light, DVec3(from) - DVec3(light.position));
-  result.value = light.intensity * (share / distance2_m2);
+  result.value = light.intensity * (share / (result.distance_m * result.distance_m));
   return share > 0 && is_finite(result.value);
 }
 
-float Luminaires::density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const {
+bool Luminaires::illuminate_from_area(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
+                                      Illumination& result) const {
+  const Light& light = scene_->light[i];
+  if (shape_[i].cdf.empty()) return false;
+  const Shape& shape = shape_[i];
+  const std::size_t facet = shape.parallelogram ? 0 : choose_facet(shape, u_triangle);
+  const auto near = see_near(shape, facet, from);
+  const EmissionPoint point =
+      point_of(light, shape, near ? choose(shape, facet, *near, u) : choose(shape, u_triangle, u));
+  if (!set_way(from, point.position, result)) return false;
+  const float cosine = -glm::dot(result.direction, point.normal);
+  const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
+  if (!(cos_light > 0)) return false;
+  result.value = light.fitting < 0
+                     ? point.luminance
+                     : scene_->fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
+  result.normal = cosine > 0 ? point.normal : -point.normal;
+  result.error_m = point.error_m;
+  result.density = near ? static_cast<float>(near->density)
+                        : point.density * result.distance_m * result.distance_m / cos_light;
+  return result.density > 0 && std::isfinite(result.density);
+}
+
+float Luminaires::density(std::size_t i, const Vec3& from, std::uint32_t triangle, float distance_m,
+                          float cos_light) const {
   const Light& light = scene_->light[i];
   if (light.kind != Light::Kind::area || !(cos_light > 0)) return 0;
   const Instance& instance = scene_->instance[light.instance];
   const std::uint32_t k = triangle - instance.first_triangle;  // wraps for one before it
   if (k >= instance.triangle_count) return 0;
+  if (const auto near = see_near(shape_[i], k, from)) return static_cast<float>(near->density);
   return shape_[i].facet[k].density_per_m2 * distance_m * distance_m / cos_light;
 }
 

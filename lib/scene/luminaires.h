@@ -1,8 +1,10 @@
 // Sampling the lights of a scene: for direct light, and for the emission of photons.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/spherical_triangle.h"
 #include "core/vector.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
@@ -59,9 +61,10 @@ class Luminaires {
   const Light& operator[](std::size_t i) const { return scene_->light[i]; }
 
   /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
-  /// cone). Area lights: uniform over a triangle chosen by u_triangle in proportion to its power. A
-  /// parallelogram of two triangles is sampled by `u` alone, so that strata of `u` are strata of the light.
-  /// Environment: as Environment::sample() chooses, by `u` alone too.
+  /// cone). Area lights: of a triangle chosen by u_triangle in proportion to its power, uniform over it, or
+  /// over the solid angle under which it is seen where that is near (within 2 radii), so that no sample
+  /// outweighs the others. A parallelogram of two triangles is sampled by `u` alone, so that strata of `u`
+  /// are strata of the light. Environment: as Environment::sample() chooses, by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
   /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on
@@ -69,7 +72,8 @@ class Luminaires {
   bool by_u_alone(std::size_t i) const { return shape_[i].cdf.empty() || shape_[i].parallelogram; }
   /// Density per sr with which illuminate(i, from) would choose the direction in which a ray of `distance_m`
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
-  float density(std::size_t i, std::uint32_t triangle, float distance_m, float cos_light) const;
+  float density(std::size_t i, const Vec3& from, std::uint32_t triangle, float distance_m,
+                float cos_light) const;
   /// The same for a ray that left the scene: density with which the environment's light is sampled there, 0
   /// without one.
   float density_beyond(const Vec3& direction) const;
@@ -94,6 +98,9 @@ class Luminaires {
     Vec3 corner[3], normal;
     float error_m;
     float density_per_m2;  // 0 for one that is never chosen
+    float share;           // probability of it
+    Vec3 middle;
+    float near2_m2;  // square of the distance from the middle within which it is near
   };
   struct Shape {
     std::vector<double> cdf;   // over the triangles, ends at 1
@@ -103,12 +110,26 @@ class Luminaires {
                               0};  // the corners (of the two triangles) that lie opposite their common edge
   };
   struct Spot {
-    std::uint32_t triangle;
-    Vec2 weights;  // of the second and third vertex
+    std::uint32_t triangle;  // of the light's, from 0
+    Vec2 weights;            // of the second and third vertex
+  };
+  /// What of a light is sampled from a place near it: a facet, or a parallelogram as two of them that turn
+  /// about a corner, so that even points of the square are even ones of it.
+  struct Near {
+    SphericalTriangle first;
+    std::optional<SphericalTriangle> second;
+    double density = 0;  // per sr
   };
   Shape make_shape(const Light& light) const;
   void find_parallelogram(const Instance& instance, Shape& shape) const;
-  Spot choose(const Light& light, const Shape& shape, float u_triangle, const Vec2& u) const;
+  static std::size_t choose_facet(const Shape& shape, float u_triangle);
+  static Spot choose(const Shape& shape, float u_triangle, const Vec2& u);
+  static Spot choose(const Shape& shape, std::size_t facet, const Near& near, const Vec2& u);
+  /// Facet k, or the parallelogram that it belongs to; nothing where it is far.
+  static std::optional<Near> see_near(const Shape& shape, std::size_t k, const Vec3& from);
+  bool illuminate_from_area(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
+                            Illumination& result) const;
+  EmissionPoint point_of(const Light& light, const Shape& shape, const Spot& spot) const;
 
   const Scene* scene_;
   std::int32_t environment_ = -1;

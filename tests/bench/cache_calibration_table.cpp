@@ -1,7 +1,8 @@
 // Are stated standard errors the true ones? For each scene of known light and each estimator, over many
 // seeds: the share of estimates within two stated standard errors of the truth (95 % of normal ones), the
 // true over the stated root mean square error, and the mean error in stated ones. CSV.
-//   build/tests/cache_calibration_table [SEEDS [SCENE]] > calibration.csv
+//   build/tests/cache_calibration_table [SEEDS [SCENE [small]]] > calibration.csv
+// small: with as few photons and records as the test has.
 #include <cstdio>
 #include <cstdlib>
 
@@ -11,9 +12,12 @@ int main(int argc, char** argv) {
   using namespace phos;
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::string only = argc > 2 ? argv[2] : "";
+  const bool small = argc > 3 && std::string(argv[3]) == "small";
+  const test::CalibrationOptions options =
+      small ? test::CalibrationOptions::small() : test::CalibrationOptions();
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
   for (const test::AnalyticScene& s : test::all_point_scenes()) {
-    const test::CalibratedScene scene(s, {});
+    const test::CalibratedScene scene(s, options);
     if (scene.name().find(only) == std::string::npos) continue;
     test::CalibrationTable table;
     for (int seed = 1; seed <= seeds; ++seed) scene.measure(static_cast<std::uint64_t>(seed), table);

@@ -8,13 +8,6 @@
 namespace phos::test {
 namespace {
 
-CalibrationOptions small() {
-  CalibrationOptions options;
-  options.paths = 40'000, options.candidates = 1500, options.rays = 128;
-  options.points = 40, options.records = 8;
-  return options;
-}
-
 struct Limits {
   double least = 0.90, most = 0.98;
 };
@@ -43,7 +36,7 @@ TEST_P(EveryScene, TwoStandardErrorsHoldTheTruth) {
   const AnalyticScene s = std::move(all_point_scenes()[GetParam()]);
   // Where each seed is one trial, they are many, of what is cheap.
   const bool common = s.name == "furnace" && s.scene.material[0].kd.x > 0.95f;
-  CalibrationOptions options = small();
+  CalibrationOptions options = CalibrationOptions::small();
   options.radiance = !common;
   const CalibratedScene scene(s, options);
   const bool quick = s.scene.light[0].kind == Light::Kind::point || s.name == "emitting environment";

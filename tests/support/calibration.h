@@ -48,6 +48,14 @@ struct CalibrationOptions {
   int records = 8;  ///< of them, those at which records are made
   std::int64_t rays = 256;
   bool photons = true, gathering = true, radiance = true, sensors = true;
+
+  /// For tests: seconds for a dozen seeds.
+  static CalibrationOptions small() {
+    CalibrationOptions options;
+    options.paths = 40'000, options.candidates = 1500, options.rays = 128;
+    options.points = 40, options.records = 8;
+    return options;
+  }
 };
 
 /// Points that the scene's camera sees on surfaces that reflect and are lit; `truth` in lx.

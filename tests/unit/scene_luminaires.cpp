@@ -1,4 +1,5 @@
 // What lights send to a point, and with which density.
+#include "core/sampling.h"
 #include "scene/luminaires.h"
 
 #include <gtest/gtest.h>
@@ -92,17 +93,44 @@ TEST(AreaLight, DensityOfAHitIsThatOfTheSample) {
   add_lamp(scene, 1, 0.5f, 2, false, Rgb(100));
   add_quad(scene, 5, 5, -1, true, 0);
   const Luminaires lights(scene);
-  for (int k = 0; k < 100; ++k) {
-    RandomStream random(3, Stage::test, static_cast<std::uint64_t>(k));
-    const Vec2 u = random.uniform2();
-    Illumination light;
-    ASSERT_TRUE(lights.illuminate(0, Vec3(0.3f, 0.1f, 0), 0.5f, u, light));
-    const std::uint32_t triangle = lights.sample_point(0, 0.5f, u).triangle;
-    EXPECT_FLOAT_EQ(lights.density(0, triangle, light.distance_m, light.direction.z), light.density);
+  for (const Vec3& from :
+       {Vec3(0.3f, 0.1f, -1), Vec3(0.3f, 0.1f, 0), Vec3(0.3f, 0.1f, 1.99f), Vec3(4, 0, 1.9f)}) {
+    for (int k = 0; k < 100; ++k) {
+      RandomStream random(3, Stage::test, static_cast<std::uint64_t>(k));
+      const Vec2 u = random.uniform2();
+      Illumination light;
+      ASSERT_TRUE(lights.illuminate(0, from, 0.5f, u, light));
+      const std::uint32_t triangle = lights.sample_point(0, 0.5f, u).triangle;
+      EXPECT_NEAR(lights.density(0, from, triangle, light.distance_m, light.direction.z), light.density,
+                  1e-6f * light.density);
+    }
   }
   EXPECT_EQ(lights.light_of(0), 0);
   EXPECT_EQ(lights.light_of(2), -1);
-  EXPECT_EQ(lights.density(0, 2, 1, 1), 0);
+  EXPECT_EQ(lights.density(0, Vec3(0), 2, 1, 1), 0);
+}
+
+TEST(AreaLight, NearSamplesWeighAlike) {
+  Scene scene;
+  add_lamp(scene, 1, 1, 0, false, Rgb(1));
+  const Luminaires lights(scene);
+  // Close to a corner nearly all of the hemisphere is the lamp's, in solid angle a quarter of it.
+  const Vec3 from(0.999f, 0.999f, -1e-3f);
+  double most = 0, mean_sr = 0;
+  constexpr int kSamples = 4096;
+  for (int k = 0; k < kSamples; ++k) {
+    Illumination light;
+    ASSERT_TRUE(lights.illuminate(0, from, 0, r2_point(k, Vec2(0.5f)), light));
+    most = std::max(most, 1 / double(light.density)), mean_sr += 1 / double(light.density) / kSamples;
+  }
+  const DVec3 corner[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  double seen_sr = 0;  // of a rectangle at a height h: sum of signed atan(x y / (h sqrt(x^2 + y^2 + h^2)))
+  for (int i = 0; i < 4; ++i) {
+    const DVec3 d = corner[i] - DVec3(from);
+    seen_sr += (i % 2 ? -1 : 1) * std::atan(d.x * d.y / (d.z * glm::length(d)));
+  }
+  EXPECT_NEAR(mean_sr, seen_sr, 1e-3 * seen_sr);
+  EXPECT_LT(most, 4 * std::numbers::pi);  // by area: 4e5
 }
 
 TEST(AreaLight, ATexturedLampSendsItsWholeFlux) {

@@ -1,0 +1,51 @@
+#include "core/spherical_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phos {
+namespace {
+
+DVec3 normalized_or_zero(const DVec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : DVec3(0);
+}
+
+double root(double x) { return std::sqrt(std::max(0.0, x)); }
+
+}  // namespace
+
+SphericalTriangle::SphericalTriangle(const Vec3 corner[3], const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to_[i] = DVec3(corner[i]) - DVec3(from);
+  a_ = normalized_or_zero(to_[0]), b_ = normalized_or_zero(to_[1]), c_ = normalized_or_zero(to_[2]);
+  const double volume = std::fabs(glm::dot(a_, glm::cross(b_, c_)));
+  if (!(volume > 0)) return;
+  solid_angle_sr_ = 2 * std::atan2(volume, 1 + glm::dot(a_, b_) + glm::dot(b_, c_) + glm::dot(c_, a_));
+  // The angle at a is that between the planes through it; the sine of it has the volume as its numerator.
+  const double cosine = glm::dot(glm::cross(a_, b_), glm::cross(a_, c_));
+  const double length = std::hypot(cosine, volume);
+  cos_alpha_ = cosine / length, sin_alpha_ = volume / length;
+}
+
+Vec2 SphericalTriangle::sample(const Vec2& u) const {
+  // The part of the triangle between a, b and a point c' of the arc from a to c that has u.x of its area.
+  const double area = static_cast<double>(u.x) * solid_angle_sr_;
+  const double s = std::sin(area) * cos_alpha_ - std::cos(area) * sin_alpha_;
+  const double t = std::cos(area) * cos_alpha_ + std::sin(area) * sin_alpha_;
+  const double p = t - cos_alpha_, q = s + sin_alpha_ * glm::dot(a_, b_);
+  const double along = (q * t - p * s) * cos_alpha_ - q, all = (q * s + p * t) * sin_alpha_;
+  const double cosine = all != 0 ? std::clamp(along / all, -1.0, 1.0) : 1;
+  const DVec3 c1 = cosine * a_ + root(1 - cosine * cosine) * normalized_or_zero(c_ - glm::dot(c_, a_) * a_);
+  // From b towards c'.
+  const double drop = static_cast<double>(u.y) * (1 - glm::dot(c1, b_));
+  const DVec3 d = (1 - drop) * b_ + root(drop * (2 - drop)) * normalized_or_zero(c1 - glm::dot(c1, b_) * b_);
+  // Where that line meets the triangle: volumes of the direction with each two corners.
+  const double w0 = std::fabs(glm::dot(d, glm::cross(to_[1], to_[2])));
+  const double w1 = std::fabs(glm::dot(d, glm::cross(to_[2], to_[0])));
+  const double w2 = std::fabs(glm::dot(d, glm::cross(to_[0], to_[1])));
+  const double sum = w0 + w1 + w2;
+  const auto x = static_cast<float>(w1 / sum);
+  return {x, std::min(static_cast<float>(w2 / sum), 1 - x)};
+}
+
+}  // namespace phos

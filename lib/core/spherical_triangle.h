@@ -1,0 +1,28 @@
+// A triangle as it is seen from a point.
+#pragma once
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// Solid angle of a triangle, and directions uniform over it (Arvo 1995, "Stratified sampling of spherical
+/// triangles").
+class SphericalTriangle {
+ public:
+  SphericalTriangle(const Vec3 corner[3], const Vec3& from);
+
+  /// sr, in [0, 2 pi]; by van Oosterom and Strackee (1983). 0 where the point lies in the triangle's plane
+  /// outside of it, in one of its corners, or where the triangle has no area.
+  double solid_angle_sr() const { return solid_angle_sr_; }
+
+  /// Weights of the second and third corner at the place of the triangle that is seen in the direction of
+  /// `u`, both at least 0, their sum at most 1. The solid angle must not be 0.
+  Vec2 sample(const Vec2& u) const;
+
+ private:
+  DVec3 to_[3];  // the corners, seen from the point, m
+  DVec3 a_, b_, c_;
+  double cos_alpha_ = 1, sin_alpha_ = 0, solid_angle_sr_ = 0;
+};
+
+}  // namespace phos
