@@ -54,19 +54,12 @@ class Rows final : public flann::ResultSet<float> {
   std::vector<std::uint32_t>& rows_;
 };
 
-bool in_range(const Vec3& p) {
-  if (!is_finite(p)) return false;
-  const Vec3 a = glm::abs(p);
-  return a.x <= KdTree::kLargestCoordinate_m && a.y <= KdTree::kLargestCoordinate_m &&
-         a.z <= KdTree::kLargestCoordinate_m;
-}
-
 std::size_t count_out_of_range(std::span<const Vec3> points) {
   return parallel_reduce<std::size_t>(
       points.size(), kCheckChunk, 0,
       [&](std::size_t begin, std::size_t end) {
         std::size_t n = 0;
-        for (std::size_t i = begin; i < end; ++i) n += in_range(points[i]) ? 0 : 1;
+        for (std::size_t i = begin; i < end; ++i) n += KdTree::in_range(points[i]) ? 0 : 1;
         return n;
       },
       [](std::size_t& total, std::size_t n) { total += n; });
@@ -91,6 +84,10 @@ struct KdTree::Impl {
   std::span<const Vec3> points;
   Tree tree;
 };
+
+bool KdTree::in_range(const Vec3& p) {
+  return is_finite(p) && max_component(glm::abs(p)) <= kLargestCoordinate_m;
+}
 
 KdTree::KdTree() = default;
 KdTree::~KdTree() = default;

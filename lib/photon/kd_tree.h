@@ -18,6 +18,8 @@ class KdTree {
  public:
   /// Coordinates beyond this (m) would overflow squared distances.
   static constexpr float kLargestCoordinate_m = 1e18f;
+  /// Is each coordinate a number up to that?
+  static bool in_range(const Vec3& point);
 
   KdTree();
   ~KdTree();

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "photon/kd_tree.h"
 #include "photon/photon_file.h"
+#include "support/complaint.h"
 #include "support/hand_photons.h"
 #include "support/run.h"
 #include "support/tree_stream.h"
@@ -233,11 +234,18 @@ TEST(Map, PhotonsThatCannotBeAreRefused) {
   EXPECT_NE(refusal_of_map("flux", std::nanf("")).find("photon 2 has a flux"), std::string::npos);
   EXPECT_NE(refusal_of_map("flux", kInfinity).find("photon 2 has a flux"), std::string::npos);
   EXPECT_NE(refusal_of_map("position", std::nanf("")).find("photon 2 has a position"), std::string::npos);
+  EXPECT_NE(refusal_of_map("position", 2 * KdTree::kLargestCoordinate_m).find("photon 2 has a position"),
+            std::string::npos);
   EXPECT_NE(refusal_of_map("distance", -1).find("photon 7 has a distance"), std::string::npos);
   EXPECT_NE(refusal_of_map("distance", std::nanf("")).find("photon 7 has a distance"), std::string::npos);
   EXPECT_NE(refusal_of_map("path", 3).find("photon 7 has a path"), std::string::npos);
   EXPECT_EQ(refusal_of_map("distance", kInfinity), "");
   EXPECT_NE(refusal_of_map("position", 5).find("the kd-tree"), std::string::npos);
+}
+
+TEST(Shard, PhotonsThatNoTreeCanHoldAreRefused) {
+  const std::string path = test::data("damaged/photons-shard-of-one-too-far-away.photons");
+  EXPECT_NE(test::complaint_of([&] { read_shards({path}); }).find("too far away"), std::string::npos);
 }
 
 }  // namespace
