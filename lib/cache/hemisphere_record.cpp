@@ -57,6 +57,16 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::s
   return made;
 }
 
+/// A step on the tangent plane, no farther than to what stands on the surface: beyond it other light shines.
+Vec3 HemisphereRecords::within_sight(const RecordSite& site, float lift_m, const Vec3& step) const {
+  const float length = glm::length(step);
+  Hit hit;
+  if (!(length > 0) ||
+      !rays.intersect({site.position + 2 * lift_m * site.normal, step / length, 0, length}, hit))
+    return step;
+  return std::max(hit.distance_m - 4 * lift_m, 0.f) / length * step;
+}
+
 void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> passes,
                             HemisphereWorker& worker, IrradianceRecord& record) const {
   const float lift_m = receiver(rays.scene(), site.position, site.normal).error_m;
@@ -75,7 +85,7 @@ void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> 
   if (options.paths == Quantity::all && lights.size() > 0) {
     const int samples = samples_nearby(lights, options.light_samples);
     direct = [&, samples](const Vec2& step) {
-      const Vec3 p = site.position + nearby.frame().to_world(Vec3(step, 0));
+      const Vec3 p = site.position + within_sight(site, lift_m, nearby.frame().to_world(Vec3(step, 0)));
       RandomStream random(seed, Stage::direct_light, site.item);  // the same places on the lamps
       sample_lamps(rays, lights, receiver(rays.scene(), p, site.normal), samples, random,
                    worker.lamps_nearby);

@@ -42,6 +42,7 @@ struct HemisphereRecords {
               HemisphereWorker& worker) const;
 
  private:
+  Vec3 within_sight(const RecordSite& site, float lift_m, const Vec3& step) const;
   void fit(const RecordSite& site, std::span<const Hemisphere> passes, HemisphereWorker& worker,
            IrradianceRecord& record) const;
 };

@@ -7,6 +7,7 @@
 #include "cache/footprint_fit.h"
 #include "cache/irradiance_cache.h"
 #include "core/error.h"
+#include "support/environment.h"
 #include "support/gathered.h"
 #include "support/golden_table.h"
 #include "support/gradient_scenes.h"
@@ -353,6 +354,23 @@ TEST(FootprintRecords, FollowPenumbrasWithinTheirZones) {
   // Towards an edge of shadow axes are short, along it long.
   const IrradianceRecord edge = made_at(scene.scene, {-0.3f, 0, 0}, 0.02);
   EXPECT_LT(1.5f * edge.footprint->shortest_m(), edge.footprint->longest_m());
+}
+
+/// Axes that are as short as they may be reach through walls; the light behind those is not the record's.
+TEST(FootprintRecords, KnowNothingOfTheLightBehindWalls) {
+  Scene room;
+  test::begin_instance(room, "walls", test::add_lambert(room, "grey", 0.5f));
+  test::add_room(room, Vec3(0), Vec3(2, 1, 1.5f));
+  test::surround(room, test::constant_map(8, Rgb(1e5f)));
+  RecordOptions options = test::gather_options(room, Quantity::all, 1, 256);
+  options.footprint = Footprint::adaptive, options.min_radius_m = 0.3;
+  test::Gathered gathered(room);
+  const IrradianceRecord r = gathered.records({0.01f, 0, 0.02f}, {0, 1, 0}, options, {}, 1)[0];
+  ASSERT_TRUE(r.footprint);
+  EXPECT_GT(r.footprint->shortest_m(), 0.05f);
+  EXPECT_EQ(r.irradiance, Rgb(0));
+  for (const AdaptiveFootprint::Axis& a : r.footprint->axes())
+    EXPECT_EQ(glm::abs(a.slope) + glm::abs(a.bend), Rgb(0));
 }
 
 /// The scene in other units: as many lux, lengths in proportion.

@@ -171,7 +171,7 @@ TEST(Nothing, IsTheLeastThereIs) {
   const RecordTree dark = test::uniform_tree(Vec3(0), Vec3(2, 1, 1.5f), 1e-6f);
   GatherSource source;
   source.indirect = &dark;
-  const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, -1, 16);
+  const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, -1, 8);
   for (const IrradianceRecord& r : g.records({1, 0, 0.75f}, {0, 1, 0}, options, source, 2000))
     expect_finite(r);
   EXPECT_GT(g.counters[kBelowZeroEvent], 0u) << "nothing was tested";

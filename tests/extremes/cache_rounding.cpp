@@ -228,12 +228,24 @@ Scene lamp(bool square) {
   return scene;
 }
 
-/// Each sample's share of irradiance, from where the lamp says that it lies.
+/// Solid angle of a triangle, its corners seen from the place.
+long double seen_sr(LVec3 a, LVec3 b, LVec3 c) {
+  a = a / length(a), b = b / length(b), c = c / length(c);
+  const long double volume = glm::dot(a, glm::cross(b, c));
+  return 2 * std::atan2(std::fabs(volume), 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+}
+
+/// Each sample's share of irradiance, from where the lamp says that it lies: within two radii of the lamp's
+/// middle by the solid angle of it.
 void direct_light(bool square, const std::string& name) {
   const Scene scene = lamp(square);
   const Luminaires lights(scene);
   ASSERT_EQ(lights.size(), 1u);
   const auto area = static_cast<long double>(scene.light[0].area_m2);
+  LVec3 middle(0);
+  for (const Vec3& p : scene.position) middle += LVec3(p) / static_cast<long double>(scene.position.size());
+  long double radius = 0;
+  for (const Vec3& p : scene.position) radius = std::max(radius, length(LVec3(p) - middle));
   Rounding light;
   for (std::uint64_t i = 0; i < 20000; ++i) {
     RandomStream random(9, Stage::test, i);
@@ -244,7 +256,17 @@ void direct_light(bool square, const std::string& name) {
     const LVec3 way = LVec3(e.position) - LVec3(from);
     const long double d = length(way), facing = glm::dot(LVec3(n), way) / d, leaving = -way.y / d;
     if (facing < 0.01L || leaving < 0.01L) continue;  // grazing: what cosines lose is less than they matter
-    const long double exact = 1000 * facing * leaving * area / (d * d);
+    const long double away = length(LVec3(from) - middle) / (2 * radius);
+    if (std::fabs(away - 1) < 1e-5L) continue;
+    long double sr = leaving * area / (d * d);
+    if (away < 1) {
+      sr = 0;
+      for (const Triangle& t : scene.triangle)
+        sr +=
+            seen_sr(LVec3(scene.position[t.v[0]]) - LVec3(from), LVec3(scene.position[t.v[1]]) - LVec3(from),
+                    LVec3(scene.position[t.v[2]]) - LVec3(from));
+    }
+    const long double exact = 1000 * facing * sr;
     light.see(static_cast<double>(e.value.x * (glm::dot(n, e.direction) / e.density)), exact, exact);
   }
   light.expect("direct light of a " + name, "distance, sizes of the lamp", 1e-3, 1e4, 1e-4);

@@ -101,16 +101,17 @@ TEST(DirectLight, SamplesSayWhereTheLampIs) {
   const Vec3 p(0.5f, 0, 1);
   sample_lamps(rays, lights, receiver(s.scene, p, {0, 1, 0}), 64, random, lamps);
   ASSERT_EQ(lamps.size(), 64u);
+  const Vec3 half[] = {{0, 1.5f, 0}, {2, 1.5f, 0}, {2, 1.5f, 3}}, other[] = {half[2], {0, 1.5f, 3}, half[0]};
+  const double seen_sr =
+      SphericalTriangle(half, p).solid_angle_sr() + SphericalTriangle(other, p).solid_angle_sr();
   for (const LampSample& lamp : lamps) {
     const Vec3 at = p + lamp.distance_m * lamp.direction;
     EXPECT_NEAR(at.y, 1.5f, 1e-5);
     EXPECT_TRUE(at.x >= -1e-5f && at.x <= 2 + 1e-5f && at.z >= -1e-5f && at.z <= 3 + 1e-5f);
     EXPECT_EQ(lamp.normal, Vec3(0, -1, 0));
     EXPECT_EQ(lamp.light, 0u);
-    // Its share: L cos cos' A / (n d2).
-    const float cosine = lamp.direction.y;
-    EXPECT_NEAR(lamp.irradiance.y, 1000 * cosine * cosine * 6 / (64 * lamp.distance_m * lamp.distance_m),
-                1e-3f);
+    // Its share of what is near: L cos / n times the solid angle.
+    EXPECT_NEAR(double(lamp.irradiance.y), 1000 * double(lamp.direction.y) / 64 * seen_sr, 1e-3);
   }
   sample_lamps(rays, lights, receiver(s.scene, p, {0, -1, 0}), 64, random, lamps);
   EXPECT_TRUE(lamps.empty());
