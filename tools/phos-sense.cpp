@@ -119,7 +119,8 @@ int main(int argc, char** argv) {
   options.flag(
       "daylight-factor", factors,
       "two more columns: E_lx and its standard error in percent of the illuminance in the open under "
-      "the same sky (--sky overcast, by the norm; no sun, no lamps)",
+      "the same sky (--sky overcast, by the norm; no sun, no lamps); a sky seen through a window takes more "
+      "rays: --light-samples is 4096 unless it is given",
       Recorded::if_given);
   options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON");
   options.flag("allow-mismatch", allow_mismatch, "use caches of another scene or another version of it");
@@ -145,6 +146,7 @@ int main(int argc, char** argv) {
     }
     std::optional<double> open_lx;
     if (factors) open_lx = open_sky_lx(scene);
+    if (factors && !options.given("light-samples")) sense.light_samples = 4096;
     if (factors && !is_overcast(scene_options.daylight))
       tool.warn("daylight factors are by the norm of an overcast sky (--sky overcast, cie:1 or cie:3)");
     const RayScene rays(scene, {isa});

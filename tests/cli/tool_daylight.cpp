@@ -77,6 +77,14 @@ TEST(DaylightTools, MeasureDaylightFactors) {
   const auto lx = column(run.out, "E_lx"), factor = column(run.out, "daylight_factor_percent");
   ASSERT_GT(lx.size(), 50u);
   for (std::size_t i = 0; i < lx.size(); ++i) EXPECT_NEAR(factor[i], lx[i] / 100, 1e-4 * factor[i]);
+  // Rays enough: no sensor of the grid is known to less than a fifth, and few to less than a tenth.
+  const auto error = column(run.out, "daylight_factor_stderr_percent");
+  std::size_t poor = 0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    EXPECT_LT(error[i], 0.2 * factor[i]) << i;
+    poor += error[i] > 0.1 * factor[i];
+  }
+  EXPECT_LT(poor, error.size() / 10);
   EXPECT_NE(run.err.find("daylight factor: mean "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("of 10000 lx in the open"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("norm"), std::string::npos) << run.err;
