@@ -40,9 +40,8 @@ int main(int argc, char** argv) {
   };
   return tool.run(argc, argv, [&] {
     if (is_photometry(path)) {
-      const std::string option =
-          tool.options().first_given({"time", "frame", "luminaire", "luminaires-as", "environment",
-                                      "environment-rotation", "environment-scale", "gloss", "strict"});
+      std::string option = tool.options().first_given_in("Scene");
+      if (option.empty()) option = tool.options().first_given({"gloss", "strict"});
       if (!option.empty())
         throw Error(ExitCode::usage, option, text("is for scenes; ", path, " is a luminaire's photometry"));
       const Json description = describe_photometry(read_photometry(path));

@@ -84,8 +84,7 @@ void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("max-radius", r.max_radius_m, "METRES", "largest radius (default: scene diagonal / 4)",
                  kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
-                           "ray: a record serves a point only if the two can see each other",
-                           Recorded::as_resolved);
+                           "ray: a record serves a point only if the two can see each other");
 }
 
 void declare_photon_options(Options& options, RecordOptions& r) {
@@ -109,13 +108,12 @@ void declare_gather_options(Options& options, RecordOptions& r) {
   options.choice<GatherFrom>(
       "gather-from", r.gather_from, kSources,
       "indirect light where rays land: a coarse cache made from the photons first, or the "
-      "photons there (ten times the work); a cache among the inputs is read instead",
-      Recorded::as_resolved);
+      "photons there (ten times the work); a cache among the inputs is read instead");
   options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
   options.integer("source-photons", r.source_photons, "N",
                   "photons that a zone of the coarse cache should hold at least", {16, 1e6});
   options.choice<RadiusRule>("radius", r.radius, kRadii,
-                             "radius from the harmonic mean or the least distance", Recorded::as_resolved);
+                             "radius from the harmonic mean or the least distance");
 }
 
 const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
@@ -125,18 +123,16 @@ void declare_options(Options& options, RecordOptions& r) {
   options.choice<Estimate>(
       "estimate", r.estimate, kEstimates,
       "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
-      "rays over the hemisphere lit where they land, or the scene drawn on a plane above",
-      Recorded::as_resolved);
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
   declare_reach_options(options, r);
   options.choice<Quantity>("paths", r.paths, kQuantities,
-                           "light that counts: indirect leaves out what comes straight from a lamp",
-                           Recorded::as_resolved);
+                           "light that counts: indirect leaves out what comes straight from a lamp");
   options.choice<GradientMode>(
       "gradients", r.gradients, kGradients,
       "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
       "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
   options.section("Estimates from photons");
-  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel", Recorded::as_resolved);
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
   options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
                   {1, 64});
   declare_photon_options(options, r);
@@ -155,7 +151,7 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
       "footprint", r.footprint, kFootprints,
       "what a record serves: a disc; with --estimate gather also a disc by the least distance, one by the "
       "harmonic mean that shrinks where records about it say otherwise, or eight axes of their own lengths "
-      "with the change of light along each (half the records; drawn on the CPU)",
+      "with the change of light along each (half the records, each at more cost; drawn on the CPU)",
       Recorded::unless_default);
   options.number(
       "rho", r.rho, "R",
@@ -179,8 +175,7 @@ void declare_raster_options(Options& options, RecordOptions& r) {
                   {8, 1024});
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
                                "what stands for directions beyond the plane: nothing, the plane's own mean "
-                               "(coverage), or its border pixels (stretch)",
-                               Recorded::as_resolved);
+                               "(coverage), or its border pixels (stretch)");
 }
 
 void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {

@@ -297,19 +297,15 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
                               Recorded recorded) {
   Declaration& d = impl_->declare(name, "WHICH", help, recorded);
   d.choices = names, d.default_text = names[index], d.kind = "choice";
-  const auto chosen = std::make_shared<std::size_t>(index);
-  d.value = [chosen, names] { return Json(names[*chosen]); };
-  if (recorded == Recorded::as_resolved || recorded == Recorded::unless_default)
-    d.value = [current, names] { return Json(names[current()]); };
-  impl_->add(d, [chosen, names, set, n = d.name](const std::string& s) {
+  d.value = [current, names] { return Json(names[current()]); };
+  impl_->add(d, [names, set, n = d.name](const std::string& s) {
     const auto found = std::find(names.begin(), names.end(), s);
     if (found == names.end()) {
       std::string all;
       for (const std::string& other : names) all += (all.empty() ? "" : ", ") + other;
       reject(n, phos::text("\"", s, "\" is not one of: ", all));
     }
-    *chosen = static_cast<std::size_t>(found - names.begin());
-    set(*chosen);
+    set(static_cast<std::size_t>(found - names.begin()));
   });
 }
 
@@ -411,12 +407,17 @@ std::string Options::first_given(std::initializer_list<const char*> names) const
   return "";
 }
 
+std::string Options::first_given_in(const std::string& section) const {
+  for (const Declaration& d : impl_->declarations)
+    if (!d.is_input && d.section == section && given(d.name)) return "--" + d.name;
+  return "";
+}
+
 Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations) {
     const Json value = d.value();
-    if (d.recorded == Recorded::yes || d.recorded == Recorded::as_resolved ||
-        (d.recorded == Recorded::if_given && given(d.name)) ||
+    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && given(d.name)) ||
         (d.recorded == Recorded::unless_default && !(value == d.initial)))
       all[d.name] = value;
   }

@@ -17,9 +17,9 @@ namespace phos {
 
 /// Whether an option changes the result (and so is part of the file's parameters and key) or not (paths,
 /// threads). if_given: only where it was given, so that commands that do without are what they were before
-/// there was such an option. as_resolved: of a choice, its value at the end, which something else than the
-/// command line may have settled. unless_default: likewise, but only where that is not the default.
-enum class Recorded { yes, no, if_given, as_resolved, unless_default };
+/// there was such an option. unless_default: only where its value at the end, which something else than the
+/// command line may have settled, is not the default.
+enum class Recorded { yes, no, if_given, unless_default };
 
 struct Range {
   double lo = -std::numeric_limits<double>::infinity();
@@ -94,6 +94,8 @@ class Options {
   bool given(const std::string& name) const;
   /// The first of these that was, "--" before it; "" if none was.
   std::string first_given(std::initializer_list<const char*> names) const;
+  /// The same of all options that were declared in a section.
+  std::string first_given_in(const std::string& section) const;
   /// Every recorded option as resolved now (call after automatic values are filled in), sorted by name.
   Json recorded() const;
   /// `tool --name value ...` from recorded(), without paths.

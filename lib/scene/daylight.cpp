@@ -90,7 +90,9 @@ Cover cover_of(int type) {
   return type <= 6 || type == 16 ? Cover::overcast : type <= 10 ? Cover::partly : Cover::clear;
 }
 
-/// Horizontal illuminance of skies and normal illuminance of the sun by its height, IES RP-21 (1984).
+/// Horizontal illuminance of skies in the form of the IES Lighting Handbook, and normal illuminance of the
+/// sun by its height (IES, "Recommended practice for the calculation of daylight availability", J. IES 13(4),
+/// 1984, which has 127.5 klx outside the atmosphere; its own skies are within a tenth of these).
 double usual_sky_lx(Cover cover, const std::optional<SunPosition>& sun) {
   if (!sun) return 10000;
   const double s = std::sin(sun->elevation_rad);
@@ -99,7 +101,7 @@ double usual_sky_lx(Cover cover, const std::optional<SunPosition>& sun) {
 }
 double usual_sun_lx(Cover cover, const SunPosition& sun) {
   if (cover == Cover::overcast) return 0;
-  return 133100 * std::exp((cover == Cover::partly ? -0.80 : -0.21) / std::sin(sun.elevation_rad));
+  return 127500 * std::exp((cover == Cover::partly ? -0.80 : -0.21) / std::sin(sun.elevation_rad));
 }
 
 void check_belongs(const DaylightOptions& o) {

@@ -38,8 +38,8 @@ const NumberOption kNumbers[] = {
      "800 + 15500 sqrt(sin elevation); perez by its luminous efficacy)",
      &DaylightOptions::sky_lx, kPositive},
     {"sun-illuminance", "LUX",
-     "by the sun alone, on a surface that faces it (default, with s = sin elevation: 133100 exp(-0.21 / s) "
-     "under clear skies and without --sky, 133100 exp(-0.8 / s) under partly cloudy ones, 0 under overcast "
+     "by the sun alone, on a surface that faces it (default, with s = sin elevation: 127500 exp(-0.21 / s) "
+     "under clear skies and without --sky, 127500 exp(-0.8 / s) under partly cloudy ones, 0 under overcast "
      "ones; perez by its luminous efficacy)",
      &DaylightOptions::sun_lx, kNotNegative},
     {"sun-diameter", "DEGREES", "as seen (default: 0.533)", &DaylightOptions::sun_diameter_deg, {0.001, 90}},

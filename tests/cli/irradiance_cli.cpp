@@ -3,20 +3,14 @@
 #include <chrono>
 
 #include "file/container.h"
-#include "support/run.h"
+#include "support/cornell_photons.h"
 
 namespace phos::test {
 namespace {
 
 /// A folder with photons of the Cornell box, made once.
 const std::string& folder() {
-  static const std::string path = [] {
-    const std::string f = scratch("irradiance-cli");
-    const Run run =
-        run_tool({"photons", data("cornell-measured.glb"), "--photons", "20000", "-o", f + "/c.photons"});
-    EXPECT_EQ(run.code, 0) << run.err;
-    return f;
-  }();
+  static const std::string path = folder_with_photons("irradiance-cli", "20000");
   return path;
 }
 std::string scene() { return data("cornell-measured.glb"); }

@@ -3,19 +3,13 @@
 
 #include "file/container.h"
 #include "image/image.h"
-#include "support/run.h"
+#include "support/cornell_photons.h"
 
 namespace phos::test {
 namespace {
 
 const std::string& folder() {
-  static const std::string path = [] {
-    const std::string f = scratch("irradiance-footprint");
-    const Run run =
-        run_tool({"photons", data("cornell-measured.glb"), "--photons", "40000", "-o", f + "/c.photons"});
-    EXPECT_EQ(run.code, 0) << run.err;
-    return f;
-  }();
+  static const std::string path = folder_with_photons("irradiance-footprint", "40000");
   return path;
 }
 std::string scene() { return data("cornell-measured.glb"); }

@@ -64,6 +64,7 @@ TEST(LuminaireTools, DrawThePolarPlot) {
                    {"--goniometric", data("luminaires/spot.ies"), option, value, "-o", f + "/b.png"}, 2,
                    what);
   expect_refused("scene", {data("luminaires/spot.ies"), "--frame", "3"}, 2, "is for scenes");
+  expect_refused("scene", {data("luminaires/spot.ies"), "--sky", "overcast"}, 2, "is for scenes");
   expect_refused("picture", {data("luminaires/spot.ies"), "-o", f + "/b.png"}, 2, "pass --goniometric");
   expect_refused("picture", {"--goniometric", data("sky.hdr"), "-o", f + "/b.png"}, 3, "neither an IES");
   expect_refused("picture", {"--goniometric", data("luminaires/spot.ies"), "-o", f + "/b.hdr"}, 2,

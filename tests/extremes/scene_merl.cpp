@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "scene/bsdf.h"
 #include "scene/load.h"
+#include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/merl_bytes.h"
 #include "support/one_material.h"
@@ -52,14 +53,7 @@ std::string scene_refusal(const std::string& folder, const Json& file) {
   if (!file.is_null()) m["extras"]["phos"]["file"] = file;
   g.square_node(m);
   spill(folder + "/scene.glb", g.bytes());
-  try {
-    load_scene(folder + "/scene.glb");
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::bad_input);
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-    return e.where() + ": " + e.what();
-  }
-  return "";
+  return complaint_of([&] { load_scene(folder + "/scene.glb"); });
 }
 
 }  // namespace

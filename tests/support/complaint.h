@@ -9,13 +9,14 @@
 
 namespace phos::test {
 
-/// "where: what" of the Error that `action` throws, "" if it throws none. Expects bad_input in one line.
+/// "where: what" of the Error that `action` throws, "" if it throws none. Expects it to be of this kind, in
+/// one line.
 template <class Action>
-std::string complaint_of(const Action& action) {
+std::string complaint_of(const Action& action, ExitCode code = ExitCode::bad_input) {
   try {
     action();
   } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::bad_input);
+    EXPECT_EQ(e.code(), code);
     EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
     return e.where() + ": " + e.what();
   }

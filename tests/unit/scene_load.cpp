@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "scene/load.h"
+#include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/run.h"
 
@@ -18,14 +19,7 @@ Scene load(const Gltf& gltf, const SceneOptions& options = {}) {
 }
 
 std::string error_of(const Gltf& gltf) {
-  try {
-    load(gltf);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::bad_input);
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-    return e.what();
-  }
-  return "";
+  return test::complaint_of([&] { load(gltf); });
 }
 
 Json phos_material(const std::string& brdf) {
