@@ -88,7 +88,9 @@ int main(int argc, char** argv) {
             "Direct light comes from shadow rays, indirect light from irradiance and radiance caches; where "
             "these have no "
             "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "
-            "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout.",
+            "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout. With --bands all these "
+            "are of "
+            "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
             2, Tool::Output::optional);
   tool.output_has_no_key();
   Inputs inputs;
@@ -162,7 +164,7 @@ int main(int argc, char** argv) {
           estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
       if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
       samples += e.samples;
-      return Whole{e.illuminance_lx, e.illuminance_stderr_lx};
+      return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};
     };
     std::vector<Reading> readings;
     {
@@ -175,7 +177,8 @@ int main(int argc, char** argv) {
     tool.counters().merge(report.counters);
     tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");
-    write_text(tool.output().empty() ? "/dev/stdout" : tool.output(), sensor_csv(sensors, readings, open_lx));
+    write_text(tool.output().empty() ? "/dev/stdout" : tool.output(),
+               sensor_csv(sensors, readings, open_lx, scene.bands));
     report_on(tool, inputs, sensors, readings, report, open_lx);
   });
 }

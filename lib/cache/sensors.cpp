@@ -11,6 +11,7 @@
 #include "core/origin.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "scene/bands.h"
 
 namespace phos {
 namespace {
@@ -24,6 +25,7 @@ bool beyond(const Bounds& bounds, const Vec3& p) {
 
 struct Direct {
   float value_lx = 0, stderr_lx = 0;
+  Rgb components_lx{0};
 };
 
 /// Direct light at every sensor, and where sensors are.
@@ -45,7 +47,7 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
           RandomStream random(options.seed, Stage::direct_light, i);
           const DirectIrradiance e =
               direct_irradiance(rays, lights, at, static_cast<int>(options.light_samples), random);
-          direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx)};
+          direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
           part.inside += inside_solid(rays, at);
           part.outside += beyond(rays.scene().bounds, p);
         }
@@ -57,14 +59,15 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
   return direct;
 }
 
-Reading together(const Direct& direct, float indirect_lx, float stderr_lx) {
+Reading together(const Direct& direct, const Rgb& indirect, float stderr_lx) {
+  const float indirect_lx = luminance(indirect);
   return {direct.value_lx + indirect_lx, std::hypot(direct.stderr_lx, stderr_lx), direct.value_lx,
-          indirect_lx};
+          indirect_lx, direct.components_lx + indirect};
 }
 
 /// Of a whole that holds the direct light: what is left is indirect, or noise.
-Reading apart(float whole_lx, float stderr_lx, const Direct& direct) {
-  return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f)};
+Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct& direct) {
+  return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f), whole};
 }
 
 /// Records at the sensors that no cache covers, and what they say there.
@@ -105,7 +108,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
         const IrradianceRecord own = estimator.make({p, normal, kPointItems + i}, *worker).record;
         value = own.irradiance, error = own.stderr_lx;
       }
-      readings[i].indirect_lx = luminance(value), readings[i].stderr_lx = luminance(error);
+      readings[i].components_lx = value, readings[i].stderr_lx = luminance(error);
     }
   });
   return readings;
@@ -195,7 +198,7 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
   const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
   std::vector<Reading> readings(n);
   if (options.direct_only) {
-    for (std::size_t i = 0; i < n; ++i) readings[i] = together(direct[i], 0, 0);
+    for (std::size_t i = 0; i < n; ++i) readings[i] = together(direct[i], Rgb(0), 0);
     return readings;
   }
   std::vector<std::uint8_t> covered(n);
@@ -203,8 +206,9 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
     const auto& [p, normal] = sensors.points[i];
     const Interpolated e = caches.interpolate(p, normal);
     covered[i] = e.weight > 0;
-    const float value = luminance(e.irradiance), error = luminance(e.stderr_lx);
-    readings[i] = caches.holds_direct() ? apart(value, error, direct[i]) : together(direct[i], value, error);
+    const float error = luminance(e.stderr_lx);
+    readings[i] = caches.holds_direct() ? apart(luminance(e.irradiance), e.irradiance, error, direct[i])
+                                        : together(direct[i], e.irradiance, error);
   });
   std::vector<SurfaceSample> open;
   for (std::size_t i = 0; i < n; ++i) {
@@ -215,7 +219,7 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
   const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, options, report);
   for (std::size_t i = 0, k = 0; i < n; ++i) {
     if (covered[i]) continue;
-    readings[i] = together(direct[i], fresh[k].indirect_lx, fresh[k].stderr_lx);
+    readings[i] = together(direct[i], fresh[k].components_lx, fresh[k].stderr_lx);
     ++k;
   }
   return readings;
@@ -230,19 +234,23 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
   Progress progress("exact light", direct.size(), "sensors");
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Whole whole = estimate(i);
-    readings[i] =
-        apart(static_cast<float>(whole.illuminance_lx), static_cast<float>(whole.stderr_lx), direct[i]);
+    readings[i] = apart(static_cast<float>(whole.illuminance_lx), whole.components_lx,
+                        static_cast<float>(whole.stderr_lx), direct[i]);
     progress.advance();
   }
   return readings;
 }
 
 std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
-                                    std::optional<double> open_lx) {
+                                    std::optional<double> open_lx, const BandTriplet& bands) {
   const std::size_t n = readings.size();
   std::vector<std::string> pieces(1 + (n + kLines - 1) / kLines);
   pieces[0] = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx";
-  pieces[0] += open_lx ? ",daylight_factor_percent,daylight_factor_stderr_percent\n" : "\n";
+  if (open_lx) pieces[0] += ",daylight_factor_percent,daylight_factor_stderr_percent";
+  const int filled = std::clamp(bands.number - 3 * (bands.triplet - 1), 0, 3) * (bands.number > 0);
+  for (int c = 0; c < filled; ++c)
+    pieces[0] += text(",band_", 3 * (bands.triplet - 1) + c + 1, "_of_", bands.number, "_lx");
+  pieces[0] += '\n';
   parallel_chunks(n, kLines, [&](std::size_t begin, std::size_t end) {
     std::string& out = pieces[1 + begin / kLines];
     out.reserve((end - begin) * 112);
@@ -257,6 +265,8 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
       if (open_lx)
         for (const float lx : {r.illuminance_lx, r.stderr_lx})
           out += ',', out += shortest(static_cast<float>(100 * static_cast<double>(lx) / *open_lx));
+      for (int c = 0; c < filled; ++c)
+        out += ',', out += shortest(kLuminanceWeight[c] * static_cast<double>(r.components_lx[c]));
       out += '\n';
     }
   });

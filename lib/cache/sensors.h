@@ -36,6 +36,7 @@ Sensors parse_sensors(std::string_view text, const std::string& where, const DVe
 struct Reading {
   float illuminance_lx = 0, stderr_lx = 0;
   float direct_lx = 0, indirect_lx = 0;
+  Rgb components_lx{0};  ///< whose luminance() is illuminance_lx, to rounding
 };
 
 struct SensorOptions {
@@ -96,6 +97,7 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
 /// All light at a sensor, with its standard error, lx: an estimate of the caller's own.
 struct Whole {
   double illuminance_lx = 0, stderr_lx = 0;
+  Rgb components_lx{0};  ///< whose luminance() is illuminance_lx
 };
 /// The same from an exact estimate of the whole light in place of caches; direct light as above. Estimates
 /// are asked for one after another, in order.
@@ -106,9 +108,12 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
 
 /// id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx and a line for each sensor, shortest numbers, in
 /// pieces that follow each other. With the illuminance in the open also
-/// daylight_factor_percent,daylight_factor_stderr_percent: E and stderr as shares of it.
+/// daylight_factor_percent,daylight_factor_stderr_percent: E and stderr as shares of it. In bands, E and all
+/// else are of the light in the triplet's bands, and there is band_K_of_N_lx for each of them (K from 1),
+/// their shares of E.
 std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
-                                    std::optional<double> open_lx = std::nullopt);
+                                    std::optional<double> open_lx = std::nullopt,
+                                    const BandTriplet& bands = {});
 
 /// number, mean_lx, min_lx, max_lx, U0 = min/mean, Ud = min/max (absent where everything is dark or there is
 /// no sensor).

@@ -103,12 +103,25 @@ std::string node_change(const Json* then, const Json* now) {
   return "";
 }
 
+/// The options that give such bands; "" for RGB.
+std::string bands_of(const Json& parts) {
+  const Json* bands = parts.find("bands");
+  const Json *number = bands ? bands->find("number") : nullptr,
+             *triplet = bands ? bands->find("triplet") : nullptr;
+  if (!number || !triplet) return "";
+  return text("--bands ", number->dump(), " --triplet ", triplet->dump());
+}
+
 std::string scene_change(const Json& then, const Json& now) {
   const Json *time_then = then.find("time"), *time_now = now.find("time");
   if (time_then != nullptr && time_now != nullptr && time_then->is_number() && time_now->is_number() &&
       time_then->as_number() != time_now->as_number())
     return text("time ", shortest(time_then->as_number()), " s is now ", shortest(time_now->as_number()),
                 " s");
+  const std::string bands_then = bands_of(then), bands_now = bands_of(now);
+  if (bands_then != bands_now)
+    return text("made ", bands_then.empty() ? "in RGB, without --bands" : "with " + bands_then, ", not ",
+                bands_now.empty() ? "in RGB" : "with " + bands_now);
   const Json *sky_then = then.find("environment"), *sky_now = now.find("environment");
   if (sky_then != nullptr && sky_now == nullptr)
     return "it had an environment or a sky; give the same --environment, --sky, --sun";

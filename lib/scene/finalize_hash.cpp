@@ -184,11 +184,17 @@ void fill_hash(Scene& scene) {
   if (!environment.empty()) parts["environment"] = environment;
   if (const std::string luminaires = hash_luminaires(scene); !luminaires.empty())
     parts["luminaires"] = luminaires;
+  std::string bands;
+  if (scene.bands.number > 0) {
+    Json& part = parts["bands"] = Json::Object{};
+    part["number"] = scene.bands.number, part["triplet"] = scene.bands.triplet;
+    bands = part.dump();
+  }
   if (scene.origin_m != DVec3(0)) parts["origin_m"] = origin_json(scene.origin_m);
   parts["time"] = scene.time_s + 0.0;
   if (Json nodes = hash_nodes(scene); !nodes.is_null()) parts["nodes"] = std::move(nodes);
   scene.parts = std::move(parts);
-  scene.hash = hash_text(geometry + materials + lights + environment).hex();
+  scene.hash = hash_text(geometry + materials + lights + environment + bands).hex();
 }
 
 }  // namespace phos

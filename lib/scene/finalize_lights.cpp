@@ -163,7 +163,9 @@ void fill_lights(Scene& scene) {
   }
   std::erase_if(scene.light, [&](const Light& light) {
     if (max_component(light.flux_lm) > 0) return false;
-    scene.warnings.push_back("light \"" + light.name + "\" has no intensity: it is ignored");
+    // In a band many a lamp is dark.
+    if (scene.bands.number == 0)
+      scene.warnings.push_back("light \"" + light.name + "\" has no intensity: it is ignored");
     return true;
   });
   require_power(scene);

@@ -23,6 +23,7 @@ class Fitting {
   const Photometry& photometry() const { return *photometry_; }
   const Mat3& axes() const { return axes_; }
   const Rgb& colour() const { return colour_; }
+  void set_colour(const Rgb& colour) { colour_ = colour; }
   Vec3 down() const { return -axes_[2]; }
 
   Rgb flux_lm() const;

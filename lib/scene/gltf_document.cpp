@@ -196,7 +196,19 @@ GltfDocument read_gltf(const std::string& path, std::string_view bytes) {
   return document;
 }
 
-std::vector<std::string> gltf_external_files(const std::string& path, std::string_view bytes) {
+std::string spectrum_file(const std::string& path, const Json& of) {
+  const Json* phos = find_path(of, "extras/phos");
+  const Json* name = phos && phos->is_object() ? phos->find("spectrum") : nullptr;
+  if (!name) return "";
+  const std::optional<std::string> file =
+      name->is_string() ? file_below(path, name->as_string()) : std::optional<std::string>();
+  if (!file)
+    throw std::runtime_error(
+        "extras.phos.spectrum must be a relative path to a file beside the scene or in a folder below it");
+  return *file;
+}
+
+std::vector<std::string> gltf_external_files(const std::string& path, std::string_view bytes, bool spectra) {
   const Json document = parse_document(path, split(path, bytes).json);
   std::vector<std::string> files;
   for (const char* key : {"buffers", "images", "extensions/EXT_lights_ies/lights"}) {
@@ -213,6 +225,13 @@ std::vector<std::string> gltf_external_files(const std::string& path, std::strin
     const Json* file = phos && phos->is_object() ? phos->find("file") : nullptr;
     if (!file || !file->is_string()) continue;
     if (std::optional<std::string> there = file_below(path, file->as_string())) files.push_back(*there);
+  }
+  for (const char* key :
+       {"materials", "extensions/KHR_lights_punctual/lights", "extensions/EXT_lights_ies/lights"}) {
+    const Json* list = find_path(document, key);
+    if (!spectra || !list || !list->is_array()) continue;
+    for (const Json& item : list->as_array())
+      if (std::string file = spectrum_file(path, item); !file.empty()) files.push_back(std::move(file));
   }
   return files;
 }

@@ -162,6 +162,9 @@ class SceneReader {
     const std::string& name = document_.model->nodes[node].name;
     LuminairePlace place{!name.empty() ? name : luminaire.name, world_[node], luminaire.colour};
     if (place.name.empty()) place.name = node_name(node);
+    note_spectrum(
+        place.name,
+        find_path(document_.json, "extensions/EXT_lights_ies/lights")->as_array()[luminaire.profile]);
     std::shared_ptr<const PhotometricFile> file = given_.find(place.name);
     if (!file) file = profiles_.read(luminaire.profile);
     hang_luminaire(scene_, std::move(file), place, luminaires_as_);
@@ -338,11 +341,21 @@ class SceneReader {
     } else {
       fail("type \"" + type + "\" is not point, spot or directional");
     }
+    note_spectrum(light.name, json);
     if (light.kind != Light::Kind::directional) {
       if (std::shared_ptr<const PhotometricFile> file = given_.find(light.name))
         return hang_in_place_of(light, hue(light_colour(index)), node, std::move(file));
     }
     scene_.light.push_back(light);
+  }
+
+  void note_spectrum(const std::string& light, const Json& json) {
+    try {
+      if (std::string file = spectrum_file(document_.path, json); !file.empty())
+        scene_.light_spectrum[light] = std::move(file);
+    } catch (const std::runtime_error& e) {
+      document_.fail(text("light \"", light, "\": ", e.what()));
+    }
   }
 
   GltfDocument& document_;

@@ -258,7 +258,9 @@ class MaterialReader {
 
   /// The exact model. What it does not give stays as the core material has it.
   void read_phos(const Json& phos) {
+    material_.spectrum = spectrum_of_material();
     const Json* brdf = phos.find("brdf");
+    if (!brdf && !material_.spectrum.empty()) return;
     if (!brdf || !brdf->is_string()) fail("extras.phos needs a \"brdf\"");
     static const std::map<std::string, Model> kModels = {
         {"lambert", Model::lambert},
@@ -306,6 +308,14 @@ class MaterialReader {
     material_.exponent = parameter(phos, "exponent", 1);
     if (model->second == Model::ward && !(material_.alpha_x > 0 && material_.alpha_y > 0)) {
       fail("extras.phos: ward needs ax and ay above 0");
+    }
+  }
+
+  std::string spectrum_of_material() const {
+    try {
+      return spectrum_file(document_.path, *json_);
+    } catch (const std::runtime_error& e) {
+      fail(e.what());
     }
   }
 

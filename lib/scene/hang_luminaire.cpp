@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "scene/named_files.h"
 
 namespace phos {
 namespace {
@@ -32,12 +33,12 @@ Mat3 unit_axes(const glm::dmat4& m) {
 
 GivenLuminaires::GivenLuminaires(const LuminaireOptions& options) {
   std::map<std::string, std::shared_ptr<const PhotometricFile>> read;
-  for (const LuminaireOfLight& w : luminaires_of_lights(options)) {
-    if (file_.count(w.light))
-      throw Error(ExitCode::usage, "--luminaire", text("is given twice for the light \"", w.light, "\""));
+  for (const NamedFile& w : named_files(options.of_lights, "--luminaire")) {
+    if (file_.count(w.name))
+      throw Error(ExitCode::usage, "--luminaire", text("is given twice for the light \"", w.name, "\""));
     std::shared_ptr<const PhotometricFile>& file = read[w.file];
     if (!file) file = std::make_shared<const PhotometricFile>(read_photometry(w.file));
-    file_[w.light] = file;
+    file_[w.name] = file;
   }
 }
 

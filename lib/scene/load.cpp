@@ -9,7 +9,9 @@
 #include "scene/environment.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
+#include "scene/named_files.h"
 #include "scene/obj_load.h"
+#include "scene/to_bands.h"
 
 namespace phos {
 namespace {
@@ -44,6 +46,7 @@ void declare_light_options(Options& options, SceneOptions& scene) {
   options.number("environment-scale", scene.environment_scale, "X",
                  "multiplies the luminance of the environment (default: 1)", kPositive);
   declare_options(options, scene.daylight);
+  declare_options(options, scene.bands);
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {
@@ -54,6 +57,7 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
   if (!options.environment.empty() && options.daylight.any())
     throw Error(ExitCode::usage, options.daylight.sky.empty() ? "--sun" : "--sky",
                 "and --environment both say what is beyond the scene; leave one of them out");
+  check(options.bands);
   const Daylight daylight = resolve(options.daylight);
   const std::string bytes = scene_bytes(path);
   Scene scene;
@@ -80,14 +84,15 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
     scene.environment = std::make_shared<const Environment>(make_environment(daylight));
     scene.warnings.insert(scene.warnings.end(), daylight.warnings.begin(), daylight.warnings.end());
   }
+  if (options.bands.any()) to_bands(scene, options.bands);
   finalize(scene);
   return scene;
 }
 
 std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options) {
   const std::string bytes = scene_bytes(path);
-  std::vector<std::string> files =
-      is_gltf(bytes) ? gltf_external_files(path, bytes) : obj_external_files(path, bytes);
+  std::vector<std::string> files = is_gltf(bytes) ? gltf_external_files(path, bytes, options.bands.any())
+                                                  : obj_external_files(path, bytes);
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   std::erase_if(files, [](const std::string& file) {
@@ -96,6 +101,8 @@ std::vector<std::string> scene_files(const std::string& path, const SceneOptions
   });
   files.insert(files.begin(), path);
   for (std::string& file : luminaire_files(options.luminaires)) files.push_back(std::move(file));
+  if (options.bands.any())
+    for (const NamedFile& w : named_files(options.bands.spectra, "--spectrum")) files.push_back(w.file);
   if (!options.environment.empty()) files.push_back(options.environment);
   return files;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "scene/band_options.h"
 #include "scene/daylight_options.h"
 #include "scene/luminaire_options.h"
 #include "scene/scene.h"
@@ -20,9 +21,10 @@ struct SceneOptions {
   std::optional<double> environment_rotation_deg, environment_scale;
   DaylightOptions daylight;
   LuminaireOptions luminaires;
+  BandOptions bands;
 };
 void declare_options(Options& options, SceneOptions& scene);
-/// Those that hold at every time: luminaires, the environment, sky and sun.
+/// Those that hold at every time: luminaires, the environment, sky and sun, bands.
 void declare_light_options(Options& options, SceneOptions& scene);
 
 /// Loads and finalizes, with the environment map or the daylight that the options name. The format is told
@@ -31,8 +33,8 @@ void declare_light_options(Options& options, SceneOptions& scene);
 Scene load_scene(const std::string& path, const SceneOptions& options = {});
 
 /// The scene file and every file it refers to (buffers, images, .mtl, lights), for content hashes. Missing
-/// ones are left out; luminaires and the environment map of the options come last. Throws Error(bad_input) if
-/// the scene file itself cannot be read.
+/// ones are left out; luminaires, spectra and the environment map of the options come last. Throws
+/// Error(bad_input) if the scene file itself cannot be read.
 std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options = {});
 
 /// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input)

@@ -1,6 +1,6 @@
 #include "scene/luminaire_options.h"
 
-#include "core/error.h"
+#include "scene/named_files.h"
 #include "scene/photometric_file.h"
 
 namespace phos {
@@ -22,7 +22,7 @@ void declare_options(Options& options, LuminaireOptions& luminaires) {
 
 std::vector<std::string> luminaire_files(const LuminaireOptions& options) {
   std::vector<std::string> files;
-  for (const LuminaireOfLight& w : luminaires_of_lights(options))
+  for (const NamedFile& w : named_files(options.of_lights, "--luminaire"))
     for (std::string& file : photometric_files(w.file)) files.push_back(std::move(file));
   return files;
 }
@@ -32,17 +32,6 @@ std::vector<std::string> luminaire_words(const LuminaireOptions& options) {
   for (const std::string& word : options.of_lights) words.insert(words.end(), {"--luminaire", word});
   if (options.as == LuminairesAs::points) words.insert(words.end(), {"--luminaires-as", "points"});
   return words;
-}
-
-std::vector<LuminaireOfLight> luminaires_of_lights(const LuminaireOptions& options) {
-  std::vector<LuminaireOfLight> out;
-  for (const std::string& word : options.of_lights) {
-    const std::size_t at = word.find('=');
-    if (at == std::string::npos || at == 0 || at + 1 == word.size())
-      throw Error(ExitCode::usage, "--luminaire", text("\"", word, "\" is not of the form NAME=FILE"));
-    out.push_back({word.substr(0, at), word.substr(at + 1)});
-  }
-  return out;
 }
 
 }  // namespace phos

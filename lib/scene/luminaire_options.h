@@ -21,11 +21,4 @@ std::vector<std::string> luminaire_files(const LuminaireOptions& options);
 /// The words of a command line that mean the same.
 std::vector<std::string> luminaire_words(const LuminaireOptions& options);
 
-/// One of the options' words, taken apart.
-struct LuminaireOfLight {
-  std::string light, file;
-};
-/// Throws Error(usage) for words not of the form NAME=FILE.
-std::vector<LuminaireOfLight> luminaires_of_lights(const LuminaireOptions& options);
-
 }  // namespace phos

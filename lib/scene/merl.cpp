@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
 
@@ -98,6 +99,18 @@ MerlBrdf::MerlBrdf(std::string_view bytes, const std::string& path) {
   }
   fill_empty(empty);
   if (empty_cells_ == kCells) fail(path, "every sample is negative: the file holds no data");
+  digest();
+}
+
+MerlBrdf MerlBrdf::recoloured(const std::function<Rgb(const Rgb&)>& colour) const {
+  MerlBrdf out(*this);
+  parallel_for(kCells, 4096, [&](std::size_t i) { out.value_[i] = colour(kPi * value_[i]) / kPi; });
+  out.digest();
+  return out;
+}
+
+/// What is known of the values as a whole.
+void MerlBrdf::digest() {
   find_lambert();
   fit_lobe();
   tabulate_albedo();

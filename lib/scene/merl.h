@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ class MerlBrdf {
   /// takes the value of the nearest one that has some. Throws Error(bad_input) naming `path`: truncated,
   /// too long, of other sizes, not finite, or without any data.
   MerlBrdf(std::string_view bytes, const std::string& path);
+
+  /// The same material with other colours: each value of pi f replaced by `colour` of it.
+  MerlBrdf recoloured(const std::function<Rgb(const Rgb&)>& colour) const;
 
   /// f(o, i) in 1/sr, o.z and i.z > 0.
   Rgb evaluate(const Vec3& o, const Vec3& i) const;
@@ -70,6 +74,7 @@ class MerlBrdf {
  private:
   static constexpr int kAngles = 25;  // of the albedo tables, even steps of the cosine from grazing to 1
   static float angle_cosine(int k) { return std::fmax(static_cast<float>(k) / (kAngles - 1), 0.01f); }
+  void digest();
   void fill_empty(const std::vector<bool>& empty);
   void find_lambert();
   void fit_lobe();

@@ -85,6 +85,7 @@ struct Material {
   enum class Alpha : std::uint8_t { opaque, mask, blend };
   Alpha alpha_mode = Alpha::opaque;
   float alpha = 1, alpha_cutoff = 0.5f;
+  std::string spectrum;  ///< file that extras.phos.spectrum names; read where light is computed in bands
 
   bool emits() const { return max_component(emission) > 0; }
   /// Does its reflection depend on where the tangent points?
@@ -163,6 +164,13 @@ struct Animation {
   std::vector<std::string> targets;  ///< "node lamp translation", ...
 };
 
+/// What the components of Rgb are: red, green and blue (number 0), or one of the triplets of so many bands
+/// of wavelength (scene/bands.h).
+struct BandTriplet {
+  int number = 0, triplet = 0;
+  bool operator==(const BandTriplet&) const = default;
+};
+
 struct Scene {
   std::string path;
   /// Place in the world that all coordinates here, and in files made from them, are counted from, m. Zero for
@@ -189,6 +197,8 @@ struct Scene {
   std::vector<Animation> animation;
   double time_s = 0;
   double frames_per_s = 24;
+  BandTriplet bands;
+  std::map<std::string, std::string> light_spectrum;  ///< as Material::spectrum, by the light's name
   std::int64_t frames = 0;            ///< of scenes[0].extras.animation, or from the longest animation
   std::vector<std::string> warnings;  ///< what the loader mended or ignored, one line each
   std::map<std::string, std::uint64_t> events;  ///< degenerate triangles dropped, normals made, ...
@@ -196,8 +206,8 @@ struct Scene {
   Bounds bounds;
   std::string hash;  ///< of everything that changes the light (not cameras, not names)
   Json parts;        ///< {"geometry":hash,"materials":hash,"lights":hash,"time":s,"nodes":{name:hash}};
-               ///< "environment":hash, "luminaires":hash (of their distributions) and "origin_m":[x,y,z]
-               ///< where there are any
+               ///< "environment":hash, "luminaires":hash (of their distributions), "origin_m":[x,y,z] and
+               ///< "bands":{"number":n,"triplet":k} where there are any
 
   const Material& material_of(std::uint32_t tri) const {
     return material[instance[triangle_instance[tri]].material];

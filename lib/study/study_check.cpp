@@ -91,6 +91,7 @@ SceneOptions scene_options(const std::vector<std::string>& words) {
     if (words[i] == "--environment-rotation") options.environment_rotation_deg = number();
     if (words[i] == "--environment-scale") options.environment_scale = number();
     read_daylight_word(words[i], words[i + 1], options.daylight);
+    read_band_word(words[i], words[i + 1], options.bands);
     if (words[i] == "--luminaire") options.luminaires.of_lights.push_back(words[i + 1]);
     if (words[i] == "--luminaires-as" && words[i + 1] == "points")
       options.luminaires.as = LuminairesAs::points;
