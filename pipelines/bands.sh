@@ -40,7 +40,8 @@ for ((k = 1; k <= triplets; ++k)); do
   part=$folder/triplets/$k
   bands=(--bands "$number" --triplet "$k" ${every[@]+"${every[@]}"})
   # Where no lamp shines there is nothing to compute.
-  if ! phos-scene "$scene" "${bands[@]}" --json | grep -q '"flux_lm"'; then
+  summary=$(phos-scene "$scene" "${bands[@]}" --json)
+  if [[ $summary != *'"flux_lm"'* ]]; then
     echo "triplet $k of $triplets: dark"
     dark+=("$k")
     continue

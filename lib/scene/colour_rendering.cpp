@@ -99,15 +99,18 @@ std::optional<ColourRendering> colour_rendering(const WavelengthSteps& steps,
                                                 const std::vector<double>& power) {
   const DVec3 xyz = steps.xyz_of(power);
   if (!(xyz.y > 0)) return {};
+  static const WavelengthSteps exactly;
   const Uv light = uv_of(xyz);
   ColourRendering out;
-  out.cct_K = nearest_K(steps, light);
-  const Uv locus = uv_of(steps.xyz_of(steps.power_of(planck_spectrum(out.cct_K))));
+  out.cct_K = nearest_K(exactly, light);
+  const Uv locus = uv_of(exactly.xyz_of(exactly.power_of(planck_spectrum(out.cct_K))));
   out.duv = std::copysign(std::hypot(light.u - locus.u, light.v - locus.v), light.v - locus.v);
   if (!(out.cct_K >= kColdest_K && out.cct_K <= kHottest_K) || std::fabs(out.duv) > kFurthest_uv) return {};
 
+  // The reference is seen by the same steps, so that it is the nearest there.
+  const double t = nearest_K(steps, light);
   const std::vector<double> reference =
-      steps.power_of(out.cct_K < kDaylight_K ? planck_spectrum(out.cct_K) : daylight_spectrum(out.cct_K));
+      steps.power_of(out.cct_K < kDaylight_K ? planck_spectrum(t) : daylight_spectrum(std::max(t, 4000.0)));
   const DVec3 reference_xyz = steps.xyz_of(reference);
   const Uv white = uv_of(reference_xyz);
   const Adaptation of_light = adaptation(light), of_white = adaptation(white);

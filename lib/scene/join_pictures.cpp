@@ -72,6 +72,9 @@ class Joiner {
   Image image() {
     for (const auto& [layer, sums] : sums_) {
       std::vector<Rgb> values(sums.begin(), sums.end());
+      const std::vector<DVec3>& squares = squares_[layer];
+      for (std::size_t i = 0; i < squares.size(); ++i)
+        values[i] = Rgb(glm::max(glm::abs(sums[i]), glm::sqrt(squares[i])));
       image_.set_rgb(layer, values);
     }
     return std::move(image_);
@@ -89,13 +92,17 @@ class Joiner {
       column[c] = bands_.rgb_of(triplet, c);
       if (layer == "albedo" && bands_.band_of(triplet, c) >= 0)
         column[c] = rgb_of_xyz(bands_.white_xyz(bands_.band_of(triplet, c)));
-      if (is_error(layer)) column[c] = glm::abs(column[c]);
     }
     const std::vector<Rgb> values = part.rgb(layer);
-    std::vector<DVec3>& sums = sums_[layer];
+    std::vector<DVec3>&sums = sums_[layer], &squares = squares_[layer];
     sums.resize(values.size(), DVec3(0));
+    if (is_error(layer)) squares.resize(values.size(), DVec3(0));
     parallel_for(values.size(), kChunk, [&](std::size_t i) {
-      for (int c = 0; c < 3; ++c) sums[i] += static_cast<double>(values[i][c]) * column[c];
+      for (int c = 0; c < 3; ++c) {
+        const DVec3 term = static_cast<double>(values[i][c]) * column[c];
+        sums[i] += term;
+        if (!squares.empty()) squares[i] += term * term;
+      }
     });
   }
 
@@ -116,7 +123,7 @@ class Joiner {
 
   const Bands& bands_;
   Image image_;
-  std::map<std::string, std::vector<DVec3>> sums_;
+  std::map<std::string, std::vector<DVec3>> sums_, squares_;  // the second of errors
   std::string differs_;
 };
 

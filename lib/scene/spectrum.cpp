@@ -101,6 +101,9 @@ Spectrum parse_spectrum(std::string_view bytes, const std::string& where, Spectr
   if (nm.back() < kCieFirst_nm || nm.front() > kCieLast_nm)
     fail(where, text("its data, ", shortest(nm.front()), " to ", shortest(nm.back()),
                      " nm, do not overlap 380 to 780 nm, where light is seen; give wavelengths in nm"));
+  // Power is relative: no unit is too large or too small.
+  if (const double most = *std::max_element(value.begin(), value.end()); !reflectance && most > 0)
+    for (double& v : value) v /= most;
   Spectrum spectrum(std::move(nm), std::move(value),
                     reflectance ? Spectrum::Beyond::end_value : Spectrum::Beyond::zero);
   if (!reflectance && !(spectrum.integral(kCieFirst_nm, kCieLast_nm) > 0))

@@ -40,7 +40,8 @@ class Spectrum {
 };
 
 /// What a file holds. Reflectance is of light from everywhere or nowhere special, 0 to 1, and continues with
-/// its end values beyond the data; power is in any unit, for each nm, and is 0 beyond.
+/// its end values beyond the data; power is in any unit, for each nm (its greatest becomes 1), and is 0
+/// beyond.
 enum class SpectrumKind { reflectance, power };
 
 /// Reads CSV with the columns wavelength_nm and value. Throws Error(bad_input), naming file and line: not

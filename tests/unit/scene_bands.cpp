@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "image/primaries.h"
 #include "scene/spectral_reflectance.h"
+#include "support/run.h"
 
 namespace phos::test {
 namespace {
@@ -160,8 +161,8 @@ TEST(ReflectanceFit, GivesTheColourBack) {
   }
 }
 
-/// The table that textures use makes the same colours under D65, over all triplets. (Its spectra between nodes
-/// are other ones.)
+/// The table that textures use makes the same colours under D65, over all triplets. (Its spectra between
+/// nodes are other ones.)
 TEST(BandColourTable, GivesTheColourBack) {
   constexpr std::size_t kColours = 2000;
   const Bands bands(39);
@@ -200,6 +201,39 @@ TEST(BandColourTable, GivesTheColourBack) {
   std::printf("[ FIGURES  ] table off by %.5f, of light by %.5f\n", worst, worst_light);
   EXPECT_LT(worst, 1e-5);
   EXPECT_LT(worst_light, 1e-5);
+}
+
+/// Two pigments of one colour under D65 are two colours under other lamps, in bands as in the standard's
+/// steps.
+TEST(Bands, MetamersPart) {
+  const auto colour = [](const Bands& bands, const std::string& pigment, const std::vector<double>& shares) {
+    const std::vector<double> reflectance =
+        bands.means(read_spectrum(data("spectra/" + pigment), SpectrumKind::reflectance));
+    DVec3 rgb(0);
+    for (int k = 1; k <= bands.triplets(); ++k)
+      for (int c = 0; c < 3; ++c)
+        if (const int b = bands.band_of(k, c); b >= 0) {
+          const auto i = static_cast<std::size_t>(b);
+          rgb += reflectance[i] * shares[i] / kLuminanceWeight[c] * bands.rgb_of(k, c);
+        }
+    return rgb;
+  };
+  for (const int n : {24, 39, 81}) {
+    const Bands bands(n);
+    const auto apart = [&](const Spectrum& lamp) {
+      const std::vector<double> shares = bands.luminous_shares(lamp);
+      return glm::length(colour(bands, "pigment-a.csv", shares) - colour(bands, "pigment-b.csv", shares));
+    };
+    const double d65 = apart(Spectrum(kCieD65)),
+                 fl11 = apart(read_spectrum(data("spectra/fluorescent-fl11.csv"), SpectrumKind::power)),
+                 sodium = apart(read_spectrum(data("spectra/sodium.csv"), SpectrumKind::power));
+    std::printf(
+        "[ FIGURES  ] %d bands: pigments apart by %.4f under D65, %.4f under FL11, %.4f under sodium\n", n,
+        d65, fl11, sodium);
+    EXPECT_LT(d65, n < 39 ? 0.02 : 0.005);
+    EXPECT_GT(fl11, 0.05);
+    EXPECT_GT(sodium, 0.05);
+  }
 }
 
 }  // namespace phos::test

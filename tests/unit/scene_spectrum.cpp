@@ -69,6 +69,15 @@ TEST(SpectrumFile, ReadsWhatSpreadsheetsWrite) {
   EXPECT_EQ(r.values(), (std::vector<double>{0.5, 0.25}));
 }
 
+TEST(SpectrumFile, PowerIsOfAnyUnit) {
+  const auto lamp = [](const std::string& rows) {
+    return parse_spectrum("wavelength_nm,value\n" + rows, "lamp.csv", SpectrumKind::power).values();
+  };
+  EXPECT_EQ(lamp("400,1\n500,4\n"), (std::vector<double>{0.25, 1}));
+  EXPECT_EQ(lamp("400,1e307\n500,4e307\n"), (std::vector<double>{0.25, 1}));
+  EXPECT_EQ(lamp("400,1e-307\n500,4e-307\n"), (std::vector<double>{0.25, 1}));
+}
+
 TEST(SpectrumFile, IsRefusedInOneLine) {
   EXPECT_NE(refusal("nm,v\n400,1\n").find("wavelength_nm"), std::string::npos);
   EXPECT_NE(refusal_of_rows("").find("no row"), std::string::npos);
