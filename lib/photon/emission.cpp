@@ -49,6 +49,10 @@ double sample_spot_cosine(double cos_inner, double cos_outer, float u) {
 Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed,
                  const Portals* portals)
     : scene_(&scene), portals_(portals), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
+  if (luminaires_.size() == 0 && scene.bands.number > 0)
+    throw Error(ExitCode::bad_input, scene.path,
+                text("no light: no lamp shines in triplet ", scene.bands.triplet, " of ", scene.bands.number,
+                     " bands; leave it out, and tell phos-bands: --dark ", scene.bands.triplet));
   if (luminaires_.size() == 0)
     throw Error(
         ExitCode::bad_input, scene.path,

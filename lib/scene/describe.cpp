@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/origin.h"
+#include "scene/bands.h"
 #include "scene/environment.h"
 #include "scene/merl.h"
 #include "scene/photometric_file.h"
@@ -247,6 +248,13 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
   j["memory_bytes"] = scene_bytes(scene);
   j["bounds_m"] =
       Json::Array{world_json(scene.origin_m, scene.bounds.lo), world_json(scene.origin_m, scene.bounds.hi)};
+  if (scene.bands.number > 0) {
+    const Bands bands(scene.bands.number);
+    const int first = bands.band_of(scene.bands.triplet, 0), last = std::min(first + 2, bands.size() - 1);
+    Json& part = j["bands"] = Json::Object{};
+    part["number"] = bands.size(), part["triplet"] = scene.bands.triplet;
+    part["from_nm"] = bands.lo_nm(first), part["to_nm"] = bands.hi_nm(last);
+  }
   if (scene.origin_m != DVec3(0)) j["origin_m"] = origin_json(scene.origin_m);
   j["diagonal_m"] = scene.bounds.diagonal_m();
   double area = 0, lumens = 0;

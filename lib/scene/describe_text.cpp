@@ -134,6 +134,10 @@ std::string describe_text(const Json& d) {
               figure(at(d, "diagonal_m")), " m across, ", figure(at(d, "surface_m2")), " m2 of surface\n");
   if (far) out += text("  positions in files are counted from ", place(at(d, "origin_m"), far), " m\n");
   out += text("  hash ", at(d, "hash").as_string(), "\n");
+  if (const Json* bands = d.find("bands"))
+    out += text("  light of ", figure(at(*bands, "from_nm")), " to ", figure(at(*bands, "to_nm")),
+                " nm alone: triplet ", at(*bands, "triplet").as_integer(), " of ",
+                at(*bands, "number").as_integer(), " bands\n");
   out += list(d, "lights", text("Lights, ", figure(at(d, "total_lumens")), " lm together"), light_line);
   out += list(d, "materials", "Materials", material_line);
   out += list(d, "cameras", "Cameras", [&](const Json& c) { return camera_line(c, far); });

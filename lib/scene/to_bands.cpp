@@ -15,6 +15,8 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
+/// Of a lamp's lumens: a band with less would be refused as too faint, and changes nothing.
+constexpr double kLeastShare = 1e-12;
 
 class ToBands {
  public:
@@ -49,11 +51,17 @@ class ToBands {
     return *table_;
   }
 
-  /// Light of luminance 1 with a spectrum.
-  Rgb share_of(const Spectrum& power) const {
-    return Rgb(light_of_shares(bands_.triplet_of(bands_.luminous_shares(power), colours_.triplet())));
+  /// Light of luminance 1 with a spectrum. What of it is less than floats can add to the rest is left out.
+  Rgb share_of(const Spectrum& power) {
+    DVec3 shares = bands_.triplet_of(bands_.luminous_shares(power), colours_.triplet());
+    for (int c = 0; c < 3; ++c) {
+      if (!(shares[c] > 0 && shares[c] < kLeastShare)) continue;
+      shares[c] = 0;
+      ++scene_.events["bands in which a lamp has too little of its lumens (1e-12), left dark"];
+    }
+    return Rgb(light_of_shares(shares));
   }
-  Rgb light_of(const Rgb& rgb, const Spectrum* power) const {
+  Rgb light_of(const Rgb& rgb, const Spectrum* power) {
     return power ? luminance(rgb) * share_of(*power) : colours_.light(rgb);
   }
   Rgb reflectance_of(const Rgb& rgb, const Spectrum* spectrum) const {

@@ -235,7 +235,7 @@ TEST(BandOptions, AreRefusedInOneLine) {
   refused(in_triplet(2) + Words{"--spectrum", "white=" + blue}, 3, "do not overlap 380 to 780");
   // A lamp that is dark in this triplet.
   refused({"--bands", "39", "--triplet", "2", "--spectrum", "light=" + data("spectra/sodium.csv")}, 3,
-          "no light");
+          "--dark 2");
 }
 
 TEST(BandOptions, CachesKnowTheirTriplet) {
@@ -247,4 +247,11 @@ TEST(BandOptions, CachesKnowTheirTriplet) {
                  "made in RGB");
   const auto info = run_tool({"info", cache});
   EXPECT_NE(info.out.find("--bands 12"), std::string::npos) << info.out;
+}
+
+TEST(BandOptions, SceneReportsSayWhichLightItIs) {
+  const auto report = run_tool(Words{"scene", kBox} + in_triplet(4));
+  EXPECT_NE(report.out.find("light of 680 to 780 nm alone: triplet 4 of 12 bands"), std::string::npos)
+      << report.out;
+  EXPECT_EQ(run_tool({"scene", kBox}).out.find("nm alone"), std::string::npos);
 }

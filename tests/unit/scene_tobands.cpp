@@ -112,6 +112,16 @@ TEST(ToBands, GreyScenesStayGrey) {
   }
 }
 
+/// The feet of a lamp's spectrum that are next to nothing are left out, and this is counted.
+TEST(ToBands, LampsHaveNoEndlessFeet) {
+  const std::string lamp = file_of("500,1e-20\n520,1e-20\n540,1\n560,1\n");
+  const Scene dark = in_bands(room(), triplet(4, {"tube=" + lamp, "bulb=" + lamp})),
+              lit = in_bands(room(), triplet(5, {"tube=" + lamp, "bulb=" + lamp}));
+  EXPECT_TRUE(dark.light.empty());
+  EXPECT_EQ(dark.events.count("bands in which a lamp has too little of its lumens (1e-12), left dark"), 1u);
+  EXPECT_EQ(lit.light.size(), 2u);
+}
+
 TEST(ToBands, SpectraOfPaintsAreTheirMeans) {
   const Bands bands(kBands);
   const std::string file = data("spectra/cornell-green.csv");
