@@ -11,6 +11,8 @@ namespace {
 constexpr int kMaxSteps = 60;
 /// Linear Rec.709; a thousandth of what an 8-bit texture can tell apart.
 constexpr double kGoodEnough = 1e-6;
+/// A determinant below which a step would be beyond numbers.
+constexpr double kSingular = 1e-100;
 
 double sigmoid(double x) { return 0.5 + 0.5 * x / std::sqrt(1 + x * x); }
 /// Its inverse, for 0 < y < 1.
@@ -62,13 +64,16 @@ std::vector<double> ReflectanceFit::fit(const Rgb& rgb) const {
   for (int step = 0; step < kMaxSteps && error > enough && damping < 1e12;) {
     const glm::dmat3 transposed = glm::transpose(slopes);
     glm::dmat3 normal = transposed * slopes;
-    for (int i = 0; i < 3; ++i) normal[i][i] += damping * (normal[i][i] + 1e-30);
+    for (int i = 0; i < 3; ++i) normal[i][i] += damping * normal[i][i];
+    if (!(glm::determinant(normal) > kSingular)) {
+      damping *= 8;
+      continue;
+    }
     const Coefficients tried = c + glm::inverse(normal) * (transposed * rest);
-    const bool finite = std::isfinite(tried.x) && std::isfinite(tried.y) && std::isfinite(tried.z);
     glm::dmat3 new_slopes;
-    const DVec3 new_rest = finite ? target - evaluate(tried, &new_slopes) : rest;
+    const DVec3 new_rest = target - evaluate(tried, &new_slopes);
     const double new_error = glm::dot(new_rest, new_rest);
-    if (finite && new_error < error) {
+    if (new_error < error) {
       c = tried, rest = new_rest, slopes = new_slopes, error = new_error, damping *= 0.2;
       ++step;
     } else {
