@@ -61,7 +61,9 @@ int main(int argc, char** argv) {
       "standard error (at most the sum of the triplets'), CIE 1931 X, Y, Z in lx, correlated colour "
       "temperature, Duv (CIE 1960), the colour rendering index Ra of the light at each sensor (CIE "
       "13.3-1995, in the bands), and its spectrum: each band's share of the lux. CCT, Duv and Ra are empty "
-      "where the light is unlike any Planckian one (Duv beyond 0.05, or beyond 1000 to 25000 K).",
+      "where the light is unlike any Planckian one (Duv beyond 0.05, or beyond 1000 to 25000 K). Other "
+      "columns "
+      "are left out.",
       1, Tool::Output::optional);
   BandParts parts;
   std::vector<std::string> dark;

@@ -19,10 +19,20 @@ std::set<std::string> light_names(const Scene& scene) {
   return names;
 }
 
+/// Now, or at another time of its animation.
+bool shines(const Scene& scene, std::size_t material) {
+  if (scene.material[material].emits()) return true;
+  for (const Animation& animation : scene.animation)
+    for (const std::string& target : animation.targets)
+      for (const char* member : {"/emissiveFactor", "/extensions/KHR_materials_emissive_strength/"})
+        if (target.starts_with(text("/materials/", material, member))) return true;
+  return false;
+}
+
 std::set<std::size_t> shining_materials(const Scene& scene, const std::string& node) {
   std::set<std::size_t> materials;
   for (const Instance& i : scene.instance)
-    if (i.node == node && i.fitting < 0 && scene.material[i.material].emits()) materials.insert(i.material);
+    if (i.node == node && i.fitting < 0 && shines(scene, i.material)) materials.insert(i.material);
   return materials;
 }
 
@@ -90,7 +100,7 @@ void BandSpectra::give(const Scene& scene, const std::string& name, const std::s
 
 void BandSpectra::give_material(const Scene& scene, std::size_t i, const std::string& file) {
   const Material& material = scene.material[i];
-  if (material.emits()) {
+  if (shines(scene, i)) {
     emission_[i] = read(file, SpectrumKind::power);
   } else if (has_reflectance(material.model)) {
     reflectance_[i] = read(file, SpectrumKind::reflectance);

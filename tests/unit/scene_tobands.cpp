@@ -277,6 +277,22 @@ TEST(ToBands, NamesAreFoundOrRefused) {
   EXPECT_NE(refusal(glass, {"paint=" + data("spectra/pigment-a.csv")}).find("glass"), std::string::npos);
 }
 
+/// A lamp that an animation has switched off just now is a lamp still.
+TEST(ToBands, LampsThatAreOffAreLamps) {
+  Scene scene = room(Rgb(0.5f), Rgb(0));
+  scene.material[1].kd = Rgb(0.25f);
+  Animation blinking;
+  blinking.targets = {"/materials/1/extensions/KHR_materials_emissive_strength/emissiveStrength"};
+  scene.animation.push_back(blinking);
+  const std::string led = file_of("400,0\n500,70\n600,0\n");
+  for (const char* name : {"tube=", "ceiling lamp="}) {
+    Scene off = scene;
+    to_bands(off, triplet(6, {name + led}));
+    EXPECT_EQ(off.material[1].kd, Rgb(0.25f));
+    EXPECT_EQ(off.material[1].emission, Rgb(0));
+  }
+}
+
 TEST(ToBands, SpectraThatDoNotMeetAreRefused) {
   const std::string blue = file_of("400,0.2\n480,0.3\n"), sodium = data("spectra/sodium.csv");
   const std::string refusal = complaint_of([&] {
