@@ -19,9 +19,11 @@ BandTriplet triplet_in(const Json& parameters, const std::string& path) {
   if (!bands || !triplet || !bands->is_number() || !triplet->is_number())
     throw Error(ExitCode::bad_input, path,
                 "is a picture in RGB; give pictures made with --bands and --triplet");
-  const BandTriplet out{static_cast<int>(bands->as_integer()), static_cast<int>(triplet->as_integer())};
-  if (out.number < Bands::kLeast || out.number > Bands::kMost)
-    throw Error(ExitCode::bad_input, path, text("says it is of ", out.number, " bands; make it again"));
+  const double n = bands->as_number(), k = triplet->as_number();
+  const BandTriplet out{n <= Bands::kMost ? static_cast<int>(std::fmax(n, 0)) : 0,
+                        k <= Bands::kMost ? static_cast<int>(std::fmax(k, 0)) : 0};
+  if (out.number < Bands::kLeast)
+    throw Error(ExitCode::bad_input, path, text("says it is of ", n, " bands; make it again"));
   return out;
 }
 

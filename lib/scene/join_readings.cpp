@@ -141,6 +141,11 @@ std::string join_readings(const BandParts& parts) {
     if (!t || t->number < Bands::kLeast)
       throw Error(ExitCode::bad_input, table.where,
                   "has no bands; give tables that phos-sense wrote with --bands and --triplet");
+    for (const std::string& name : table.columns)
+      if (const auto band = band_column(name);
+          band && (band->second != t->number || (band->first + 2) / 3 != t->triplet))
+        throw Error(ExitCode::bad_input, table.where,
+                    "has bands of more than one triplet; give tables of phos-sense, not joined ones");
     for (int c = 0; c < 3; ++c)
       if (const int band = 3 * (t->triplet - 1) + c + 1; band <= t->number)
         column_of(table, text("band_", band, "_of_", t->number, "_lx"));

@@ -165,6 +165,15 @@ TEST(BandsTool, RefusesWhatDoesNotBelongTogether) {
   refused(parts(".csv", {1, 2, 3}) + Words{made() + "/rgb.csv"}, 3, "has no bands");
   refused(parts(".exr", {1, 2, 3}) + Words{data("sky.hdr")}, 3, "sky.hdr");
   refused({made() + "/nothing.exr"}, 3, "nothing.exr");
+  const std::string whole = made() + "/whole.csv", odd = made() + "/odd.csv";
+  ASSERT_EQ(run_tool(Words{"bands", "-o", whole} + parts(".csv", {1, 2, 3, 4})).code, 0);
+  refused({whole}, 3, "more than one triplet");
+  spill(odd, "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx,band_1_of_3_lx,band_400_of_400_lx\n");
+  refused({odd}, 3, "more than one triplet");
+  spill(odd, "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx,band_1_of_3_lx,band_2_of_3_lx\n");
+  refused({odd}, 3, "band_3_of_3_lx");
+  spill(odd, "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx,band_1_of_1_lx\n");
+  refused({odd}, 3, "has no bands");
   expect_refused("bands", parts(".exr", {1, 2, 3, 4}), 2, "-o");
 
   const std::string cut = made() + "/cut.exr";
