@@ -30,12 +30,11 @@ void report(Tool& tool, const PhotonTotals& totals) {
   tool.stat("stored", totals.stored);
 }
 
-/// Light of a sky that nothing of the scene lets in, or that --portals cannot aim.
-void report_openings(Tool& tool, const RayScene& rays, const PhotonOptions& options) {
+/// Light of a sky that nothing of the scene lets in, or that cannot be aimed.
+void report_openings(Tool& tool, const RayScene& rays, const PhotonOptions& options, bool to_aim) {
   if (!rays.scene().environment || options.paths == 0) return;
   if (const std::optional<std::string> closed = closed_to_the_sky(rays)) tool.warn(*closed);
-  if (tool.counters()[kNoPortalEvent] > 0)
-    tool.warn("--portals auto: no place sees the sky from within; photons are not aimed");
+  if (to_aim && rays.scene().portal.empty()) tool.warn(kNothingToAimAt);
 }
 
 void check_events(const Counters& counters, const PhotonTotals& totals) {
@@ -81,7 +80,7 @@ int main(int argc, char** argv) {
       const Tool::Timer timer = tool.time("trace");
       photons = trace_photons(*rays, options, tool.seed(), totals, tool.counters());
     }
-    report_openings(tool, *rays, options);
+    report_openings(tool, *rays, options, !scene_options.portals.empty());
     check_events(tool.counters(), totals);
     report(tool, totals);
     const Provenance provenance = tool.provenance("photons", scene->hash, scene->parts);

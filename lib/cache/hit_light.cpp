@@ -251,7 +251,7 @@ Rgb HitLight::Impl::beyond(const SurfacePoint& point, const Step& step) const {
   const Rgb luminance = background_luminance(scene, step.direction);
   if (!positive(luminance) || !(step.density > 0) || lights.environment() < 0) return luminance;
   const float other = lamps.probability(point, static_cast<std::size_t>(lights.environment())) *
-                      lights.density_beyond(step.direction);
+                      lights.density_beyond(point.position, step.direction);
   return luminance * (step.density / (step.density + other));
 }
 

@@ -47,9 +47,6 @@ LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   if (light.kind == Light::Kind::point) lamp.front = Vec3(0);
   const bool beam = light.kind == Light::Kind::spot || light.kind == Light::Kind::measured;
   if (beam) lamp.beam = light;
-  // A surface turned any way receives a quarter of what comes from all sides.
-  if (light.kind == Light::Kind::environment)
-    lamp.strength = 0.25f * luminance(Rgb(scene.environment->integral_lx()));
   if (light.kind != Light::Kind::area) return lamp;
   const LampExtent extent = extent_of(scene, light);
   lamp.centre = extent.centre, lamp.radius_m = extent.radius_m, lamp.front = extent.front;
@@ -111,7 +108,7 @@ LampSampler::Panel LampSampler::panel_of(const Scene& scene, const Light& light)
 /// Illuminance at the point from a lamp that nothing hides, roughly for an area light; 0 only where it brings
 /// none.
 float LampSampler::promise_lx(const Lamp& lamp, const SurfacePoint& point) const {
-  if (lamp.kind == Light::Kind::environment) return lamp.strength;
+  if (lamp.kind == Light::Kind::environment) return lights_.promise_beyond_lx(point.position);
   if (lamp.kind == Light::Kind::directional) {
     const bool above = glm::dot(lamp.front, point.geometric_normal) < 0;
     return above ? std::max(0.f, -glm::dot(lamp.front, point.normal)) * lamp.strength : 0.f;
@@ -197,7 +194,7 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   const float cos_light = std::fabs(glm::dot(found.geometric_normal, direction));
   const float by_lamp = probability(point, i) *
                         (hit ? lights_.density(i, point.position, found.triangle, found.distance_m, cos_light)
-                             : lights_.density_beyond(direction));
+                             : lights_.density_beyond(point.position, direction));
   light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
   light.certain = true;
 }

@@ -53,7 +53,7 @@ class LampSampler {
     Vec3 centre{0};      // directional: unused
     Vec3 front{0};       // where a spot, a directional or a plane one-sided lamp shines to; else 0
     float radius_m = 0;  // of the sphere about an area light
-    float strength = 0;  // intensity towards the front, cd; directional: lx; environment: lx on the mean
+    float strength = 0;  // intensity towards the front, cd; directional: lx
     Light beam;          // of a spot or measured light: itself
   };
   /// A triangle or parallelogram of an area light, from a corner along two edges.

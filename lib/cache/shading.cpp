@@ -123,7 +123,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) {
       if (!environment) continue;
-      const float density = lights_.density_beyond(sample.direction);
+      const float density = lights_.density_beyond(point.position, sample.direction);
       const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
                               (1.f - light_weight(light_samples, density, samples.count, sample.density));
       sum.from_lamps += from_beyond;

@@ -48,4 +48,22 @@ Vec2 SphericalTriangle::sample(const Vec2& u) const {
   return {x, std::min(static_cast<float>(w2 / sum), 1 - x)};
 }
 
+SphericalPatch::SphericalPatch(const Vec3 corner[3], const Vec3& from)
+    : first_(corner, from), solid_angle_sr_(first_.solid_angle_sr()) {}
+
+SphericalPatch::SphericalPatch(const Vec3 corner[3], const Vec3& opposite, const Vec3& from)
+    : first_(corner, from) {
+  const Vec3 other[] = {corner[2], corner[1], opposite};
+  second_.emplace(other, from);
+  solid_angle_sr_ = first_.solid_angle_sr() + second_->solid_angle_sr();
+}
+
+SphericalPatch::Place SphericalPatch::sample(const Vec2& u) const {
+  if (!second_) return {false, first_.sample(u)};
+  const auto share = static_cast<float>(first_.solid_angle_sr() * (1 / solid_angle_sr_));
+  const bool second = !(u.x < share);
+  const float along = second ? (u.x - share) / (1 - share) : u.x / share;
+  return {second, (second ? *second_ : first_).sample({std::clamp(along, 0.f, 1.f), u.y})};
+}
+
 }  // namespace phos

@@ -1,6 +1,8 @@
 // A triangle as it is seen from a point.
 #pragma once
 
+#include <optional>
+
 #include "core/vector.h"
 
 namespace phos {
@@ -23,6 +25,29 @@ class SphericalTriangle {
   DVec3 to_[3];  // the corners, seen from the point, m
   DVec3 a_, b_, c_;
   double cos_alpha_ = 1, sin_alpha_ = 0, solid_angle_sr_ = 0;
+};
+
+/// A triangle, or a parallelogram as two that turn about a corner, so that even points of the square are even
+/// ones of it.
+class SphericalPatch {
+ public:
+  SphericalPatch(const Vec3 corner[3], const Vec3& from);
+  /// The parallelogram of three corners and that opposite to the first.
+  SphericalPatch(const Vec3 corner[3], const Vec3& opposite, const Vec3& from);
+
+  double solid_angle_sr() const { return solid_angle_sr_; }
+
+  struct Place {
+    bool second = false;  ///< in the triangle of the last corner, the second one and the opposite one
+    Vec2 weights{0};      ///< of that triangle's second and third corner
+  };
+  /// Uniform over the solid angle, which must not be 0.
+  Place sample(const Vec2& u) const;
+
+ private:
+  SphericalTriangle first_;
+  std::optional<SphericalTriangle> second_;
+  double solid_angle_sr_ = 0;
 };
 
 }  // namespace phos

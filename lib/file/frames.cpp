@@ -40,7 +40,11 @@ std::string pattern_of(const std::string& name) {
 /// 0999 and 1000 are of one sequence: where there is a padded pattern, the plain one of the same name is it.
 std::set<std::string> patterns_in(const std::filesystem::path& folder) {
   std::set<std::string> all;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  std::error_code unreadable;
+  std::filesystem::directory_iterator entries(folder, unreadable);
+  if (unreadable)
+    throw Error(ExitCode::bad_input, folder.string(), text("cannot be read: ", unreadable.message()));
+  for (const auto& entry : entries)
     if (const std::string p = pattern_of(entry.path().filename().string()); !p.empty()) all.insert(p);
   std::set<std::string> padded;
   for (const std::string& p : all)

@@ -46,9 +46,9 @@ double sample_spot_cosine(double cos_inner, double cos_outer, float u) {
   return std::clamp(cosine, -1.0, 1.0);
 }
 
-Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed,
-                 const Portals* portals)
-    : scene_(&scene), portals_(portals), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
+Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed)
+    : scene_(&scene), luminaires_(scene), bounding_radius_m_(bounding_radius_m(scene)) {
+  if (scene.environment && !scene.portal.empty()) portals_.emplace(scene.portal, *scene.environment);
   if (luminaires_.size() == 0 && scene.bands.number > 0)
     throw Error(ExitCode::bad_input, scene.path,
                 text("no light: no lamp shines in triplet ", scene.bands.triplet, " of ", scene.bands.number,
@@ -57,7 +57,7 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
     throw Error(
         ExitCode::bad_input, scene.path,
         "no light: the scene has no lamp and no emissive material; add one (phos-scene shows what it has)");
-  share_ = luminaires_.power_shares(minimum_share, portals ? portals->flux_lm() : -1);
+  share_ = luminaires_.power_shares(minimum_share, portals_ ? portals_->flux_lm() : -1);
   Rgb total(0);
   double shares = 0;
   for (std::size_t i = 0; i < share_.size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/random.h"
@@ -23,10 +24,9 @@ struct EmittedPhoton {
 class Emitter {
  public:
   /// Each light gets a share of the paths in proportion to its flux, but at least minimum_share / (number of
-  /// lights). Throws Error(bad_input) if no light shines. With `portals`, nine in ten paths of the
-  /// environment are aimed at them, and its flux counts as what comes through them.
-  Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed,
-          const Portals* portals = nullptr);
+  /// lights). Throws Error(bad_input) if no light shines. Where the scene has portals, nine in ten paths of
+  /// the environment are aimed at them, and its flux counts as what comes through them.
+  Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed);
 
   /// The light that a path starts from. Lights are dealt by a van der Corput sequence with a random start:
   /// after any number of paths each light has had its share to within a few paths, so that the choice adds no
@@ -54,7 +54,7 @@ class Emitter {
   EmittedPhoton from_infinity(const Vec3& direction, const Rgb& lux, RandomStream& random) const;
 
   const Scene* scene_;
-  const Portals* portals_;
+  std::optional<Portals> portals_;
   Luminaires luminaires_;
   std::uint64_t rotation_ = 0;
   std::vector<double> share_;

@@ -9,10 +9,11 @@
 
 namespace phos {
 
-Portals::Portals(std::vector<Portal> pieces, const Environment& light) : pieces_(std::move(pieces)) {
+Portals::Portals(std::span<const Portal> pieces, const Environment& light)
+    : pieces_(pieces.begin(), pieces.end()) {
   for (const Portal& p : pieces_) {
-    const DVec3 area = (p.triangle ? 0.5 : 1.0) * glm::cross(DVec3(p.edge[0]), DVec3(p.edge[1]));
-    area_m2_.push_back(p.inwards == Vec3(0) ? area : glm::length(area) * DVec3(p.inwards));
+    const DVec3 normal = glm::normalize(glm::cross(DVec3(p.edge[0]), DVec3(p.edge[1])));
+    area_m2_.push_back(p.area_m2() * (p.inwards == Vec3(0) ? normal : DVec3(p.inwards)));
   }
   // A texel is judged by its middle: a little more, so that what is seen of a portal from its edge is not 0.
   double all_m2 = 0;
@@ -57,25 +58,14 @@ bool Portals::sample_point(const Vec3& direction, float u_piece, const Vec2& u, 
   }
   if (chosen == pieces_.size()) return false;
   const Portal& p = pieces_[chosen];
-  const Vec2 weight = p.triangle ? sample_triangle(u) : u;
-  point = p.corner + weight.x * p.edge[0] + weight.y * p.edge[1];
+  point = p.at(p.triangle ? sample_triangle(u) : u);
   return true;
 }
 
 int Portals::crossings(const Vec3& point, const Vec3& direction) const {
   int count = 0;
-  const DVec3 d(direction), from(point);
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    if (!(seen_m2(i, d) > 0)) continue;
-    // Moller and Trumbore 1997, for the whole line.
-    const Portal& p = pieces_[i];
-    const DVec3 a(p.edge[0]), b(p.edge[1]), across = glm::cross(d, b), way = from - DVec3(p.corner);
-    const double determinant = glm::dot(a, across);
-    const double u = glm::dot(way, across) / determinant;
-    if (!(u >= 0 && u <= 1)) continue;
-    const double v = glm::dot(d, glm::cross(way, a)) / determinant;
-    count += v >= 0 && (p.triangle ? u + v : v) <= 1;
-  }
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    count += seen_m2(i, DVec3(direction)) > 0 && crosses(pieces_[i], DVec3(point), DVec3(direction));
   return count;
 }
 
@@ -83,29 +73,6 @@ double Portals::density(const Vec3& point, const Vec3& direction) const {
   const double seen = seen_m2(direction);
   if (!(seen > 0)) return 0;
   return guide_->flux_density(-direction) * crossings(point, direction) / seen;
-}
-
-std::vector<Portal> named_portals(const Scene& scene, const std::string& names) {
-  std::vector<Portal> pieces;
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
-    begin = end + 1;
-    bool found = false;
-    for (const Instance& instance : scene.instance) {
-      if (instance.node != name && scene.material[instance.material].name != name) continue;
-      found = true;
-      for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {
-        const auto& v = scene.triangle[instance.first_triangle + t].v;
-        const Vec3 &a = scene.position[v[0]], &b = scene.position[v[1]], &c = scene.position[v[2]];
-        pieces.push_back({a, {b - a, c - a}, true, Vec3(0)});
-      }
-    }
-    if (!found)
-      throw Error(ExitCode::usage, "--portals",
-                  text("there is no node or material \"", name, "\"; give names of the scene, or auto"));
-  }
-  return pieces;
 }
 
 }  // namespace phos

@@ -1,23 +1,15 @@
 // Openings through which light from infinitely far away is aimed.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "core/vector.h"
 #include "scene/environment.h"
-#include "scene/rays.h"
+#include "scene/portal.h"
 
 namespace phos {
-
-/// A plane piece of an opening: a parallelogram, or half of one.
-struct Portal {
-  Vec3 corner{0}, edge[2]{Vec3(0), Vec3(0)};
-  bool triangle = false;
-  Vec3 inwards{0};  ///< unit normal: lines count that go that way; 0: both ways
-};
 
 /// Aims lines of light at portals. A line is a direction and a place on a plane across it; its density is per
 /// sr and m2 of that plane. Lines that meet several portals are drawn by each of them: crossings() is how
@@ -25,7 +17,7 @@ struct Portal {
 class Portals {
  public:
   /// Directions in proportion to their luminance times the portals' area seen from there.
-  Portals(std::vector<Portal> pieces, const Environment& light);
+  Portals(std::span<const Portal> pieces, const Environment& light);
 
   /// Flux of the environment's light through all portals, were nothing in its way, lm (luminance of RGB),
   /// roughly.
@@ -49,16 +41,5 @@ class Portals {
   std::optional<Environment> guide_;  // light times what is seen of the portals from there
   double flux_lm_ = 0;
 };
-
-/// The scene's surfaces of the nodes and materials of these names, comma by comma. Throws Error(usage) for a
-/// name that there is not.
-std::vector<Portal> named_portals(const Scene& scene, const std::string& names);
-
-/// Where the sky is seen from within. Points all over the scene's surfaces look about; those that see it, but
-/// in less than a quarter of their half space, are within. The box about them is parted into cells; those
-/// through which they see it are the portals, a row of cells beyond them too. It need not be all of them:
-/// photons are not only aimed. Empty where nothing is within. Glass is seen through. Same for any number of
-/// threads.
-std::vector<Portal> find_portals(const RayScene& rays, std::uint64_t seed);
 
 }  // namespace phos

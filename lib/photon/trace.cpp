@@ -12,7 +12,6 @@
 #include "core/random.h"
 #include "photon/emission.h"
 #include "photon/photon_file.h"
-#include "photon/portals.h"
 #include "scene/bsdf.h"
 
 namespace phos {
@@ -230,41 +229,10 @@ void declare_options(Options& options, PhotonOptions& p) {
       "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
       "0 is by power alone, 1 is equal shares",
       {0, 1});
-  options.text(
-      "portals", p.portals, "auto|NAMES",
-      "aims photons of sky, sun and environment at openings: auto finds those through which the sky is seen "
-      "from "
-      "within; or names of nodes or materials, comma by comma, whose surfaces fill them (panes). One path in "
-      "ten is not aimed, so that no light is lost",
-      Recorded::if_given);
   declare_isa(options, p.isa);
   options.text("shard", p.shard, "I/N",
                "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);
 }
-
-namespace {
-
-/// Null where nothing is aimed.
-std::unique_ptr<const Portals> make_portals(const RayScene& rays, const PhotonOptions& options,
-                                            std::uint64_t seed, Counters& counters) {
-  const Scene& scene = rays.scene();
-  if (options.portals.empty()) return nullptr;
-  if (!scene.environment)
-    throw Error(ExitCode::usage, "--portals",
-                "aims light of a sky, and there is none; give --sky, --sun or --environment");
-  std::vector<Portal> pieces =
-      options.portals == "auto" ? find_portals(rays, seed) : named_portals(scene, options.portals);
-  std::erase_if(pieces, [](const Portal& p) {
-    return !(glm::length(glm::cross(DVec3(p.edge[0]), DVec3(p.edge[1]))) > 0);
-  });
-  if (pieces.empty()) {
-    counters.count(kNoPortalEvent);
-    return nullptr;
-  }
-  return std::make_unique<const Portals>(std::move(pieces), *scene.environment);
-}
-
-}  // namespace
 
 ItemRange path_range(const std::string& shard, std::int64_t paths) {
   PHOS_CHECK(paths >= 0, "paths = ", paths);
@@ -279,8 +247,7 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   totals.first_path = range.first, totals.paths = range.count;
   Photons photons;
   if (options.paths == 0) return photons;
-  const auto portals = make_portals(rays, options, seed, counters);
-  const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed, portals.get());
+  const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed);
   totals.flux_exponent = emitter.flux_exponent();
   const PathTracer tracer(rays, emitter, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");

@@ -16,7 +16,6 @@ namespace phos {
 struct PhotonOptions {
   std::int64_t paths = 1'000'000;  ///< emitted from the lights
   double minimum_share = 0.1;      ///< of an equal share of the paths, for each light
-  std::string portals;             ///< where light from infinity is aimed: "auto", names, or "": nowhere
   std::string isa;                 ///< RayOptions::isa
   std::string shard;               ///< "i/n", or empty: all
 };
@@ -29,7 +28,6 @@ ItemRange path_range(const std::string& shard, std::int64_t paths);
 /// Names of the events that trace_photons counts.
 inline constexpr const char* kEscapedEvent = "photon left the scene";
 inline constexpr const char* kNonFiniteEvent = "photon with non-finite flux";
-inline constexpr const char* kNoPortalEvent = "no opening found to aim at";
 inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended";
 
 /// Photons of the paths that options.shard names, in path order: one at each hit on a surface that is not

@@ -107,7 +107,7 @@ Rgb PathTracer::emission_beyond(const Walk& walk) const {
   const Rgb luminance = background_luminance(rays_->scene(), walk.ray.direction);
   if (!positive(luminance) || walk.density <= 0 || luminaires_->environment() < 0) return luminance;
   const float chosen = walk.every_light ? 1 : share_[static_cast<std::size_t>(luminaires_->environment())];
-  const float density = chosen * luminaires_->density_beyond(walk.ray.direction);
+  const float density = chosen * luminaires_->density_beyond(walk.from, walk.ray.direction);
   return luminance * power_weight(walk.density, density);
 }
 

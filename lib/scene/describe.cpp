@@ -116,6 +116,11 @@ Json describe_light(const Scene& scene, const Light& light) {
       j["sun_direction"] = numbers(Vec3(sun->towards));
       j["sun_diameter_deg"] = static_cast<float>(glm::degrees(2 * sun->radius_rad));
     }
+    if (scene.portal.empty()) return j;
+    double area_m2 = 0;
+    for (const Portal& p : scene.portal) area_m2 += p.area_m2();
+    j["portals"] = scene.portal.size();
+    j["portals_m2"] = static_cast<float>(area_m2);
     return j;
   }
   j[light.kind == Light::Kind::directional ? "illuminance_lx" : "intensity_cd"] = numbers(light.intensity);

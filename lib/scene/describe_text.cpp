@@ -60,6 +60,9 @@ std::string light_line(const Json& l) {
                  l.find("sun_illuminance_lx")
                      ? text("; sun ", triple(at(l, "sun_illuminance_lx")), " lx facing it")
                      : "");
+    if (const Json* portals = l.find("portals"))
+      line += text("; let in through openings of ", figure(at(l, "portals_m2")), " m2 in ",
+                   portals->as_integer(), portals->as_integer() == 1 ? " piece" : " pieces");
   }
   if (const Json* lx = l.find("illuminance_lx")) line += text(", ", triple(*lx), " lx");
   if (const Json* luminaire = l.find("luminaire")) {

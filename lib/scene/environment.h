@@ -43,6 +43,9 @@ class Environment {
     return sun_ && in_sun(direction) ? map + sun_cd_m2_ : map;
   }
 
+  /// The same without the sun.
+  const Rgb& map_luminance(const Vec3& direction) const { return texels_[texel_at(direction)]; }
+
   struct Sample {
     Vec3 direction{0, 1, 0};  ///< unit, towards the environment
     Rgb luminance{0};         ///< cd/m2
@@ -56,6 +59,14 @@ class Environment {
   Sample sample(const Vec2& u) const;
   /// Density per sr with which sample() chooses a direction.
   float density(const Vec3& direction) const;
+  /// Part of them that are of the sun, 0 without one; the solid angle of its disc; is a direction in it; one
+  /// of those, uniform.
+  double sun_chance() const { return sun_chance_; }
+  double sun_sr() const { return sun_sr_; }
+  bool in_sun(const Vec3& direction) const;
+  Vec3 sample_sun(const Vec2& u) const;
+  /// Has the map parts brighter than four times its mean?
+  bool has_spots() const { return cap_ > 0; }
   /// A direction with density in proportion to the luminance alone: photons that start with it carry alike.
   Sample sample_flux(const Vec2& u) const;
 
@@ -66,6 +77,8 @@ class Environment {
 
   /// Integral of the luminance over the sphere, lx (cd/m2 sr), the sun included.
   const DVec3& integral_lx() const { return integral_lx_; }
+  /// Luminance of it without the sun, lx.
+  double map_lx() const { return luminous_lx_; }
   /// Irradiance of an unoccluded surface that faces up, lx, by the map alone.
   DVec3 irradiance_up_lx() const;
 
@@ -80,8 +93,6 @@ class Environment {
   Sample draw(const Table& table, const Vec2& u) const;
   std::size_t texel_at(const Vec3& direction) const;
   float density_of(std::size_t texel) const;
-  bool in_sun(const Vec3& direction) const;
-  Vec3 sample_sun(const Vec2& u) const;
   void add_sun();
   double texel_sr(int row) const;
   void integrate();

@@ -20,12 +20,17 @@ struct SceneOptions {
   std::string environment;       ///< file of an environment map; "": none
   std::optional<double> environment_rotation_deg, environment_scale;
   DaylightOptions daylight;
+  std::string portals;  ///< where light from infinity is aimed: "auto", names, or "": nowhere
   LuminaireOptions luminaires;
   BandOptions bands;
 };
 void declare_options(Options& options, SceneOptions& scene);
 /// Those that hold at every time: luminaires, the environment, sky and sun, bands.
 void declare_light_options(Options& options, SceneOptions& scene);
+
+/// What a scene warns of whose --portals auto finds nothing.
+inline constexpr const char* kNothingToAimAt =
+    "--portals auto: no place sees the sky from within; nothing is aimed";
 
 /// Loads and finalizes, with the environment map or the daylight that the options name. The format is told
 /// from the content. Throws Error(bad_input): missing, not a scene, truncated, unknown required extension

@@ -104,6 +104,7 @@ double mean_emission(const Scene& scene, std::uint32_t triangle) {
 }  // namespace
 
 Luminaires::Luminaires(const Scene& scene) : scene_(&scene) {
+  if (scene.environment && !scene.portal.empty()) portals_.emplace(*scene.environment, scene.portal, scene.portal_sight);
   instance_light_.assign(scene.instance.size(), -1);
   shape_.resize(scene.light.size());
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
@@ -195,11 +196,8 @@ Luminaires::Spot Luminaires::choose(const Shape& shape, float u_triangle, const 
 
 /// Uniform over the solid angle of what is near.
 Luminaires::Spot Luminaires::choose(const Shape& shape, std::size_t facet, const Near& near, const Vec2& u) {
-  if (!near.second) return {static_cast<std::uint32_t>(facet), near.first.sample(u)};
-  const auto first = static_cast<float>(near.first.solid_angle_sr() * near.density);
-  const bool second = !(u.x < first);
-  const float along = second ? (u.x - first) / (1 - first) : u.x / first;
-  const Vec2 weights = (second ? *near.second : near.first).sample({std::clamp(along, 0.f, 1.f), u.y});
+  const auto [second, weights] = near.patch.sample(u);
+  if (!shape.parallelogram) return {static_cast<std::uint32_t>(facet), weights};
   // As see_near() takes the corners: {opposite, p, q} and {q, p, opposite}.
   float of_corner[3];
   const unsigned corner = shape.corner[second];
@@ -215,19 +213,16 @@ std::optional<Luminaires::Near> Luminaires::see_near(const Shape& shape, std::si
   const Vec3 way = facet.middle - from;
   if (!(glm::dot(way, way) < facet.near2_m2)) return {};
   if (!shape.parallelogram) {
-    Near near{SphericalTriangle(facet.corner, from), {}};
-    if (!(near.first.solid_angle_sr() > kLeastNear_sr)) return {};
-    near.density = static_cast<double>(facet.share) / near.first.solid_angle_sr();
-    return near;
+    const SphericalPatch patch(facet.corner, from);
+    if (!(patch.solid_angle_sr() > kLeastNear_sr)) return {};
+    return Near{patch, static_cast<double>(facet.share) / patch.solid_angle_sr()};
   }
   const unsigned a = shape.corner[0], b = shape.corner[1];
   const Vec3 *p = shape.facet[0].corner, *q = shape.facet[1].corner;
-  const Vec3 one[] = {p[a], p[(a + 1) % 3], p[(a + 2) % 3]}, other[] = {one[2], one[1], q[b]};
-  Near near{SphericalTriangle(one, from), SphericalTriangle(other, from)};
-  const double sr[] = {near.first.solid_angle_sr(), near.second->solid_angle_sr()};
-  if (!(sr[0] + sr[1] > kLeastNear_sr)) return {};
-  near.density = 1 / (sr[0] + sr[1]);
-  return near;
+  const Vec3 one[] = {p[a], p[(a + 1) % 3], p[(a + 2) % 3]};
+  const SphericalPatch patch(one, q[b], from);
+  if (!(patch.solid_angle_sr() > kLeastNear_sr)) return {};
+  return Near{patch, 1 / patch.solid_angle_sr()};
 }
 
 EmissionPoint Luminaires::point_of(const Light& light, const Shape& shape, const Spot& spot) const {
@@ -291,7 +286,7 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     return true;
   }
   if (light.kind == Light::Kind::environment) {
-    const Environment::Sample sample = scene_->environment->sample(u);
+    const Environment::Sample sample = portals_ ? portals_->sample(from, u) : scene_->environment->sample(u);
     result.direction = sample.direction;
     result.value = sample.luminance;
     result.density = sample.density;
@@ -338,8 +333,15 @@ float Luminaires::density(std::size_t i, const Vec3& from, std::uint32_t triangl
   return shape_[i].facet[k].density_per_m2 * distance_m * distance_m / cos_light;
 }
 
-float Luminaires::density_beyond(const Vec3& direction) const {
-  return environment_ >= 0 ? scene_->environment->density(direction) : 0.f;
+float Luminaires::density_beyond(const Vec3& from, const Vec3& direction) const {
+  if (environment_ < 0) return 0;
+  return portals_ ? portals_->density(from, direction) : scene_->environment->density(direction);
+}
+
+float Luminaires::promise_beyond_lx(const Vec3& from) const {
+  if (environment_ < 0) return 0;
+  // A surface turned any way receives a quarter of what comes from all sides.
+  return portals_ ? portals_->promise_lx(from) : 0.25f * luminance(Rgb(scene_->environment->integral_lx()));
 }
 
 std::int32_t Luminaires::light_of(std::uint32_t triangle) const {

@@ -6,6 +6,7 @@
 
 #include "core/spherical_triangle.h"
 #include "core/vector.h"
+#include "scene/portal_light.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 
@@ -64,7 +65,8 @@ class Luminaires {
   /// cone). Area lights: of a triangle chosen by u_triangle in proportion to its power, uniform over it, or
   /// over the solid angle under which it is seen where that is near (within 2 radii), so that no sample
   /// outweighs the others. A parallelogram of two triangles is sampled by `u` alone, so that strata of `u`
-  /// are strata of the light. Environment: as Environment::sample() chooses, by `u` alone too.
+  /// are strata of the light. Environment: as Environment::sample() chooses, or
+  /// through the portals that are seen from there (PortalLight), by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
                   Illumination& result) const;
   /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on
@@ -76,7 +78,9 @@ class Luminaires {
                 float cos_light) const;
   /// The same for a ray that left the scene: density with which the environment's light is sampled there, 0
   /// without one.
-  float density_beyond(const Vec3& direction) const;
+  float density_beyond(const Vec3& from, const Vec3& direction) const;
+  /// Illuminance by the environment on a surface there, roughly, nothing but the portals considered, lx.
+  float promise_beyond_lx(const Vec3& from) const;
   /// Index of the environment among the lights, or -1.
   std::int32_t environment() const { return environment_; }
   /// Index of the area light that a triangle belongs to, or -1.
@@ -113,11 +117,9 @@ class Luminaires {
     std::uint32_t triangle;  // of the light's, from 0
     Vec2 weights;            // of the second and third vertex
   };
-  /// What of a light is sampled from a place near it: a facet, or a parallelogram as two of them that turn
-  /// about a corner, so that even points of the square are even ones of it.
+  /// What of a light is sampled from a place near it: a facet or the parallelogram.
   struct Near {
-    SphericalTriangle first;
-    std::optional<SphericalTriangle> second;
+    SphericalPatch patch;
     double density = 0;  // per sr
   };
   Shape make_shape(const Light& light) const;
@@ -133,7 +135,8 @@ class Luminaires {
 
   const Scene* scene_;
   std::int32_t environment_ = -1;
-  std::vector<Shape> shape_;  // per light; empty for one without area
+  std::optional<PortalLight> portals_;  // of the environment
+  std::vector<Shape> shape_;            // per light; empty for one without area
   std::vector<std::int32_t> instance_light_;
 };
 

@@ -12,6 +12,7 @@
 #include "core/json.h"
 #include "core/vector.h"
 #include "scene/fitting.h"
+#include "scene/portal.h"
 
 namespace phos {
 
@@ -171,6 +172,8 @@ struct BandTriplet {
   bool operator==(const BandTriplet&) const = default;
 };
 
+class PortalSight;
+
 struct Scene {
   std::string path;
   /// Place in the world that all coordinates here, and in files made from them, are counted from, m. Zero for
@@ -193,6 +196,8 @@ struct Scene {
   std::vector<Light> light;
   std::vector<Fitting> fitting;
   std::shared_ptr<const Environment> environment;  ///< null: black. One of the lights stands for it
+  std::vector<Portal> portal;  ///< openings through which its light is looked for and sent
+  std::shared_ptr<const PortalSight> portal_sight;  ///< of them; null: not known
   std::vector<Camera> camera;
   std::vector<Animation> animation;
   double time_s = 0;

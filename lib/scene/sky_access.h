@@ -1,4 +1,4 @@
-// Does the light of a sky get in?
+// Where the light of a sky gets in.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,9 @@
 #include "scene/rays.h"
 
 namespace phos {
+
+/// Does a ray leave the scene, straight through glass, to where there is light?
+bool sees_sky(const RayScene& rays, Ray ray);
 
 /// In a scene with an environment: a line for people if no camera of the scene gets any of its light, on up
 /// to eight bounces, through glass or off walls. Nothing where light was found, or where there is no camera

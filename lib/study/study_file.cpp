@@ -136,7 +136,8 @@ void require_something(const TomlFile& file, const StudyFile& study) {
 
 std::string existing_file(StudyFile& study, const std::string& name, const std::string& where) {
   const std::string path = (std::filesystem::path(study.folder) / name).lexically_normal().string();
-  if (!std::filesystem::is_regular_file(path))
+  std::error_code too_long;
+  if (!std::filesystem::is_regular_file(path, too_long))
     throw Error(ExitCode::bad_input, where,
                 text("there is no file ", path, " (names count from the study's own folder)"));
   study.files.insert(path);

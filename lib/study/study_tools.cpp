@@ -96,7 +96,8 @@ std::vector<std::string> option_words(const ToolOption& option, const Json& valu
                      did_you_mean(word, option.choices)));
   if (option.kind == "file" && !word.empty()) {
     word = (std::filesystem::path(folder) / word).lexically_normal().string();
-    if (!std::filesystem::exists(word))
+    std::error_code too_long;
+    if (!std::filesystem::exists(word, too_long))
       throw Error(ExitCode::bad_input, where, text(option.name, ": there is no file ", word));
   }
   return {name, word};

@@ -4,6 +4,7 @@
 #include "cache/daylight_factor.h"
 #include "cache/direct_light.h"
 #include "core/error.h"
+#include "scene/find_portals.h"
 #include "support/daylight.h"
 
 namespace phos::test {
@@ -106,6 +107,46 @@ TEST(DaylightFactor, BehindAWindow) {
     const auto [factor, error] = factor_at(scene, Vec3(p), 65536);
     EXPECT_NEAR(factor, truth, 4 * error + 2e-3 * truth);
     EXPECT_LT(error, 0.05 * truth);
+  }
+}
+
+/// The same light, at a small part of the noise: through portals that were found or named, that miss half of
+/// the window, or that are elsewhere; overcast or with a sun that shines in; in a room of any size.
+TEST(Portals, AimShadowRays) {
+  const double sun_lx = 50000, height = glm::radians(35.0);
+  const Environment overcast = sky_of("overcast", "", 5000), sunny = sky_of("clear", "180,35", 5000, sun_lx);
+  for (const float metres : {1.f, 1e-6f, 1e6f}) {
+    Scene scene = room_with_window(0);
+    for (Vec3& p : scene.position) p *= metres;
+    const Portal window{metres * Vec3(2, 1, 4), {{0, metres, 0}, {metres, 0, 0}}, false, {0, 0, -1}};
+    Portal half = window, elsewhere = window;
+    half.edge[1] *= 0.5f, elsewhere.corner.z = 0, elsewhere.inwards = Vec3(0, 0, 1);
+    for (const bool sun : {false, true}) {
+      surround(scene, sun ? sunny : overcast);
+      const DVec3 p = sun ? DVec3(2.5, 0, 2) : DVec3(1.3, 0, 2);
+      const double truth =
+          (sun ? sun_lx * std::sin(height) : 0) +
+          through_window_lx(
+              p,
+              [&](const DVec3& w) {
+                return static_cast<double>(luminance(scene.environment->map_luminance(Vec3(w))));
+              },
+              100);
+      const auto error_by = [&](const std::vector<Portal>& portals) {
+        scene.portal = portals;
+        const auto [lx, error] = lx_at(scene, Vec3(p) * metres, 16384);
+        EXPECT_NEAR(lx, truth, 4 * error + 3e-3 * truth) << metres << " " << sun << " " << portals.size();
+        return error;
+      };
+      const double blind = error_by({}), aimed = error_by({window});
+      const double found = error_by(find_portals(RayScene(scene), "auto"));
+      const double halved = error_by({half}), missed = error_by({elsewhere});
+      if (sun) continue;  // of what the sun's samples leave, no portal takes away
+      EXPECT_LT(aimed, 0.1 * blind);
+      EXPECT_LT(found, 0.2 * blind);
+      EXPECT_LT(halved, 6 * blind);
+      EXPECT_LT(missed, 6 * blind);
+    }
   }
 }
 

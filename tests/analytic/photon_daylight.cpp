@@ -6,6 +6,7 @@
 #include "photon/emission.h"
 #include "photon/portals.h"
 #include "photon/trace.h"
+#include "scene/find_portals.h"
 #include "scene/sky_access.h"
 #include "support/daylight.h"
 
@@ -18,11 +19,11 @@ struct Light {
 };
 
 /// On the floor's upper side.
-Light floor_light(const Scene& scene, const std::string& portals, std::int64_t paths,
-                  std::uint64_t seed = 1) {
+Light floor_light(Scene scene, const std::string& portals, std::int64_t paths, std::uint64_t seed = 1) {
   const RayScene rays(scene);
+  if (!portals.empty()) scene.portal = find_portals(rays, portals);
   PhotonOptions options;
-  options.paths = paths, options.portals = portals;
+  options.paths = paths;
   PhotonTotals totals;
   Counters counters;
   const Photons photons = trace_photons(rays, options, seed, totals, counters);
@@ -144,9 +145,9 @@ TEST(Portals, HoldAtEverySize) {
 TEST(Portals, EmitTheSameInAll) {
   Scene scene = room_with_window(0.5f);
   surround(scene, sky_of("clear", "180,40"));
-  const Portals portals(named_portals(scene, "walls"), *scene.environment);
+  scene.portal = named_portals(scene, "walls");
   constexpr std::uint64_t kPaths = 200000;
-  const Emitter emitter(scene, 0.1, kPaths, 1, &portals);
+  const Emitter emitter(scene, 0.1, kPaths, 1);
   double sum = 0, squares = 0;
   for (std::uint64_t i = 0; i < kPaths; ++i) {
     RandomStream random(1, Stage::photon_path, i);
@@ -159,20 +160,29 @@ TEST(Portals, EmitTheSameInAll) {
   EXPECT_LT(std::sqrt(squares) / truth, 0.02);
 }
 
+TEST(Portals, KnowTheirInside) {
+  Scene scene = room_with_window(0.5f, true);
+  surround(scene, sky_of("overcast", "", 1000));
+  const RayScene rays(scene);
+  const std::vector<Portal> panes = find_portals(rays, "pane");
+  ASSERT_EQ(panes.size(), 2u);
+  for (const Portal& p : panes) EXPECT_EQ(p.inwards, Vec3(0, 0, -1));
+}
+
 TEST(Portals, AreNotFoundWhereNothingIsWithin) {
   Scene open = open_floor();
   surround(open, sky_of("overcast", ""));
-  EXPECT_TRUE(find_portals(RayScene(open), 0).empty());
+  EXPECT_TRUE(find_portals(RayScene(open), "auto").empty());
   Scene closed = room_with_window(0.5f, false, false);
   closed.camera.push_back(look_at({1, 1, 1}, {2, 1, 1}, {0, 1, 0}, 1));
   surround(closed, sky_of("overcast", ""));
-  EXPECT_TRUE(find_portals(RayScene(closed), 0).empty());
+  EXPECT_TRUE(find_portals(RayScene(closed), "auto").empty());
   EXPECT_TRUE(closed_to_the_sky(RayScene(closed)));
   Scene with_hole = room_with_window(0.5f);
   with_hole.camera = closed.camera;
   surround(with_hole, sky_of("overcast", ""));
   EXPECT_FALSE(closed_to_the_sky(RayScene(with_hole)));
-  EXPECT_FALSE(find_portals(RayScene(with_hole), 0).empty());
+  EXPECT_FALSE(find_portals(RayScene(with_hole), "auto").empty());
   EXPECT_THROW(named_portals(with_hole, "walls,window"), Error);
 }
 

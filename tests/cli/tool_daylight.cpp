@@ -102,6 +102,27 @@ TEST(DaylightTools, MeasureDaylightFactors) {
   expect_refused("sense", words + Words{"--direct-only"}, 2, "needs a sky");
 }
 
+/// Shadow rays aimed at the windows: the same light, better known, and the caches are the same scene's.
+TEST(DaylightTools, AimedSensorsReadTheSame) {
+  for (const Words& sky : {Words{"--sky", "overcast"}, Words{"--sky", "clear", "--sun", "160,35"}}) {
+    const Words grid =
+        Words{"sense", kRoom, "--direct-only", "--grid", "1", "--height", "0.85", "--light-samples", "1024"} +
+        sky;
+    const auto blind = run_tool(grid), aimed = run_tool(grid + Words{"--portals", "auto"});
+    ASSERT_EQ(blind.code + aimed.code, 0) << blind.err << aimed.err;
+    const auto lx = column(blind.out, "E_lx"), aimed_lx = column(aimed.out, "E_lx");
+    const auto error = column(blind.out, "stderr_lx"), aimed_error = column(aimed.out, "stderr_lx");
+    double sum = 0, aimed_sum = 0;
+    for (std::size_t i = 0; i < lx.size(); ++i) {
+      EXPECT_NEAR(lx[i], aimed_lx[i], 4.5 * std::hypot(error[i], aimed_error[i]) + 0.01 * aimed_lx[i]) << i;
+      sum += error[i], aimed_sum += aimed_error[i];
+    }
+    EXPECT_LT(aimed_sum, 0.5 * sum) << sky[1];
+  }
+  const auto scene = run_tool({"scene", kRoom, "--sky", "overcast", "--portals", "auto"});
+  EXPECT_NE(scene.out.find("let in through openings of 7."), std::string::npos) << scene.out << scene.err;
+}
+
 TEST(DaylightTools, RefuseCachesOfAnotherSky) {
   const std::string f = scratch("daylight-other"), photons = f + "/a.photons";
   const Words sky = {"--sky", "clear", "--sun", "160,35"};

@@ -1,8 +1,9 @@
-// Directions towards area lights follow the density that is stated for them.
+// Directions towards area lights and an environment follow the density that is stated for them.
 #include <gtest/gtest.h>
 
 #include "scene/luminaires.h"
 #include "support/chi2.h"
+#include "support/environment.h"
 #include "support/quad.h"
 
 using namespace phos;
@@ -66,5 +67,44 @@ TEST(LightSamples, FollowTheirDensity) {
     EXPECT_GT(result.p, least_p(0.01, 3 * kKinds))
         << "kind " << kind << " at " << height << " m: " << result.statistic << " for " << result.degrees
         << " degrees of freedom";
+  }
+}
+
+/// A near window, a far one, two that are one behind the other, a triangle that lets light both ways, and one
+/// seen from behind; with a wide sun before one of them or beside all, or with a bright spot in the map.
+TEST(PortalSamples, FollowTheirDensity) {
+  const std::vector<Portal> all = {
+      {{-1, 0.2f, -1}, {{2, 0, 0}, {0, 1, 0}}, false, {0, 0, 1}},
+      {{-1.5f, 0.5f, -2}, {{2, 0, 0}, {0, 2, 0}}, false, {0, 0, 1}},
+      {{20, 5, 3}, {{0, 6, 0}, {0, 0, 8}}, false, {-1, 0, 0}},
+      {{-3, -1, 0}, {{0, 2, 0.5f}, {0, 0, 2}}, true, Vec3(0)},
+      {{-9, 3, -9}, {{18, 0, 0}, {0, 0, 18}}, false, {0, 1, 0}},
+  };
+  for (int trial = 0; trial < 4; ++trial) {
+    Scene scene = open_floor();
+    scene.portal = all;
+    Environment light = gradient_map(16);
+    if (trial == 1 || trial == 2) {
+      const DVec3 towards = glm::normalize(trial == 1 ? DVec3(0.1, 0.5, -1) : DVec3(1, 3, 3));
+      light = Environment(32, 16, light.texels(), 0, Environment::Sun{towards, 0.2, Rgb(5)});
+    }
+    if (trial == 3) light = map_of(16, [](int x, int y) { return Rgb(x == 20 && y == 5 ? 60.f : 1.f); });
+    EXPECT_EQ(light.has_spots(), trial == 3);
+    surround(scene, light);
+    const Luminaires lights(scene);
+    const Vec3 from(0);
+    const auto place = static_cast<std::size_t>(lights.environment());
+    const Chi2 result = chi2_directions(
+        SphereGrid{24, 48, 60}, 7, 60000,
+        [&](RandomStream& random, Vec3& d) {
+          Illumination arriving;
+          const bool ok = lights.illuminate(place, from, 0, random.uniform2(), arriving);
+          d = arriving.direction;
+          EXPECT_NEAR(arriving.density, lights.density_beyond(from, d), 1e-4f * arriving.density);
+          return ok;
+        },
+        [&](const Vec3& d) { return static_cast<double>(lights.density_beyond(from, d)); });
+    EXPECT_GT(result.p, least_p(0.01, 4)) << "trial " << trial << ": " << result.statistic << " for "
+                                          << result.degrees << " degrees of freedom";
   }
 }

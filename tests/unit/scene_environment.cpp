@@ -131,7 +131,7 @@ TEST(Environment, IsOneOfTheLightsOfItsScene) {
   ASSERT_TRUE(lights.illuminate(0, Vec3(0), 0, {0.2f, 0.3f}, light));
   EXPECT_EQ(light.distance_m, kInfinity);
   EXPECT_EQ(light.value, Rgb(2));
-  EXPECT_EQ(lights.density_beyond(light.direction), light.density);
+  EXPECT_EQ(lights.density_beyond(Vec3(0), light.direction), light.density);
   EXPECT_EQ(background_luminance(scene, {0, 1, 0}), Rgb(2));
   // Finalized again it is still one light.
   finalize(scene);
@@ -145,7 +145,7 @@ TEST(Environment, ABlackOneIsIgnoredWithAWarning) {
   ASSERT_FALSE(scene.warnings.empty());
   EXPECT_NE(scene.warnings.back().find("environment"), std::string::npos);
   EXPECT_EQ(Luminaires(scene).environment(), -1);
-  EXPECT_EQ(Luminaires(scene).density_beyond({0, 1, 0}), 0);
+  EXPECT_EQ(Luminaires(scene).density_beyond(Vec3(0), {0, 1, 0}), 0);
 }
 
 TEST(Environment, IsPartOfTheHashOfItsScene) {

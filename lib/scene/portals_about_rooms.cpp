@@ -5,40 +5,23 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
-#include "photon/portals.h"
-#include "scene/luminaires.h"
+#include "scene/find_portals.h"
+#include "scene/sky_access.h"
 
 namespace phos {
 namespace {
 
 constexpr std::size_t kPoints = 8192, kRays = 64;
 constexpr double kWithin = 0.25;
-constexpr int kCells = 32;  // along each side of the box
-constexpr int kPanes = 8;   // that are seen through
-
-bool is_pane(const Material& m) {
-  return m.model == Model::dielectric || m.model == Model::thin_dielectric || m.transmission > 0;
-}
-
-/// Does a ray leave the scene, straight through glass, to where there is light?
-bool sees_sky(const RayScene& rays, Ray ray) {
-  const Scene& scene = rays.scene();
-  for (int panes = 0; panes <= kPanes; ++panes) {
-    SurfacePoint point;
-    if (!trace(rays, ray, point)) return max_component(background_luminance(scene, ray.direction)) > 0;
-    if (!is_pane(scene.material[point.material])) return false;
-    ray.origin = point.leave(ray.direction);
-  }
-  return false;
-}
-
+constexpr int kCells = 64;  // along each side of the box
+constexpr double kLeastSaved = 0.1;
 struct Looker {
   Vec3 position{0};
   std::vector<Vec3> sky;  ///< directions in which it is seen
 };
 
 /// Points evenly over all surfaces, alternately on their front and back.
-std::vector<Looker> look_about(const RayScene& rays, std::uint64_t seed) {
+std::vector<Looker> look_about(const RayScene& rays) {
   const Scene& scene = rays.scene();
   std::vector<double> below;
   double sum = 0;
@@ -46,7 +29,7 @@ std::vector<Looker> look_about(const RayScene& rays, std::uint64_t seed) {
     below.push_back(sum += static_cast<double>(area_m2(scene, t)));
   std::vector<Looker> lookers(sum > 0 ? kPoints : 0);
   parallel_for(lookers.size(), 64, [&](std::size_t i) {
-    RandomStream random(seed, Stage::pilot, i);
+    RandomStream random(0, Stage::pilot, i);
     random.start_bounce(0);
     const double x = (static_cast<double>(i) + random.uniform_double()) / static_cast<double>(kPoints) * sum;
     const auto above = std::upper_bound(below.begin(), below.end() - 1, x);
@@ -106,26 +89,51 @@ struct Faces {
         }
   }
 
-  /// As rectangles: runs of cells, joined with equal runs above them.
+  struct Cells {
+    int u, v, wide, high;
+    int count() const { return wide * high; }
+  };
+
+  /// Rectangles that hold all open cells, few of them.
   std::vector<Portal> rectangles(const Bounds& box) const {
     std::vector<Portal> out;
-    Faces rest = *this;
     for (std::size_t f = 0; f < 6; ++f)
-      for (int v = 0; v < kCells; ++v)
-        for (int u = 0; u < kCells; ++u) {
-          int wide = 0, high = 0;
-          while (u + wide < kCells && rest.at(f, u + wide, v)) ++wide;
-          if (wide == 0) continue;
-          const auto whole = [&](int row) {
-            for (int x = u; x < u + wide; ++x)
-              if (!rest.at(f, x, row)) return false;
-            return true;
-          };
-          while (v + high < kCells && whole(v + high)) ++high;
-          for (int y = v; y < v + high; ++y)
-            for (int x = u; x < u + wide; ++x) rest.at(f, x, y) = false;
-          out.push_back(rectangle(box, f, u, v, wide, high));
-        }
+      for (const Cells& c : split(f, trimmed(f, {0, 0, kCells, kCells})))
+        out.push_back(rectangle(box, f, c.u, c.v, c.wide, c.high));
+    return out;
+  }
+
+  /// Without the rows and columns at the sides that are closed all along.
+  Cells trimmed(std::size_t face, const Cells& c) const {
+    Cells out{kCells, kCells, 0, 0};
+    int end_u = 0, end_v = 0;
+    for (int v = c.v; v < c.v + c.high; ++v)
+      for (int u = c.u; u < c.u + c.wide; ++u) {
+        if (!open[face][static_cast<std::size_t>(v * kCells + u)]) continue;
+        out.u = std::min(out.u, u), out.v = std::min(out.v, v);
+        end_u = std::max(end_u, u + 1), end_v = std::max(end_v, v + 1);
+      }
+    out.wide = std::max(end_u - out.u, 0), out.high = std::max(end_v - out.v, 0);
+    return out;
+  }
+
+  /// Cut in two where most closed cells fall away, as long as that is kLeastSaved of them.
+  std::vector<Cells> split(std::size_t face, const Cells& all) const {
+    if (all.count() == 0) return {};
+    std::array<Cells, 2> best{};
+    int left = all.count();
+    const auto consider = [&](const Cells& one, const Cells& other) {
+      const std::array<Cells, 2> parts{trimmed(face, one), trimmed(face, other)};
+      if (parts[0].count() + parts[1].count() < left)
+        best = parts, left = parts[0].count() + parts[1].count();
+    };
+    for (int k = 1; k < all.wide; ++k)
+      consider({all.u, all.v, k, all.high}, {all.u + k, all.v, all.wide - k, all.high});
+    for (int k = 1; k < all.high; ++k)
+      consider({all.u, all.v, all.wide, k}, {all.u, all.v + k, all.wide, all.high - k});
+    if (left > (1 - kLeastSaved) * all.count()) return {all};
+    std::vector<Cells> out = split(face, best[0]);
+    for (const Cells& c : split(face, best[1])) out.push_back(c);
     return out;
   }
 
@@ -147,8 +155,8 @@ struct Faces {
 
 }  // namespace
 
-std::vector<Portal> find_portals(const RayScene& rays, std::uint64_t seed) {
-  const std::vector<Looker> within = look_about(rays, seed);
+std::vector<Portal> portals_about_rooms(const RayScene& rays) {
+  const std::vector<Looker> within = look_about(rays);
   Bounds box;
   for (const Looker& looker : within) box.include(looker.position);
   if (within.empty()) return {};

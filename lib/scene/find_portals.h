@@ -1,0 +1,27 @@
+// Openings of a scene: found, or named.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/portal.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// "auto": portals_about_rooms(). Otherwise named_portals(), each inwards on the side from which less of the
+/// sky is seen.
+std::vector<Portal> find_portals(const RayScene& rays, const std::string& which);
+
+/// The scene's surfaces of the nodes and materials of these names, comma by comma, both ways; none without
+/// area. Throws Error(usage) for a name that there is not.
+std::vector<Portal> named_portals(const Scene& scene, const std::string& names);
+
+/// Where the sky is seen from within. Points all over the scene's surfaces look about; those that see it, but
+/// in less than a quarter of their half space, are within. The box about them is parted into cells; those
+/// through which they see it are the portals, a row of cells beyond them too. It need not be all of them:
+/// nothing may be aimed at them alone. Empty where nothing is within. Glass is seen through. Same for any
+/// number of threads.
+std::vector<Portal> portals_about_rooms(const RayScene& rays);
+
+}  // namespace phos
