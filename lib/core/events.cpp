@@ -17,7 +17,6 @@ constexpr std::string_view kLookAtLights = "look for extreme values in materials
 constexpr Event kEvents[] = {
     // Photons.
     {"photon left the scene", kAny, "paths", ""},
-    {"no opening found to aim at", kAny, "scenes", ""},
     {"photon with non-finite flux", kRare, "photons", "check the powers of the lights and the materials"},
     {"photon path of 65535 bounces ended", kRare, "photons",
      "a material reflects all of its light: lower its reflectance"},

@@ -112,12 +112,13 @@ TEST(DaylightTools, AimedSensorsReadTheSame) {
     ASSERT_EQ(blind.code + aimed.code, 0) << blind.err << aimed.err;
     const auto lx = column(blind.out, "E_lx"), aimed_lx = column(aimed.out, "E_lx");
     const auto error = column(blind.out, "stderr_lx"), aimed_error = column(aimed.out, "stderr_lx");
-    double sum = 0, aimed_sum = 0;
+    std::size_t better = 0;
     for (std::size_t i = 0; i < lx.size(); ++i) {
       EXPECT_NEAR(lx[i], aimed_lx[i], 4.5 * std::hypot(error[i], aimed_error[i]) + 0.01 * aimed_lx[i]) << i;
-      sum += error[i], aimed_sum += aimed_error[i];
+      better += aimed_error[i] < 0.5 * error[i];
     }
-    EXPECT_LT(aimed_sum, 0.5 * sum) << sky[1];
+    // Where the sun shines in, most of the noise is which samples are its.
+    EXPECT_GT(better, lx.size() * (sky[1] == "overcast" ? 9 : 7) / 10) << sky[1];
   }
   const auto scene = run_tool({"scene", kRoom, "--sky", "overcast", "--portals", "auto"});
   EXPECT_NE(scene.out.find("let in through openings of 7."), std::string::npos) << scene.out << scene.err;
