@@ -7,6 +7,7 @@
 #include "file/tool.h"
 #include "scene/load.h"
 #include "scene/picture.h"
+#include "study/plan_direct.h"
 #include "study/plan_options.h"
 #include "study/plan_run.h"
 #include "study/plan_text.h"
@@ -52,7 +53,7 @@ int main(int argc, char** argv) {
     const PlanGoal goal = goal_of(options, plan);
     PlanTask task = task_of(options, plan, scene_path, scene_options);
     const Scene scene = load_scene(scene_path, scene_options);
-    const Needs needs = plan_needs(
+    Needs needs = plan_needs(
         scene, gloss_report(scene, GlossTables(scene, {}, GlossBy::automatic, {}, tool.counters())));
     if (!needs.lit)
       throw Error(ExitCode::bad_input, scene_path,
@@ -71,23 +72,26 @@ int main(int argc, char** argv) {
     piloted.common = {"--threads", std::to_string(thread_count())};
     if (tool.verbose()) piloted.say = [&](const std::string& line) { tool.say(line); };
     tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
-    const Pilot pilot = [&] {
+    const auto piloting = [&](const PlanTask& way) {
       const auto timer = tool.time("pilot");
-      return run_pilot(task, piloted);
-    }();
-    tool.say(text("pilot: took ", duration(pilot.seconds)));
-    const Plan chosen = make_plan(task, pilot, goal);
+      Pilot pilot = run_pilot(way, piloted);
+      tool.say(
+          text("pilot: took ", duration(pilot.seconds), way.cached_direct ? ", with --direct cached" : ""));
+      return pilot;
+    };
+    const auto [way, pilot, chosen] =
+        plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
     tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
-    const std::string script = plan_script(task, needs, pilot, goal, chosen, tool.seed());
-    Json json = plan_json(task, needs, pilot, goal, chosen, tool.seed());
+    const std::string script = plan_script(way, needs, pilot, goal, chosen, tool.seed());
+    Json json = plan_json(way, needs, pilot, goal, chosen, tool.seed());
     if (!plan.run) return print(plan.output, plan.json ? json.dump(2) + "\n" : script);
 
     PlanRunOptions run;
     run.folder = plan.output, run.seed = tool.seed(), run.common = piloted.common;
     run.reference_seconds = plan.reference_s, run.rounds = static_cast<int>(plan.rounds);
     run.say = [&](const std::string& line) { tool.say(line); };
-    const PlanReport report = run_plan(task, pilot, goal, chosen, run);
+    const PlanReport report = run_plan(way, pilot, goal, chosen, run);
     json["run"] = to_json(report);
     print(run.folder + "/plan.json", json.dump(2) + "\n");
     print(run.folder + "/plan.sh", script);

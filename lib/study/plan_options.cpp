@@ -34,6 +34,12 @@ void declare_options(Options& options, PlanOptions& p) {
   options.choice<Axis>("up", p.grid.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                        "which way is up, for a workplane");
   options.section("Plan");
+  options.choice<PlanDirect>(
+      "direct", p.direct,
+      {{"auto", PlanDirect::automatic}, {"cached", PlanDirect::cached}, {"traced", PlanDirect::traced}},
+      text("light straight from the lamps: in the records, or by shadow rays; auto tries both for a picture "
+           "with ",
+           kManyLamps, " lamps of an extent or more (the environment is one), and takes twice the pilot"));
   options.number("pilot", p.pilot_s, "S",
                  "time for the pilot, about: half of it goes into references, and what they cannot tell is "
                  "not known; 0: 10, "
@@ -113,6 +119,9 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
   for (const std::string& word : luminaire_words(scene_options.luminaires)) words.push_back(word);
   for (const std::string& word : band_words(scene_options.bands)) words.push_back(word);
   task.image = p.quantity != PlanOptions::Of::lux, task.lux = p.quantity != PlanOptions::Of::image;
+  if (task.lux && p.direct == PlanDirect::cached)
+    throw Error(ExitCode::usage, "--direct",
+                "cached is for pictures: sensors always send shadow rays; leave it out");
   for (const char* name : {"camera", "width", "height"})
     if (!task.image && options.given(name))
       throw Error(ExitCode::usage, text("--", name),

@@ -6,7 +6,7 @@
 #include "cache/sensor_grid.h"
 #include "core/options.h"
 #include "scene/load.h"
-#include "study/plan.h"
+#include "study/plan_direct.h"
 
 namespace phos {
 
@@ -17,6 +17,7 @@ struct PlanOptions {
   std::string camera, points, output;
   GridOptions grid;
   std::int64_t width = 0, height = 0;
+  PlanDirect direct = PlanDirect::automatic;
   double pilot_s = 0, reference_s = 0;
   std::int64_t rounds = 5;
   bool script = false, json = false, run = false;

@@ -52,6 +52,7 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   add(words, {photons, "--place", "view"});
   add(words, view(task));
   add(words, gathered(knobs));
+  if (task.cached_direct) add(words, {"--direct", "cached", "--footprint", "adaptive"});
   if (task.pixels_of_final < 1)
     add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
   return {"phos-irradiance", words, out};
@@ -121,13 +122,19 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
     stage("sensors", "where the sensors are", points_command(task, scene, points));
   stage("photons", "light from the lamps, and a tree over it", photons_command(task, knobs, scene, photons));
   if (task.image)
-    stage("records", "indirect light where the camera looks, by rays that read a coarse cache of the photons",
+    stage("records",
+          task.cached_direct
+              ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
+                "photons"
+              : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
           view_records_command(task, knobs, scene, photons, records));
   if (task.lux)
     stage(task.image ? "sensor records" : "records", "indirect light where the sensors are",
           sensor_records_command(task, knobs, scene, photons, points, task.image ? records : "", records));
   if (task.image)
-    stage("picture", "records drawn, direct light and what mirrors and gloss show by rays",
+    stage("picture",
+          task.cached_direct ? "records drawn, what mirrors and gloss show by rays"
+                             : "records drawn, direct light and what mirrors and gloss show by rays",
           picture_command(task, knobs, scene, records, file(kPlanPicture)));
   if (task.lux)
     stage("lux", "direct light by rays, indirect light from the records",

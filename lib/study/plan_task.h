@@ -21,6 +21,7 @@ struct PlanTask {
   std::string points;             ///< CSV of the sensors
   std::vector<std::string> grid;  ///< or the options of phos-sense that set them out; empty: there is a CSV
   bool gloss = false;             ///< something glossy is traced: --gloss-samples counts
+  bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
 };
 
 /// One line of the pipeline.

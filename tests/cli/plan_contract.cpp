@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/error.h"
 #include "file/json_parse.h"
 #include "image/image.h"
 #include "support/refused.h"
@@ -72,8 +73,9 @@ TEST(PlanTool, ItsScriptMakesThePicture) {
   const auto plan = run_tool(plan_of({"--error", "20%"}));
   ASSERT_EQ(plan.code, 0) << plan.err;
   for (const char* part : {"#!/usr/bin/env bash", "# Asked for: image of 32 x 32, error at most 20 %",
-                           "# Predicted:", "global photons", "temporal data: nothing moves", "phos-photons",
-                           "phos-irradiance", "phos-splat"})
+                           "# Predicted:", "global photons", "temporal data: nothing moves",
+                           "direct light in the records: shadow rays to so few lamps cost less",
+                           "phos-photons", "phos-irradiance", "phos-splat"})
     EXPECT_NE(plan.out.find(part), std::string::npos) << part << plan.out;
   spill(folder + "/plan.sh", plan.out);
   const auto run = run_shell({"bash", folder + "/plan.sh", "made"}, folder);
@@ -86,6 +88,39 @@ TEST(PlanTool, ItsScriptMakesThePicture) {
     light = std::max(light, v);
   }
   EXPECT_GT(light, 0);
+}
+
+/// A floor under four lamps, seen from beside them.
+std::string four_lamps() {
+  const std::string folder = scratch("plan-lamps");
+  std::string obj = "mtllib a.mtl\nv -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\nusemtl grey\no floor\nf 4 3 2 1\n";
+  for (int k = 0; k < 4; ++k) {
+    const int x = k % 2 == 0 ? -1 : 1, z = k / 2 == 0 ? -1 : 1, v = 5 + 4 * k;
+    for (const auto& [dx, dz] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      obj += text("v ", x + 0.2 * dx, " 1.5 ", z + 0.2 * dz, "\n");
+    obj += text("usemtl glow\no lamp", k, "\nf ", v, " ", v + 1, " ", v + 2, " ", v + 3, "\n");
+  }
+  spill(folder + "/a.obj", obj);
+  spill(folder + "/a.mtl", "newmtl grey\nKd 0.5 0.5 0.5\nnewmtl glow\nKd 0 0 0\nKe 1000 1000 1000\n");
+  spill(folder + "/a.lights.json", R"({"cameras":[{"eye":[3,2,3],"target":[0,0,0]}]})");
+  return folder + "/a.obj";
+}
+
+/// Light straight from many lamps goes into the records or not, as is cheaper by measurement.
+TEST(PlanTool, TriesDirectLightInTheRecords) {
+  const std::string cached = "--direct cached --footprint adaptive", scene = four_lamps();
+  const auto asked = run_tool(plan_of({"--error", "30%", "--direct", "cached"}, scene));
+  ASSERT_EQ(asked.code, 0) << asked.err;
+  EXPECT_NE(asked.out.find(cached), std::string::npos) << asked.out;
+  const auto both = run_tool(plan_of({"--error", "30%"}, scene));
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_NE(both.out.find("direct light in the records: 4 lamps of 8 facets: "), std::string::npos)
+      << both.out;
+  EXPECT_NE(both.err.find("with --direct cached"), std::string::npos) << both.err;
+  expect_refused("plan",
+                 {scene, "--error", "30%", "--quantity", "lux", "--grid", "0.5", "--workplane", "0.1",
+                  "--direct", "cached"},
+                 2, "cached is for pictures");
 }
 
 TEST(PlanTool, JsonForPrograms) {
