@@ -24,7 +24,10 @@ class Builder {
 
   bool null() { return put(Json()); }
   bool boolean(bool v) { return put(v); }
-  bool number_integer(number_integer_t v) { return put(Json(static_cast<std::int64_t>(v))); }
+  /// Negative ones; -0 is none of the integers.
+  bool number_integer(number_integer_t v) {
+    return put(v == 0 ? Json(-0.0) : Json(static_cast<std::int64_t>(v)));
+  }
   bool number_unsigned(number_unsigned_t v) {
     if (v > static_cast<number_unsigned_t>(std::numeric_limits<std::int64_t>::max()))
       return put(Json(static_cast<double>(v)));

@@ -50,6 +50,18 @@ Size jpeg_size(const unsigned char* p, std::size_t n) {
   return {};
 }
 
+/// Does a PNG hold what its chunks say? The decoder takes memory for them before it looks.
+bool holds_its_chunks(const std::string& bytes) {
+  const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
+  for (std::size_t at = 8; at + 8 <= bytes.size();) {
+    if (std::memcmp(p + at + 4, "IEND", 4) == 0) return true;
+    const auto length = static_cast<std::size_t>(static_cast<std::uint32_t>(big_endian(p + at, 4)));
+    if (length > bytes.size() - at - 8) return false;
+    at += 12 + length;
+  }
+  return true;
+}
+
 /// Size by the header alone, before a decoder allocates for it; zero for unknown formats.
 Size header_size(const std::string& bytes) {
   const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -87,6 +99,7 @@ std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) 
   if (size.width * size.height > kPixelsOfAnyFile + kPixelsPerByte * static_cast<std::int64_t>(bytes.size()))
     return text("is too short for ", size.width, " x ", size.height, " pixels");
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return "is larger than 2 GiB";
+  if (bytes.starts_with("\x89PNG") && !holds_its_chunks(bytes)) return "is cut off, or damaged";
   tinygltf::Image image;
   std::string error, warning;
   const bool read = tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0,

@@ -127,6 +127,7 @@ std::vector<Case> small_files_that_ask_for_much() {
       {"TGA in runs", "texture", targa(32767, 2048, true)},
       {"TGA of most pixels", "texture", targa(65535, 65535, true)},
       {"PNG as texture", "texture", png(32768, 2048)},
+      {"PNG, a chunk", "texture", test::slurp(test::data("damaged/texture-chunk-of-gigabytes.png"))},
       {"PNG", "png", png(0x7fffffff, 0x7fffffff)},
       {"PNG, small enough for its format", "png", png(100000, 100000)},
       {"OBJ, indices", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 2147483647 2147483646 2147483645\n"},

@@ -42,6 +42,12 @@ TEST(ParseJson, PrintingIsTheInverse) {
   EXPECT_EQ(parse_json(v.dump(3), ""), v);
 }
 
+TEST(ParseJson, ZeroKeepsItsSign) {
+  for (const char* zero : {"-0", "-0.0", "-0e1", "-1e-400"})
+    EXPECT_EQ(parse_json(parse_json(zero, "").dump(), "").dump(), "-0") << zero;
+  EXPECT_EQ(parse_json("0", "").dump(), "0");
+}
+
 TEST(ParseJson, IntegersBeyond64BitsBecomeNumbers) {
   EXPECT_EQ(parse_json("9223372036854775807", "").as_integer(), INT64_MAX);
   EXPECT_FALSE(parse_json("9223372036854775808", "").is_integer());
