@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "scene/environment.h"
+#include "scene/near.h"
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
 #include "scene/texture.h"
@@ -74,12 +75,6 @@ Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   return {{scene.position[v[0]], scene.position[v[1]], scene.position[v[2]]}};
 }
 
-/// A triangle is near within this many of its radii from its middle: beyond, points that are uniform over it
-/// weigh nearly alike.
-constexpr float kNearRadii = 2;
-/// Seen under less than this, it is not: directions would be told apart by rounding.
-constexpr double kLeastNear_sr = 1e-4;
-
 /// Square of the distance from the middle of a triangle, or of what it is a part of, within which it is near.
 float near2_m2(const Vec3 corner[3], const Vec3& middle) {
   float radius_m = 0;
@@ -104,7 +99,8 @@ double mean_emission(const Scene& scene, std::uint32_t triangle) {
 }  // namespace
 
 Luminaires::Luminaires(const Scene& scene) : scene_(&scene) {
-  if (scene.environment && !scene.portal.empty()) portals_.emplace(*scene.environment, scene.portal, scene.portal_sight);
+  if (scene.environment && !scene.portal.empty())
+    portals_.emplace(*scene.environment, scene.portal, scene.portal_sight);
   instance_light_.assign(scene.instance.size(), -1);
   shape_.resize(scene.light.size());
   for (std::size_t i = 0; i < scene.light.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/sampling.h"
+#include "scene/near.h"
 
 namespace phos {
 namespace {
@@ -11,10 +12,6 @@ namespace {
 constexpr float kStray = 0.1f, kStrayOfSpots = 0.5f;
 /// A piece is not taken for darker than this part of what the environment is on the mean: its middle may be.
 constexpr float kLeastLuminance = 0.05f;
-/// As of lamps: within so many radii of its middle, what is uniform over a piece is not so as it is seen.
-constexpr float kNearRadii = 2;
-constexpr double kLeastNear_sr = 1e-4;
-
 Vec3 corner_of(const Portal& p, int k) { return p.at(Vec2(k == 1 || k == 3, k >= 2)); }
 
 SphericalPatch seen(const Portal& p, const Vec3& from) {

@@ -19,8 +19,9 @@ std::string figures(const Prediction& p) {
   return text(percent(p.error()), " in ", duration(p.seconds.value));
 }
 
-bool better(const Prediction& a, const Prediction& b, const PlanGoal& goal) {
-  return goal.error ? a.seconds.value < b.seconds.value : a.error() < b.error();
+bool pays(const Prediction& cached, const Prediction& traced, const PlanGoal& goal) {
+  return goal.error ? cached.seconds.value < kLeastGain * traced.seconds.value
+                    : cached.error() < kLeastGain * traced.error();
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect wh
   if (which != PlanDirect::automatic) return way_of(task, which == PlanDirect::cached, goal, pilot);
   if (task.lux || lamps.lamps < kManyLamps) {
     const char* why =
-        task.lux ? "sensors send shadow rays in any case" : "shadow rays to so few lamps cost less";
+        task.lux ? "sensors send shadow rays in any case" : "not tried: few lamps take few shadow rays";
     needs.unwanted.push_back({kWhat, why});
     return way_of(task, false, goal, pilot);
   }
@@ -62,10 +63,11 @@ PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect wh
                                              : ": it does not reach the goal")});
     return *std::move(ways[cached]);
   }
-  const bool cached = better(ways[1]->plan.chosen, ways[0]->plan.chosen, goal);
+  const bool cached = pays(ways[1]->plan.chosen, ways[0]->plan.chosen, goal);
   (cached ? needs.wanted : needs.unwanted)
-      .push_back({kWhat, text(many, ": ", figures(ways[1]->plan.chosen), ", with shadow rays ",
-                              figures(ways[0]->plan.chosen))});
+      .push_back(
+          {kWhat, text(many, ": ", figures(ways[1]->plan.chosen), ", with shadow rays ",
+                       figures(ways[0]->plan.chosen), cached ? "" : "; too little gain to trust the pilot")});
   return *std::move(ways[cached]);
 }
 

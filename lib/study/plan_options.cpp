@@ -39,7 +39,9 @@ void declare_options(Options& options, PlanOptions& p) {
       {{"auto", PlanDirect::automatic}, {"cached", PlanDirect::cached}, {"traced", PlanDirect::traced}},
       text("light straight from the lamps: in the records, or by shadow rays; auto tries both for a picture "
            "with ",
-           kManyLamps, " lamps of an extent or more (the environment is one), and takes twice the pilot"));
+           kManyLamps,
+           " lamps of an extent or more (the environment is one), takes "
+           "twice the pilot, and keeps the records where they promise a third of the time or of the error"));
   options.number("pilot", p.pilot_s, "S",
                  "time for the pilot, about: half of it goes into references, and what they cannot tell is "
                  "not known; 0: 10, "

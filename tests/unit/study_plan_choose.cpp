@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "study/plan.h"
+#include "study/plan_direct.h"
 #include "study/plan_run.h"
 #include "study/plan_text.h"
 
@@ -135,6 +135,39 @@ TEST(StudyPlan, KeepsTheTimeWithTheLeastError) {
     EXPECT_LT(plan.chosen.error(), before);
     before = plan.chosen.error();
   }
+}
+
+/// Records that hold direct light take this part of the time; which way is kept, after how many pilots.
+std::pair<bool, int> direct_way(double part, std::size_t lamps, const PlanGoal& goal,
+                                PlanDirect which = PlanDirect::automatic, double unmended = 0) {
+  int pilots = 0;
+  Needs needs;
+  const PlannedWay way = plan_direct(
+      picture(), goal, which, {lamps, 8 * lamps},
+      [&](const PlanTask& task) {
+        ++pilots;
+        Pilot pilot = synthetic_pilot(task.cached_direct ? 0 : unmended);
+        for (auto& [name, p] : pilot.time.part)
+          if (task.cached_direct) p.scale(part);
+        return pilot;
+      },
+      needs);
+  const auto& said = way.task.cached_direct ? needs.wanted : needs.unwanted;
+  EXPECT_EQ(said.size(), which == PlanDirect::automatic ? 1u : 0u);
+  return {way.task.cached_direct, pilots};
+}
+
+TEST(StudyPlan, PutsDirectLightIntoRecordsWhereThatPaysWell) {
+  const PlanGoal goal{0.1, {}};
+  EXPECT_EQ(direct_way(0.2, 4, goal), std::pair(true, 2));
+  EXPECT_EQ(direct_way(0.5, 4, goal), std::pair(false, 2));
+  EXPECT_EQ(direct_way(0.2, 3, goal), std::pair(false, 1));
+  EXPECT_EQ(direct_way(2, 1, goal, PlanDirect::cached), std::pair(true, 1));
+  EXPECT_EQ(direct_way(0.1, 99, goal, PlanDirect::traced), std::pair(false, 1));
+  // One way out of reach leaves the other; both are refused as one is.
+  const PlanGoal fine{0.02, {}};
+  EXPECT_EQ(direct_way(1, 4, fine, PlanDirect::automatic, 1e-3), std::pair(true, 2));
+  EXPECT_THROW(direct_way(1, 4, {{}, 0.01}), Error);
 }
 
 std::string refusal(const Pilot& pilot, const PlanGoal& goal) {
