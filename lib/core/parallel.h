@@ -2,6 +2,7 @@
 // joined, do not depend on the number of threads.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -38,6 +39,18 @@ T parallel_reduce(std::size_t n, std::size_t chunk, T total, const Make& make, c
                   [&](std::size_t begin, std::size_t end) { partial[begin / chunk] = make(begin, end); });
   for (T& p : partial) join(total, p);
   return total;
+}
+
+/// Sorts by operator<; equal items, which must then be the same, in any order. Holds up to twice the items.
+template <class T>
+void parallel_sort(std::vector<T>& items, std::size_t chunk) {
+  const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+  parallel_chunks(items.size(), chunk,
+                  [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
+  for (std::size_t run = chunk; run < items.size(); run *= 2)
+    parallel_chunks(items.size(), 2 * run, [&](std::size_t begin, std::size_t end) {
+      std::inplace_merge(at(begin), at(std::min(begin + run, end)), at(end));
+    });
 }
 
 }  // namespace phos

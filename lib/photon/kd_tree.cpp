@@ -65,13 +65,6 @@ std::size_t count_out_of_range(std::span<const Vec3> points) {
       [](std::size_t& total, std::size_t n) { total += n; });
 }
 
-void require_in_range(std::span<const Vec3> points) {
-  if (const std::size_t bad = count_out_of_range(points); bad > 0)
-    throw Error(ExitCode::numerical, "",
-                text(bad, " of ", points.size(), " photon positions are not finite or beyond ",
-                     KdTree::kLargestCoordinate_m, " m; check the scene with phos-scene"));
-}
-
 struct FileCloser {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
@@ -94,13 +87,20 @@ KdTree::~KdTree() = default;
 KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
-KdTree KdTree::build(std::span<const Vec3> points) {
-  KdTree result;
-  if (points.empty()) return result;
+void KdTree::require_fit(std::span<const Vec3> points) {
   if (points.size() > kMostPoints)
     throw Error(ExitCode::numerical, "",
                 text(points.size(), " photons are more than one map can hold (2147483647); use fewer paths"));
-  require_in_range(points);
+  if (const std::size_t bad = count_out_of_range(points); bad > 0)
+    throw Error(ExitCode::numerical, "",
+                text(bad, " of ", points.size(), " photon positions are not finite or beyond ",
+                     kLargestCoordinate_m, " m; check the scene with phos-scene"));
+}
+
+KdTree KdTree::build(std::span<const Vec3> points) {
+  KdTree result;
+  if (points.empty()) return result;
+  require_fit(points);
   result.impl_ = std::make_unique<Impl>(points);
   const NoFloatTraps traps;  // FLANN divides by the spread of coincident points
   const StopAtOnce stop;     // and does not look
@@ -156,21 +156,6 @@ std::vector<std::byte> KdTree::save() const {
   if (failed) throw std::bad_alloc();
   const auto bytes = std::as_bytes(std::span(data, size));
   return {bytes.begin(), bytes.end()};
-}
-
-std::vector<std::uint32_t> KdTree::leaf_order() const {
-  std::vector<std::uint32_t> order;
-  if (!impl_) return order;
-  order.reserve(impl_->points.size());
-  Bounds bounds;
-  for (const Vec3& p : impl_->points) bounds.include(p);
-  // Seen from beyond the lowest corner the left child is always the nearer one.
-  const Vec3 from = bounds.lo - bounds.size();
-  Rows rows(std::numeric_limits<float>::infinity(), order);
-  impl_->tree.findNeighbors(rows, &from.x, flann::SearchParams());
-  PHOS_CHECK(order.size() == impl_->points.size(), order.size(), " of ", impl_->points.size(),
-             " points visited");
-  return order;
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {

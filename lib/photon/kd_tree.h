@@ -26,8 +26,12 @@ class KdTree {
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
-  /// The same points give the same tree. Throws Error(numerical) for a coordinate that is not finite or
-  /// larger than kLargestCoordinate_m, or for more than 2^31-1 points.
+  /// Throws Error(numerical) for a coordinate that is not finite or larger than kLargestCoordinate_m, or for
+  /// more than 2^31-1 points.
+  static void require_fit(std::span<const Vec3> points);
+
+  /// The same points give the same tree; in space_order() they are faster to build over, and to ask. Throws
+  /// what require_fit() does.
   static KdTree build(std::span<const Vec3> points);
 
   /// The tree of save() over the same points. Whoever wrote `bytes`, FLANN, which trusts what it reads, sees
@@ -38,9 +42,6 @@ class KdTree {
 
   /// Bytes for load(); none if there are no points.
   std::vector<std::byte> save() const;
-
-  /// Point numbers from the leftmost leaf to the rightmost: neighbours in space are neighbours in this order.
-  std::vector<std::uint32_t> leaf_order() const;
 
   /// Points with |p - point| <= radius_m, unsorted, replacing `rows`; nothing for a negative or NaN radius.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;

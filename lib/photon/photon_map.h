@@ -71,7 +71,7 @@ struct PhotonTotals {
   void settle();
 };
 
-/// Photons with their kd-tree (FLANN). Rows are in the tree's leaf order. Queries are const and thread-safe.
+/// Photons with their kd-tree (FLANN). Rows are in space_order(). Queries are const and thread-safe.
 class PhotonMap {
  public:
   /// Builds the tree and reorders the photons by its leaves; rows of equal input give equal bytes. Zero

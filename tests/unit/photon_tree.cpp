@@ -92,7 +92,6 @@ TEST(KdTree, NoPoints) {
   tree.nearest(Vec3(0), 5, rows, d2);
   EXPECT_TRUE(rows.empty() && d2.empty());
   EXPECT_TRUE(tree.save().empty());
-  EXPECT_TRUE(tree.leaf_order().empty());
   KdTree::load({}, {}, "test").in_sphere(Vec3(0), kInfinity, rows);
   EXPECT_TRUE(rows.empty());
 }
@@ -127,19 +126,6 @@ TEST(KdTree, RadiusIsInclusiveAndZeroFindsCoincident) {
   EXPECT_EQ(rows.size(), 4u);
   tree.in_sphere(Vec3(std::nanf(""), 0, 0), 1, rows);
   EXPECT_TRUE(rows.empty());
-}
-
-TEST(KdTree, LeafOrderIsAPermutationAndStaysPut) {
-  const std::vector<Vec3> points = random_points(5000, 1, 4);
-  std::vector<std::uint32_t> order = KdTree::build(points).leaf_order();
-  EXPECT_EQ(order, KdTree::build(points).leaf_order());
-  std::vector<Vec3> sorted;
-  for (const std::uint32_t i : order) sorted.push_back(points[i]);
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0u);
-  EXPECT_EQ(order, all);
-  EXPECT_EQ(KdTree::build(sorted).leaf_order(), all) << "points in leaf order have leaf order";
 }
 
 TEST(KdTree, SameBytesEveryTime) {
