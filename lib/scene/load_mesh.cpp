@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "scene/shading_frame.h"
@@ -160,30 +161,37 @@ void make_tangents_from_uv(MeshData& mesh) {
   }
 }
 
+template <class T>
+void append(std::vector<T>& to, std::vector<T>&& from) {
+  if (to.empty())
+    to = std::move(from);
+  else
+    to.insert(to.end(), from.begin(), from.end());
+}
+
 /// Arrays that the scene has for every vertex or for none.
 template <class T>
-void append_optional(std::vector<T>& to, std::size_t before, const std::vector<T>& from, std::size_t added,
+void append_optional(std::vector<T>& to, std::size_t before, std::vector<T>&& from, std::size_t added,
                      const T& absent) {
   if (from.empty() && to.empty()) return;
   to.resize(before, absent);
-  to.insert(to.end(), from.begin(), from.end());
+  append(to, std::move(from));
   to.resize(before + added, absent);
 }
 
-void append(Scene& scene, const MeshData& mesh) {
+void append(Scene& scene, MeshData&& mesh) {
   const std::size_t before = scene.position.size(), added = mesh.position.size();
-  scene.position.insert(scene.position.end(), mesh.position.begin(), mesh.position.end());
-  scene.normal.insert(scene.normal.end(), mesh.normal.begin(), mesh.normal.end());
-  append_optional(scene.uv0, before, mesh.uv0, added, Vec2(0));
-  append_optional(scene.uv1, before, mesh.uv1, added, Vec2(0));
-  append_optional(scene.tangent, before, mesh.tangent, added, Vec4(0, 0, 0, 1));
-  append_optional(scene.colour, before, mesh.colour, added, Vec4(1));
-  const auto offset = static_cast<std::uint32_t>(before);
-  const auto instance = static_cast<std::uint32_t>(scene.instance.size());
-  for (const Triangle& t : mesh.triangle) {
-    scene.triangle.push_back({{t.v[0] + offset, t.v[1] + offset, t.v[2] + offset}});
-    scene.triangle_instance.push_back(instance);
+  append(scene.position, std::move(mesh.position));
+  append(scene.normal, std::move(mesh.normal));
+  append_optional(scene.uv0, before, std::move(mesh.uv0), added, Vec2(0));
+  append_optional(scene.uv1, before, std::move(mesh.uv1), added, Vec2(0));
+  append_optional(scene.tangent, before, std::move(mesh.tangent), added, Vec4(0, 0, 0, 1));
+  append_optional(scene.colour, before, std::move(mesh.colour), added, Vec4(1));
+  for (Triangle& t : mesh.triangle) {
+    for (std::uint32_t& v : t.v) v += static_cast<std::uint32_t>(before);
   }
+  append(scene.triangle, std::move(mesh.triangle));
+  scene.triangle_instance.resize(scene.triangle.size(), static_cast<std::uint32_t>(scene.instance.size()));
 }
 
 template <class T>
@@ -256,7 +264,7 @@ void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const
   instance.first_triangle = static_cast<std::uint32_t>(scene.triangle.size());
   instance.triangle_count = static_cast<std::uint32_t>(mesh.triangle.size());
   instance.to_world = Mat4(to_world);
-  append(scene, mesh);
+  append(scene, std::move(mesh));
   scene.instance.push_back(std::move(instance));
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -16,12 +18,12 @@ using Rows = std::vector<std::uint32_t>;
 
 /// More than one chunk of the sort.
 std::vector<Vec3> many(float scale) {
-  RandomStream random(1, Stage::test, 0);
-  random.start_bounce(0);
   std::vector<Vec3> points(300'000);
-  for (Vec3& p : points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    RandomStream random(1, Stage::test, i);
+    random.start_bounce(0);
     const Vec2 xy = random.uniform2();
-    p = scale * Vec3(xy.x, xy.y, random.uniform());
+    points[i] = scale * Vec3(xy.x, xy.y, random.uniform());
   }
   return points;
 }
@@ -45,7 +47,7 @@ TEST(SpaceOrder, NoneOneAndCoincident) {
 }
 
 TEST(SpaceOrder, ExtremeCoordinatesKeepTheirOrder) {
-  const float tiny = std::numeric_limits<float>::denorm_min();
+  const float tiny = std::numeric_limits<float>::min();
   EXPECT_EQ(space_order(std::vector<Vec3>{{tiny, 0, 0}, {0, 0, 0}}), (Rows{1, 0}));
   EXPECT_EQ(space_order(std::vector<Vec3>{{1e18f, 0, 0}, {0, 0, 0}, {-1e18f, 0, 0}}), (Rows{2, 1, 0}));
 }
