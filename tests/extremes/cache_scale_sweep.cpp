@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "cache/direct_light.h"
+#include "cache/footprint.h"
 #include "cache/radiance_gather.h"
 #include "cache/sensors.h"
 #include "core/random.h"
+#include "support/daylight.h"
 #include "support/gathered.h"
+#include "support/luminaires.h"
 #include "support/records.h"
 #include "support/sweep.h"
 
@@ -20,29 +23,32 @@ Figures at_checks(const AnalyticScene& s, const Estimator& estimator) {
   return f;
 }
 
-EstimateOf by_photons(Estimate estimate, GradientMode gradients, std::int64_t paths) {
+EstimateOf by_photons(Estimate estimate, std::int64_t paths, Kernel kernel = Kernel::disc) {
   return [=](const AnalyticScene& s) {
     const Lit lit = light_up(s.scene, paths);
     RecordOptions options;
-    options.paths = Quantity::all, options.estimate = estimate, options.gradients = gradients;
+    options.paths = Quantity::all, options.estimate = estimate, options.kernel = kernel;
     options.resolve(s.scene.bounds.diagonal_m());
     return at_checks(s, RecordMaker(lit.photons, *lit.rays, options, 1));
   };
 }
 
 TEST(ScaleSweep, PhotonsByHull) {
-  sweep_scales("irradiance from photons, hull", furnace(0.5f),
-               by_photons(Estimate::hull, GradientMode::automatic, 10000));
+  sweep_scales("irradiance from photons, hull", furnace(0.5f), by_photons(Estimate::hull, 10000));
 }
 
 TEST(ScaleSweep, PhotonsByHullUnderALamp) {
   sweep_scales("irradiance from photons, hull, lit square", rectangle_light_parallel(),
-               by_photons(Estimate::hull, GradientMode::automatic, 10000));
+               by_photons(Estimate::hull, 10000));
 }
 
 TEST(ScaleSweep, PhotonsByDisc) {
-  sweep_scales("irradiance from photons, disc", furnace(0.5f),
-               by_photons(Estimate::kernel, GradientMode::automatic, 10000));
+  sweep_scales("irradiance from photons, disc", furnace(0.5f), by_photons(Estimate::kernel, 10000));
+}
+
+TEST(ScaleSweep, PhotonsByKernel) {
+  sweep_scales("irradiance from photons, kernel", furnace(0.5f),
+               by_photons(Estimate::kernel, 10000, Kernel::epanechnikov));
 }
 
 TEST(ScaleSweep, Gather) {
@@ -52,6 +58,24 @@ TEST(ScaleSweep, Gather) {
     const GatherSource source{.indirect = &tree};
     RecordOptions options = gather_options(s.scene, Quantity::all, -1, 256);
     return at_checks(s, GatherEstimator(gathered.rays, gathered.lights, source, options, 1));
+  });
+}
+
+/// A lamp's light in them, which shortens their axes.
+TEST(ScaleSweep, AdaptiveFootprints) {
+  sweep_scales("records with adaptive footprints", rectangle_light_parallel(), [](const AnalyticScene& s) {
+    const Gathered gathered(s.scene);
+    RecordOptions options = gather_options(s.scene, Quantity::all, 1, 256);
+    options.footprint = Footprint::adaptive;
+    const GatherEstimator estimator(gathered.rays, gathered.lights, {}, options, 1);
+    Figures f = at_checks(s, estimator);
+    const auto worker = estimator.make_worker();
+    const auto r = estimator.make({s.checks[0].position, s.checks[0].normal, 0}, *worker).record;
+    for (const AdaptiveFootprint::Axis& a : r.footprint->axes()) {
+      f.metres(static_cast<double>(a.length_m));
+      for (const Rgb& lux : {a.slope, a.bend, a.turn_slope, a.turn_bend}) f.lux(lux, r.stderr_lx);
+    }
+    return f;
   });
 }
 
@@ -162,6 +186,27 @@ TEST(ScaleSweep, DirectLightOfASquare) {
 
 TEST(ScaleSweep, DirectLightOfAPoint) {
   sweep_scales("direct light of a point", point_light_over_plane(), direct_light);
+}
+
+TEST(ScaleSweep, DirectLightOfMeasuredLuminaires) {
+  sweep_scales("direct light of a measured luminaire", measured_point_over_plane(), direct_light);
+  sweep_scales("direct light of a measured opening", measured_rectangle(), direct_light);
+}
+
+/// Through a window: lumens per area are what a sky's lux go with.
+TEST(ScaleSweep, Daylight) {
+  const auto estimate = [](Scale by) {
+    AnalyticScene s;
+    s.scene = room_with_window(0.5f);
+    s.checks = {{{2.5f, 0, 3}, {0, 1, 0}, 0}, {{1, 0, 2}, {0, 1, 0}, 0}, {{2, 1, 0}, {0, 0, 1}, 0}};
+    finalize(s.scene);
+    AnalyticScene room = resized(s, {by.length, 1});
+    surround(room.scene, sky_of("clear", "190,40", 10000 * by.of(-2, 1), 50000 * by.of(-2, 1)));
+    Figures f = direct_light(room);
+    for (const Figure& photon : by_photons(Estimate::hull, 20000)(room).all) f.all.push_back(photon);
+    return f;
+  };
+  sweep_scales("daylight through a window", estimate);
 }
 
 /// The law says nothing of whether the value is right to begin with: closed forms at decades, and albedos.

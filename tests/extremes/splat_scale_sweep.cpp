@@ -4,7 +4,9 @@
 #include <cstdlib>
 
 #include "cache/record_check.h"
+#include "splat/hemisphere_raster.h"
 #include "splat/render.h"
+#include "support/raster.h"
 #include "support/splat_records.h"
 #include "support/splat_scenes.h"
 #include "support/sweep.h"
@@ -66,6 +68,19 @@ TEST(ScaleSweep, SplatsOnTheCpu) {
 TEST(ScaleSweep, SplatsByOpenGl) {
   sweep_splats("splats by OpenGL", [](const Scene& scene, const auto& records, const GBuffer& seen) {
     return GlRenderer(scene).splat(records, 0.25, seen, scene.camera[0]);
+  });
+}
+
+TEST(ScaleSweep, IrradianceByRasterising) {
+  sweep_scales("irradiance by rasterising", furnace(0.5f), [](const AnalyticScene& s) {
+    const RayScene rays(s.scene);
+    const Luminaires lights(s.scene);
+    const RasterEstimator estimator(rays, lights, {}, raster_options(s.scene, Estimate::raster), 1);
+    const auto worker = estimator.make_worker();
+    Figures f;
+    for (std::size_t i = 0; i < 4; ++i)
+      f.record(estimator.make({s.checks[i].position, s.checks[i].normal, i}, *worker).record);
+    return f;
   });
 }
 

@@ -47,6 +47,7 @@ inline AnalyticScene resized(const AnalyticScene& original, Scale by) {
     light.position *= length;
     light.intensity *= light.kind == Light::Kind::directional ? lux : lumens;
   }
+  for (Fitting& fitting : scene.fitting) fitting.set_colour(lumens * fitting.colour());
   for (Camera& camera : scene.camera) {
     camera.to_world[3] = Vec4(length * Vec3(camera.to_world[3]), 1);
     camera.ymag_m *= length;
