@@ -135,7 +135,7 @@ TEST(Tree, LiesAreNamed) {
   expect("do not follow each other", with(leaf + kRight, std::int32_t{0}));
   expect("do not follow each other", with(leaf + kLeft, std::int32_t{-5}));
   expect("do not follow each other", with(root + kIsLeaf, std::uint8_t{1}));
-  expect("truncated", [&](Bytes& b) { b.resize(b.size() - kNode); });
+  expect("truncated", [&](Bytes& b) { b.erase(b.end() - kNode, b.end()); });
 }
 
 TEST(Tree, OfTwoPointsSwappedIsRefused) {
