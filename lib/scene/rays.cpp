@@ -277,6 +277,9 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
       packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
+    // Where the machine's packets are narrower, Embree takes no notice of `valid` but of a ray's interval.
+    std::fill(packet.ray.tnear + count, packet.ray.tnear + kPacket, 0.f);
+    std::fill(packet.ray.tfar + count, packet.ray.tfar + kPacket, -1.f);
     const NoFloatTraps traps;  // Embree divides by zero components of directions
     rtcIntersect16(valid, impl_->tree, &context, &packet);
     for (std::size_t i = 0; i < count; ++i) {

@@ -20,6 +20,12 @@ Scene floor_scene() {
 
 Ray down(float x, float y, float z = 1) { return {Vec3(x, y, z), Vec3(0, 0, -1), 0, kInfinity}; }
 
+/// Leaves numbers beyond what rays may have where the next call has its variables.
+[[gnu::noinline]] void litter_stack() {
+  volatile unsigned char mess[1 << 14];
+  for (volatile unsigned char& c : mess) c = 0x7f;
+}
+
 }  // namespace
 
 TEST(Rays, FindTheNearestPoint) {
@@ -61,6 +67,20 @@ TEST(Rays, InstructionSetsAgreeAndUnknownOnesAreRefused) {
   ASSERT_TRUE(trace(best, down(0.37f, 0.11f), a) && trace(oldest, down(0.37f, 0.11f), b));
   EXPECT_LT(glm::length(a.position - b.position), 1e-6f);
   EXPECT_THROW(RayScene(scene, {"abacus"}), Error);
+}
+
+TEST(Rays, PacketsThatAreNotFullAreTheirRays) {
+  const Scene scene = floor_scene();
+  for (const char* isa : {"", "sse2"}) {
+    const RayScene rays(scene, {isa});
+    for (std::size_t n = 1; n <= 17; ++n) {
+      const std::vector<Ray> ray(n, down(0.3f, -0.2f));
+      std::vector<Hit> hit(n);
+      litter_stack();
+      rays.intersect(ray, hit);
+      for (const Hit& h : hit) EXPECT_NEAR(h.distance_m, 1, 1e-6f) << isa << ", " << n << " rays";
+    }
+  }
 }
 
 TEST(Rays, PassThroughMaskedTexels) {

@@ -115,7 +115,8 @@ TEST(FilmFile, KeepsEveryNumberOfRadiance) {
 TEST(FilmFile, HeaderTellsChainsAndMeanLife) {
   const std::string path = scratch_file("b.irradiance");
   write_film(path, test::random_film(7, false, TemporalGradients::none), test::irradiance_provenance());
-  const Json& film = *Container::open(path).provenance().extra.find("film");
+  const Container file = Container::open(path);
+  const Json& film = *file.provenance().extra.find("film");
   EXPECT_EQ(film.find("chains")->as_integer(), 3);
   EXPECT_DOUBLE_EQ(film.find("mean_life")->as_number(), (3 * 3 + 4 * 5) / 7.);
 }
