@@ -32,9 +32,10 @@ Sector sector_of(float x, float y) {
 AdaptiveFootprint::AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes)
     : x_(x), y_(glm::cross(n, x)), axes_(axes), longest_m_(0), shortest_m_(kInfinity) {
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    inverse_m_[k] = std::min(1 / axes[k].length_m, std::numeric_limits<float>::max());
-    longest_m_ = std::max(longest_m_, axes[k].length_m),
-    shortest_m_ = std::min(shortest_m_, axes[k].length_m);
+    // What was read may be anything, until what_is_wrong() has seen it.
+    const float length_m = axes[k].length_m, most = std::numeric_limits<float>::max();
+    inverse_m_[k] = std::isgreater(length_m, 1 / most) ? 1 / length_m : most;
+    longest_m_ = std::fmax(longest_m_, length_m), shortest_m_ = std::fmin(shortest_m_, length_m);
   }
 }
 

@@ -33,7 +33,7 @@ std::optional<double> frames_per_s(const Image& image) {
   const std::string& s = found->second;
   double rate = 0;
   const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), rate);
-  if (error != std::errc() || end != s.data() + s.size() || !(rate > 0) || !std::isfinite(rate))
+  if (error != std::errc() || end != s.data() + s.size() || !std::isfinite(rate) || !(rate > 0))
     return std::nullopt;
   return rate;
 }

@@ -1,6 +1,7 @@
 // Means over repeats, and how far they are known.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -10,7 +11,7 @@ namespace phos {
 struct Interval {
   double mean = 0, lo = 0, hi = 0;
   std::size_t n = 0;  ///< values that it is the mean of
-  bool bounded() const { return lo <= hi; }
+  bool bounded() const { return std::islessequal(lo, hi); }
 };
 
 /// Mean of values of repeats, normally distributed: W. S. Gosset ("Student") 1908, t of n - 1 degrees of

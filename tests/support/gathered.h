@@ -51,7 +51,8 @@ struct Gathered {
     for (const IrradianceRecord& r : all) t.mean += static_cast<double>(r.irradiance.y) / size;
     for (const IrradianceRecord& r : all) {
       const double off = static_cast<double>(r.irradiance.y) - t.mean;
-      const double z = (static_cast<double>(r.irradiance.y) - truth) / static_cast<double>(r.stderr_lx.y);
+      const double wrong = static_cast<double>(r.irradiance.y) - truth;
+      const double z = wrong == 0 ? 0 : wrong / static_cast<double>(r.stderr_lx.y);
       squares += off * off, z2 += z * z;
     }
     t.stderr_of_mean = std::sqrt(squares / (size * (size - 1)));
