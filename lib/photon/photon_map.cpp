@@ -60,8 +60,8 @@ PhotonMap& PhotonMap::operator=(PhotonMap&&) noexcept = default;
 PhotonMap PhotonMap::build(Photons photons, const PhotonTotals& totals) {
   require_equal_lengths(photons);
   PhotonMap map;
-  // A tree over photons that lie as they do in space is made four to six times, and asked for many neighbours
-  // twice as fast.
+  // Over photons that lie in memory as they do in space a tree is made four to six times as fast, and answers
+  // for many neighbours twice as fast, as over photons in the order of their paths.
   KdTree::require_fit(photons.position);
   permute(photons, space_order(photons.position));
   Impl& impl = *map.impl_;

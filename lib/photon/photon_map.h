@@ -74,7 +74,7 @@ struct PhotonTotals {
 /// Photons with their kd-tree (FLANN). Rows are in space_order(). Queries are const and thread-safe.
 class PhotonMap {
  public:
-  /// Builds the tree and reorders the photons by its leaves; rows of equal input give equal bytes. Zero
+  /// Reorders the photons and builds the tree; rows of equal input give equal bytes. Zero
   /// photons are allowed: every query is empty. Throws Error(numerical) for a non-finite position.
   static PhotonMap build(Photons photons, const PhotonTotals& totals);
   /// Opens a file; columns stay memory-mapped, the tree is loaded (not rebuilt) after its checksum and those

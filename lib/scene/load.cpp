@@ -67,8 +67,7 @@ void declare_light_options(Options& options, SceneOptions& scene) {
       "aims photons and shadow rays of sky, sun and environment at openings: auto finds those through which "
       "the sky is seen from within; or names of nodes or materials, comma by comma, whose surfaces fill them "
       "(panes). One in ten (where a sky or map has bright spots, one shadow ray in two) is not aimed, so "
-      "that "
-      "no light is lost",
+      "that no light is lost",
       Recorded::if_given);
 }
 

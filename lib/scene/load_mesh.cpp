@@ -59,7 +59,7 @@ void place(MeshData& mesh, const glm::dmat4& to_world) {
   const bool mirrored = glm::determinant(m) < 0;
   const double sign = mirrored ? -1 : 1;
   for (Vec3& n : mesh.normal) {
-    const DVec3 v = sign * (cofactor * DVec3(is_finite(n) ? normalized_or_zero(n) : Vec3(0)));
+    const DVec3 v = sign * (cofactor * DVec3(normalized_or_zero(n)));
     const double length = glm::length(v);
     n = length > 0 && std::isfinite(length) ? Vec3(v / length) : Vec3(0);
   }

@@ -12,6 +12,7 @@ namespace {
 constexpr float kStray = 0.1f, kStrayOfSpots = 0.5f;
 /// A piece is not taken for darker than this part of what the environment is on the mean: its middle may be.
 constexpr float kLeastLuminance = 0.05f;
+
 Vec3 corner_of(const Portal& p, int k) { return p.at(Vec2(k == 1 || k == 3, k >= 2)); }
 
 SphericalPatch seen(const Portal& p, const Vec3& from) {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -69,13 +68,15 @@ struct FilmTask {
 class Kept {
  public:
   Kept(const Estimator& estimator, const FilmTask& task, std::int64_t frame) : estimator_(&estimator) {
-    if (task.journal)
-      estimator_ = &by_journal_.emplace(estimator, *task.journal, kMostTasks * frame + task.number);
+    if (!task.journal) return;
+    by_journal_ =
+        std::make_unique<JournalEstimator>(estimator, *task.journal, kMostTasks * frame + task.number);
+    estimator_ = by_journal_.get();
   }
   const Estimator& operator*() const { return *estimator_; }
 
  private:
-  std::optional<JournalEstimator> by_journal_;
+  std::unique_ptr<const JournalEstimator> by_journal_;
   const Estimator* estimator_;
 };
 

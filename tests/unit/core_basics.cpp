@@ -5,7 +5,6 @@
 
 #include "core/counters.h"
 #include "core/error.h"
-#include "core/float_traps.h"
 #include "core/json.h"
 #include "core/parallel.h"
 #include "core/random.h"
@@ -90,8 +89,12 @@ TEST(Vector, NormalizedSurvivesExtremes) {
   for (const float s : {1e-30f, 1e-6f, 1.f, 1e30f})
     EXPECT_NEAR(glm::length(normalized_or_zero(Vec3(s, -s, 2 * s))), 1, 1e-6);
   EXPECT_EQ(normalized_or_zero(Vec3(0)), Vec3(0));
-  const NoFloatTraps traps;
-  EXPECT_EQ(normalized_or_zero(Vec3(std::nanf(""), 0, 1)), Vec3(0));
+  for (const float none : {std::nanf(""), kInfinity, -kInfinity})
+    for (int c = 0; c < 3; ++c) {
+      Vec3 v(0, 1, 2);
+      v[c] = none;
+      EXPECT_EQ(normalized_or_zero(v), Vec3(0)) << none << " in " << c;
+    }
 }
 
 TEST(Sampling, MeansMatchTheirDensities) {
