@@ -4,6 +4,7 @@
 #include "cache/brdf_report.h"
 #include "cache/brdf_table.h"
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "hsh/basis.h"
 
 namespace phos {
@@ -74,6 +75,7 @@ BrdfTable read_table(const Container& file, std::size_t index, const Json& heade
   table.resolution = static_cast<int>(h.integer("resolution", 2, 1024));
   table.order = static_cast<int>(h.integer("order", 0, 30));
   table.albedo = h.number("albedo");
+  const NoFloatTraps traps;  // files may hold what is not a number
   const std::size_t entries = entries_of(table), stored = stored_per_entry(table);
   const auto orders = file.values<std::uint8_t>(name_of(index, "orders"), {entries});
   const auto error = file.values<float>(name_of(index, "error"), {entries});

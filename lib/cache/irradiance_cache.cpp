@@ -7,6 +7,7 @@
 #include "cache/record_check.h"
 #include "cache/record_index.h"
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "core/parallel.h"
 
 namespace phos {
@@ -28,6 +29,7 @@ bool row_is_finite(const IrradianceRecord& r) {
 }  // namespace
 
 const char* what_is_wrong(const IrradianceRecord& r) {
+  const NoFloatTraps traps;  // files may hold what is not a number
   if (!row_is_finite(r)) return "a value that is not finite";
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
   if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) return "a normal that is not of unit length";

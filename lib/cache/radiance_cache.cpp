@@ -6,6 +6,7 @@
 #include "cache/radiance_columns.h"
 #include "cache/record_check.h"
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "core/parallel.h"
 #include "hsh/rotation.h"
 
@@ -25,6 +26,7 @@ bool all_finite(const std::vector<float>& v) {
 }  // namespace
 
 const char* what_is_wrong(const RadianceRecord& r) {
+  const NoFloatTraps traps;  // files may hold what is not a number
   const std::size_t n = 3 * count_of(r.order()), slopes = r.gradient_x.size();
   if (r.stderr_light.size() % 3 != 0 || r.light.size() != n || r.gradient_y.size() != slopes ||
       (slopes != 0 && slopes != n))

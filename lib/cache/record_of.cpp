@@ -89,9 +89,9 @@ void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires&
   const double straight = static_cast<double>(luminance(Rgb(sum.irradiance)));
   if (resolved.radius == RadiusRule::least) {
     light.distance_m = std::min(light.distance_m, nearest_m);
-  } else if (straight > 0) {
+  } else if (straight > 0 && light.distance_m > 0) {
     const double per_m = around / static_cast<double>(light.distance_m) + brightness_per_m;
-    light.distance_m = static_cast<float>((around + straight) / per_m);
+    light.distance_m = per_m > 0 ? static_cast<float>((around + straight) / per_m) : kInfinity;
   }
   light.irradiance += Rgb(sum.irradiance);
   light.stderr_lx = Rgb(glm::sqrt(DVec3(light.stderr_lx) * DVec3(light.stderr_lx) + sum.variance));
@@ -104,7 +104,8 @@ float within_gradient_m(const Rgb& irradiance, const Vec3 (&translation_gradient
     // In double: the square of a steep or a faint slope is beyond floats.
     const double slope = glm::length(DVec3(translation_gradient[c])),
                  light = static_cast<double>(irradiance[c]);
-    if (irradiance[c] > kChannelCounts * brightest && slope * static_cast<double>(radius_m) > light)
+    if (irradiance[c] > kChannelCounts * brightest && slope > 0 && radius_m > 0 &&
+        slope * static_cast<double>(radius_m) > light)
       radius_m = static_cast<float>(light / slope);
   }
   return radius_m;

@@ -73,7 +73,7 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
   double sum = 0;
   for (double& share : share_) {
     share /= shares;
-    scale_.push_back(static_cast<float>(1 / (share * static_cast<double>(paths))));
+    scale_.push_back(share > 0 ? static_cast<float>(1 / (share * static_cast<double>(paths))) : 0);
     sum += share;
     last_.push_back(sum >= 1 ? kLastTick : static_cast<std::uint64_t>(std::ldexp(sum, 64)));
   }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/float_traps.h"
 #include "photon/flann_stream.h"
 
 namespace phos {
@@ -37,6 +38,7 @@ class Checker {
       : points_(points), in_(stream.bytes, stream.header_bytes, stream.first_block) {}
 
   void check() {
+    const NoFloatTraps traps;  // files may hold what is not a number
     read_index();
     read_order();
     const Bounds all = read_nodes();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "core/parallel.h"
 #include "photon/kd_tree.h"
 
@@ -98,6 +99,7 @@ namespace {
 
 /// nullptr: nothing.
 const char* what_is_wrong(const PhotonColumns& c, std::size_t i) {
+  const NoFloatTraps traps;  // files may hold what is not a number
   if (!KdTree::in_range(c.position[i])) return "a position that is not finite or too far away for a tree";
   if (!is_finite(c.flux[i])) return "a flux that is not finite";
   if (!(c.distance[i] >= 0)) return "a distance that is not positive";

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "scene/gltf_accessor.h"
 
 namespace phos {
@@ -166,9 +167,9 @@ class Animator {
     if (keys.time_s.empty()) document_.fail(place_ + " has no keys");
     keys.width = keys.value.size() / (keys.time_s.size() * per_key);
     if (keys.width == 0) document_.fail(place_ + " has fewer values than keys");
+    const NoFloatTraps traps;  // files may hold what is not a number
     for (std::size_t i = 0; i < keys.time_s.size(); ++i) {
-      const bool increasing = i == 0 || keys.time_s[i] > keys.time_s[i - 1];
-      if (!std::isfinite(keys.time_s[i]) || !increasing)
+      if (!std::isfinite(keys.time_s[i]) || (i > 0 && keys.time_s[i] <= keys.time_s[i - 1]))
         document_.fail(place_ + " has keys that do not increase");
     }
     if (rotation && keys.width != 4) document_.fail(place_ + " has a rotation that is no quaternion");

@@ -41,12 +41,12 @@ PortalSight::PortalSight(const RayScene& rays, std::span<const Portal> portals) 
 }
 
 std::span<const float> PortalSight::from(const Vec3& place) const {
-  const Vec3 share = (place - box_.lo) / box_.size();
+  const Vec3 size_m = box_.size(), at_m = place - box_.lo;
   std::size_t cell = 0;
   for (int c = 2; c >= 0; --c) {
-    if (!(share[c] >= 0 && share[c] <= 1)) return {};
-    cell =
-        cell * kCells + static_cast<std::size_t>(std::min(static_cast<int>(share[c] * kCells), kCells - 1));
+    if (!(at_m[c] >= 0 && at_m[c] <= size_m[c])) return {};
+    const float share = size_m[c] > 0 ? at_m[c] / size_m[c] : 0;
+    cell = cell * kCells + static_cast<std::size_t>(std::min(static_cast<int>(share * kCells), kCells - 1));
   }
   return std::span(free_).subspan(cell * portals_, portals_);
 }

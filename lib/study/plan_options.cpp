@@ -69,7 +69,7 @@ double read_error(const std::string& word) {
   while (*end == ' ') ++end;
   const bool percent = *end == '%';
   if (percent) ++end, value /= 100;
-  if (end == word.c_str() || *end != '\0' || !(value > 0 && value <= 1))
+  if (end == word.c_str() || *end != '\0' || !(std::isgreater(value, 0) && value <= 1))
     throw Error(ExitCode::usage, "--error",
                 "'" + word + "' is no error; give a share between 0 and 100 %: 5% or 0.05");
   return value;

@@ -13,7 +13,7 @@ std::string cell(const std::string& s) {
   for (const char c : s) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-std::string cell(double v) { return std::isfinite(v) ? shortest(v) : v > 0 ? "inf" : ""; }
+std::string cell(double v) { return std::isfinite(v) ? shortest(v) : std::isgreater(v, 0) ? "inf" : ""; }
 std::string cell(const std::optional<double>& v) { return v ? cell(*v) : ""; }
 std::string cell(bool v) { return v ? "1" : "0"; }
 

@@ -6,6 +6,7 @@
 
 #include "cache/radiance_columns.h"
 #include "core/error.h"
+#include "core/float_traps.h"
 #include "temporal/film_cache.h"
 #include "temporal/film_lives.h"
 
@@ -133,6 +134,7 @@ bool all_finite(const RadianceRecord& r) { return is_finite(r); }
 /// nullptr: nothing. What changes is largest or least at the end of a life.
 template <class Record>
 const char* what_is_wrong_with_change(const Record& r) {
+  const NoFloatTraps traps;  // sums of what files hold may overflow
   return all_finite(changed(r, r.life.end - 1)) ? nullptr : "a change that is not finite";
 }
 

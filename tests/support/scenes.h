@@ -336,7 +336,7 @@ inline AnalyticScene uniform_box(float albedo, float flux_lm = 100) {
   s.scene.camera.push_back(look_at({0.3f, 0.6f, 1.3f}, {1.5f, 0.3f, 0.4f}, {0, 1, 0}, 1));
   finalize(s.scene);
   s.area_m2 = 2 * (2 * 1 + 1 * 1.5 + 1.5 * 2);
-  s.mean_irradiance_lx = closed_room_mean_lx(flux_lm, s.area_m2, albedo);
+  s.mean_irradiance_lx = albedo < 1 ? closed_room_mean_lx(flux_lm, s.area_m2, albedo) : HUGE_VAL;
   return s;
 }
 
