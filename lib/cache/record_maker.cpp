@@ -228,13 +228,15 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
   record.radius_m = std::max(within, kReach * zone_radius_m / a);
   const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
-  if (options_.gradients == GradientMode::none) return;
-  const Gradients g = options_.gradients == GradientMode::positional ? known.positional
-                      : options_.gradients == GradientMode::blend    ? known.blend
+  const Gradients g = options_.gradients == GradientMode::none         ? Gradients{}
+                      : options_.gradients == GradientMode::positional ? known.positional
+                      : options_.gradients == GradientMode::blend      ? known.blend
                       : options_.gradients == GradientMode::hemisphere
                           ? hemisphere_gradients(photons, s.density.used, zone.area_m2, place.frame,
                                                  static_cast<int>(options_.hemisphere_rings))
                           : known.analytic;
+  require_finite(rays_.scene().origin_m, record.position, record.irradiance, record.stderr_lx, g.rotation,
+                 g.translation);
   for (int c = 0; c < 3; ++c) {
     record.rotation_gradient[c] = g.rotation[c], record.translation_gradient[c] = bounded * g.translation[c];
   }
@@ -264,8 +266,6 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   const float next_m = height_over_next_m(rays_, p, place.frame.z, 4 * place.rounding_m, record.radius_m);
   record.radius_m = std::max(least, std::min(record.radius_m, next_m * (1 / kNextSurface)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
-  require_finite(rays_.scene().origin_m, p, record.irradiance, record.stderr_lx, record.rotation_gradient,
-                 record.translation_gradient);
   return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};
 }
 
