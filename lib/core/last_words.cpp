@@ -15,11 +15,13 @@ namespace phos {
 namespace {
 
 constexpr int kRoom = 256;
+constexpr std::size_t kHandlersRoom = 1 << 16;          // bytes
 constexpr std::size_t kLittle = std::size_t{32} << 20;  // bytes; a process that cannot get them has run out
 
 std::atomic<char*> doomed[kRoom];
 static_assert(std::atomic<char*>::is_always_lock_free);
 char program[64] = "phos";
+std::atomic<bool> ending = false;  // a thread says the last words; the others wait for its _exit
 
 constexpr const char* kOutOfMemory =
     "out of memory; ask for less, allow more (ulimit -v), or use a larger machine";
@@ -44,15 +46,19 @@ void watch_for_crashes() {}  // the sanitizers tell more of them
 #else
 /// Where memory is to be had the same comes again to the system's own handler, as this one returns.
 void on_crash(int signal) {
-  if (memory_ran_out()) end_now(ExitCode::no_memory, kOutOfMemory);
+  if (ending.load() || memory_ran_out()) end_now(ExitCode::no_memory, kOutOfMemory);
+  std::signal(signal, SIG_DFL);
   static_cast<void>(::raise(signal));
 }
 
 void watch_for_crashes() {
   struct sigaction action = {};
   action.sa_handler = on_crash;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = SA_ONSTACK;
   sigemptyset(&action.sa_mask);
+  static char room[kHandlersRoom];  // the stack may be what there is no memory for
+  const stack_t stack = {.ss_sp = room, .ss_flags = 0, .ss_size = sizeof room};
+  sigaltstack(&stack, nullptr);
   for (const int signal : {SIGSEGV, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 #endif
@@ -101,6 +107,10 @@ GoesWithProcess& GoesWithProcess::operator=(GoesWithProcess&& other) noexcept {
 void set_program_name(const std::string& name) { std::strncpy(program, name.c_str(), sizeof program - 1); }
 
 void end_now(ExitCode code, const char* message, const char* where) noexcept {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);  // no handler of this thread's comes between, to wait for it
+  while (ending.exchange(true)) ::pause();
   for (std::atomic<char*>& path : doomed)
     if (char* own = path.exchange(nullptr)) ::unlink(own);
   say(program), say(": ");

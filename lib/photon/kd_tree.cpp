@@ -1,9 +1,9 @@
 #include "photon/kd_tree.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <flann/flann.hpp>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "core/error.h"
@@ -69,6 +69,25 @@ struct FileCloser {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
+
+/// What FLANN writes to a file, kept in memory. (open_memstream tells nobody of writes that it had no memory
+/// for.)
+struct Kept {
+  std::vector<std::byte> bytes;
+  bool all = true;
+
+  static ssize_t write(void* kept, const char* data, std::size_t size) {
+    auto& [bytes, all] = *static_cast<Kept*>(kept);
+    const auto more = std::as_bytes(std::span(data, size));
+    try {
+      bytes.insert(bytes.end(), more.begin(), more.end());
+    } catch (const std::bad_alloc&) {
+      all = false;
+      return 0;
+    }
+    return static_cast<ssize_t>(size);
+  }
+};
 
 }  // namespace
 
@@ -145,17 +164,13 @@ KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> byt
 
 std::vector<std::byte> KdTree::save() const {
   if (!impl_) return {};
-  char* data = nullptr;
-  std::size_t size = 0;
-  File file(open_memstream(&data, &size));
+  Kept kept;
+  const File file(
+      fopencookie(&kept, "w", {.read = nullptr, .write = Kept::write, .seek = nullptr, .close = nullptr}));
   if (!file) throw std::bad_alloc();
   impl_->tree.saveIndex(file.get());
-  const bool failed = std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0;
-  file.reset();
-  const std::unique_ptr<char, decltype(&std::free)> owner(data, &std::free);
-  if (failed) throw std::bad_alloc();
-  const auto bytes = std::as_bytes(std::span(data, size));
-  return {bytes.begin(), bytes.end()};
+  if (std::fflush(file.get()) != 0 || !kept.all) throw std::bad_alloc();
+  return std::move(kept.bytes);
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {

@@ -85,6 +85,7 @@ class MtlReader : public tinyobj::MaterialReader {
       return false;
     }
     std::istringstream stream(*bytes);
+    stream.exceptions(std::ios::badbit);  // for want of memory
     tinyobj::LoadMtl(map, materials, &stream, warning, error);
     return true;
   }
@@ -102,6 +103,7 @@ class ObjReader {
     std::vector<DVec3> vertices = check_vertices(scene_.path, bytes);
     MtlReader mtl(scene_.path);
     std::istringstream stream{std::string(bytes)};
+    stream.exceptions(std::ios::badbit);  // for want of memory
     std::string warning, error;
     const bool read =
         tinyobj::LoadObj(&attrib_, &shapes_, &materials_, &warning, &error, &stream, &mtl, true, false);
@@ -297,6 +299,7 @@ class ObjReader {
 /// Words after `keyword` on each line that starts with it; the whole rest of the line first.
 void names_after(const std::string& bytes, const std::string& keyword, std::vector<std::string>& names) {
   std::istringstream lines(bytes);
+  lines.exceptions(std::ios::badbit);  // for want of memory
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string word;

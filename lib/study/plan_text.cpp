@@ -21,6 +21,7 @@ constexpr std::size_t kLine = 110;  ///< characters of a line of comment
 /// Words in lines that start with "# "; later lines are indented.
 std::string comment(const std::string& words, const std::string& indent = "") {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // for want of memory
   std::size_t width = 1;
   out << '#';
   for (std::size_t start = 0; start <= words.size();) {

@@ -39,6 +39,7 @@ StudyJournal::~StudyJournal() { ::close(fd_); }
 
 void StudyJournal::read(const std::string& bytes) {
   std::istringstream lines(bytes);
+  lines.exceptions(std::ios::badbit);  // for want of memory
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json entry = parse_json(line, path_);
