@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "core/error.h"
 #include "core/json.h"
@@ -246,7 +247,11 @@ std::string encode_exr(const Image& image, ExrCompression compression) {
     file.setFrameBuffer(buffer);
     file.writePixels(image.height());
   }
-  return stream.take();
+  // OpenEXR tells nobody of the lines that it had no memory to compress.
+  std::string encoded = stream.take();
+  MemoryIn written(encoded, "memory");
+  if (!Imf::MultiPartInputFile(written, 0, false).partComplete(0)) throw std::bad_alloc();
+  return encoded;
 }
 
 }  // namespace phos
