@@ -6,14 +6,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include "core/error.h"
+#include "core/last_words.h"
 #include "core/parallel.h"
 
 namespace phos {
 namespace {
 
 [[noreturn]] void no_context(const std::string& why) {
+  if (for_want_of_memory("")) throw std::bad_alloc();
   throw Error(ExitCode::bad_input, "",
               text("no OpenGL 4.5 core context from OSMesa: ", why,
                    "; pass --splat cpu (and not --direct shadow-map), which need none"));
