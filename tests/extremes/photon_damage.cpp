@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <new>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -206,22 +205,7 @@ TEST(Tree, OfManyBlocksIsTaken) {
 TEST(Tree, IsSavedWholeOrThereIsNoMemory) {
   const std::vector<Vec3> points = some_points(100000);
   const KdTree tree = KdTree::build(points);
-  const Bytes whole = tree.save();
-  constexpr int kWhole = 0, kCut = 1, kNoMemory = 2;
-  int saved = 0, refused = 0;
-  for (std::uint64_t room = 0; room <= 4 * whole.size(); room += whole.size() / 8) {
-    const test::Child child = test::in_little_memory(room, [&] {
-      try {
-        return tree.save() == whole ? kWhole : kCut;
-      } catch (const std::bad_alloc&) {
-        return kNoMemory;
-      }
-    });
-    EXPECT_NE(child.code, kCut) << room;
-    ++(child.code == kWhole ? saved : refused);
-  }
-  EXPECT_GT(saved, 0);
-  EXPECT_TRUE(refused > 0 || PHOS_ADDRESS_SANITIZER);
+  test::expect_whole_or_no_memory<Bytes>(tree.save(), [&] { return tree.save(); });
 }
 
 /// The map of a file in which one number of a column is another, checksums and all.

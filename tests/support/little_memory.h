@@ -1,6 +1,7 @@
 // Runs something in a process of its own that may take little memory.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <new>
 
 // The address sanitizer needs an address space without end.
 #if defined(__SANITIZE_ADDRESS__)
@@ -54,6 +56,27 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   rusage usage{};
   wait4(pid, &status, 0, &usage);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), usage.ru_maxrss};
+}
+
+/// `make`, with ever more memory up to four times that of `whole`, gives `whole` or throws std::bad_alloc;
+/// both happen.
+template <class Bytes>
+void expect_whole_or_no_memory(const Bytes& whole, const std::function<Bytes()>& make) {
+  constexpr int kWhole = 0, kCut = 1, kNoMemory = 2;
+  int made = 0, refused = 0;
+  for (std::uint64_t room = 0; room <= 4 * whole.size(); room += whole.size() / 8) {
+    const Child child = in_little_memory(room, [&] {
+      try {
+        return make() == whole ? kWhole : kCut;
+      } catch (const std::bad_alloc&) {
+        return kNoMemory;
+      }
+    });
+    EXPECT_NE(child.code, kCut) << room;
+    ++(child.code == kWhole ? made : refused);
+  }
+  EXPECT_GT(made, 0);
+  EXPECT_TRUE(refused > 0 || PHOS_ADDRESS_SANITIZER);
 }
 
 }  // namespace phos::test
