@@ -19,10 +19,12 @@ enum class ExitCode : int {
   interrupted = 130,  ///< Ctrl-C, SIGTERM or SIGHUP
 };
 
-/// Joins its arguments into one string (anything that std::ostream prints).
+/// Joins its arguments into one string (anything that std::ostream prints). Throws std::bad_alloc: a stream
+/// alone would end the text where memory does.
 template <class... Args>
 std::string text(const Args&... args) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);
   (out << ... << args);
   return out.str();
 }

@@ -1,6 +1,7 @@
 #include "core/last_words.h"
 
 #include <sys/mman.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <new>
 
 namespace phos {
@@ -26,12 +28,13 @@ std::atomic<bool> ending = false;  // a thread says the last words; the others w
 constexpr const char* kOutOfMemory =
     "out of memory; ask for less, allow more (ulimit -v), or use a larger machine";
 
-void say(const char* words) {
-  for (std::size_t left = std::strlen(words); left > 0;) {
-    const ssize_t n = ::write(STDERR_FILENO, words, left);
-    if (n <= 0) return;
-    words += n, left -= static_cast<std::size_t>(n);
-  }
+/// In one piece, so that no other thread's words come between.
+void say(std::initializer_list<const char*> words) {
+  constexpr int kMost = 8;
+  iovec piece[kMost];
+  int n = 0;
+  for (const char* word : words) piece[n++] = {const_cast<char*>(word), std::strlen(word)};
+  if (::writev(STDERR_FILENO, piece, n) < 0) return;  // nobody is left to tell
 }
 
 bool memory_ran_out() {
@@ -72,7 +75,7 @@ void watch_for_crashes() {
     end_now(e.code(), e.what(), e.where().c_str());
   } catch (const std::exception& e) {
     if (for_want_of_memory(e.what())) end_now(ExitCode::no_memory, kOutOfMemory);
-    say(program), say(": internal error: "), say(e.what()), say("; please report it with the command\n");
+    say({program, ": internal error: ", e.what(), "; please report it with the command\n"});
   } catch (...) {
   }
   std::abort();
@@ -113,9 +116,7 @@ void end_now(ExitCode code, const char* message, const char* where) noexcept {
   while (ending.exchange(true)) ::pause();
   for (std::atomic<char*>& path : doomed)
     if (char* own = path.exchange(nullptr)) ::unlink(own);
-  say(program), say(": ");
-  if (*where != '\0') say(where), say(": ");
-  say(message), say("\n");
+  say({program, ": ", where, *where != '\0' ? ": " : "", message, "\n"});
   _exit(static_cast<int>(code));
 }
 

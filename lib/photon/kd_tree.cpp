@@ -72,12 +72,12 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 
 /// What FLANN writes to a file, kept in memory. (open_memstream tells nobody of writes that it had no memory
 /// for.)
-struct Kept {
+struct Written {
   std::vector<std::byte> bytes;
   bool all = true;
 
-  static ssize_t write(void* kept, const char* data, std::size_t size) {
-    auto& [bytes, all] = *static_cast<Kept*>(kept);
+  static ssize_t write(void* written, const char* data, std::size_t size) {
+    auto& [bytes, all] = *static_cast<Written*>(written);
     const auto more = std::as_bytes(std::span(data, size));
     try {
       bytes.insert(bytes.end(), more.begin(), more.end());
@@ -164,13 +164,13 @@ KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> byt
 
 std::vector<std::byte> KdTree::save() const {
   if (!impl_) return {};
-  Kept kept;
-  const File file(
-      fopencookie(&kept, "w", {.read = nullptr, .write = Kept::write, .seek = nullptr, .close = nullptr}));
+  Written written;
+  const File file(fopencookie(&written, "w",
+                              {.read = nullptr, .write = Written::write, .seek = nullptr, .close = nullptr}));
   if (!file) throw std::bad_alloc();
   impl_->tree.saveIndex(file.get());
-  if (std::fflush(file.get()) != 0 || !kept.all) throw std::bad_alloc();
-  return std::move(kept.bytes);
+  if (std::fflush(file.get()) != 0 || !written.all) throw std::bad_alloc();
+  return std::move(written.bytes);
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {

@@ -58,13 +58,13 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), usage.ru_maxrss};
 }
 
-/// `make`, with ever more memory up to four times that of `whole`, gives `whole` or throws std::bad_alloc;
-/// both happen.
+/// `make`, with ever more memory up to `times` that of `whole`, gives `whole` or throws; both happen.
 template <class Bytes>
-void expect_whole_or_no_memory(const Bytes& whole, const std::function<Bytes()>& make) {
+void expect_whole_or_no_memory(const Bytes& whole, const std::function<Bytes()>& make,
+                               std::uint64_t times = 4) {
   constexpr int kWhole = 0, kCut = 1, kNoMemory = 2;
   int made = 0, refused = 0;
-  for (std::uint64_t room = 0; room <= 4 * whole.size(); room += whole.size() / 8) {
+  for (std::uint64_t room = 0; room <= times * whole.size(); room += times * whole.size() / 32) {
     const Child child = in_little_memory(room, [&] {
       try {
         return make() == whole ? kWhole : kCut;
