@@ -24,14 +24,16 @@ Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uin
       keyed.emplace_back(RandomStream(seed, Stage::placement, row).bits(), row);
   }
   std::sort(keyed.begin(), keyed.end());
+  const auto all = static_cast<float>(std::max<std::size_t>(keyed.size(), 1));
   if (most > 0 && keyed.size() > static_cast<std::size_t>(most)) keyed.resize(static_cast<std::size_t>(most));
+  const float tried = static_cast<float>(keyed.size()) / all;
   std::vector<std::uint32_t> order;
   order.reserve(keyed.size());
   for (const auto& [key, row] : keyed) order.push_back(row);
   const std::size_t count = order.size();
-  return {count, [&photons, order = std::move(order)](std::size_t i, std::vector<RecordSite>& sites) {
+  return {count, [&photons, tried, order = std::move(order)](std::size_t i, std::vector<RecordSite>& sites) {
             const std::uint32_t row = order[i];
-            sites.push_back({photons.position[row], decode_octahedral(photons.normal[row]), row, row});
+            sites.push_back({photons.position[row], decode_octahedral(photons.normal[row]), row, row, tried});
           }};
 }
 

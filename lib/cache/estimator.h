@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kNoPhoton = ~0u;
 struct RecordSite {
   Vec3 position{0}, normal{0, 0, 1};  ///< m, on a surface; unit, on the side that is lit
   std::uint64_t item = 0;             ///< numbers its random rays
-  std::uint32_t photon =
-      kNoPhoton;  ///< row of the photon that it sits on (estimates leave it out), or kNoPhoton
+  std::uint32_t photon = kNoPhoton;   ///< row of the photon that it sits on, or kNoPhoton
+  float tried = 1;                    ///< with a photon: the part of such photons that are candidates
   float least_radius_m = 0,
         most_radius_m = kInfinity;  ///< this place's own bounds of the radius (pixel size)
 };

@@ -67,6 +67,19 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, std::uint32_t 
   decode_octahedral(std::span(gathered.codes).first(kept), zone.source_normal);
 }
 
+bool ZoneGatherer::add_own(const ZonePlace& place, std::uint32_t row, float share,
+                           GatheredPhotons& gathered) const {
+  const Vec3 direction = decode_octahedral(photons_.direction[row]);
+  if (!(glm::dot(direction, place.frame.z) > kLeastRise)) return false;
+  ZonePhotons& zone = gathered.zone;
+  const std::size_t last = zone.size();
+  zone.resize(last + 1), gathered.height_m.push_back(0);
+  zone.offset_m[last] = Vec2(0), zone.flux_lm[last] = share * photons_.flux[row];
+  zone.direction[last] = direction, zone.source_normal[last] = decode_octahedral(photons_.source_normal[row]);
+  zone.inverse_distance[last] = 1 / std::max(photons_.distance[row], nearest_m_);
+  return true;
+}
+
 /// Does a line above the surface lead from the place there? Walls that stand on the surface part it, and
 /// surfaces run on inside of walls, where no light comes.
 bool ZoneGatherer::within_sight(const ZonePlace& place, const Vec2& offset_m, float height_m) const {

@@ -109,6 +109,22 @@ ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, std::uint3
   return kernel_irradiance(photons.offset_m, photons.flux_lm, radius_m, options_.kernel, s.density);
 }
 
+/// Adds what counts of the photon that the record sits on; it covers photons within reach_m.
+void RecordMaker::count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
+                            ZoneEstimate& zone, Scratch& s) const {
+  if (at.photon == kNoPhoton || zone.kind == ZoneKind::dark || !zone.centred) return;
+  const double covered = std::min(1.0, static_cast<double>(reach_m) / static_cast<double>(zone_radius_m));
+  const double mean =
+      static_cast<double>(at.tried) * covered * covered * static_cast<double>(s.gathered.zone.size() + 1);
+  const double share = mean > 0 ? 1 - mean / std::expm1(mean) : 0;
+  if (!gatherer_.add_own(place, at.photon, static_cast<float>(share), s.gathered)) return;
+  s.density.used.push_back(1);
+  const double weight = zone.kind == ZoneKind::kernel ? kernel_weight(options_.kernel, 0) : 1;
+  const DVec3 own = DVec3(s.gathered.zone.flux_lm.back()) * weight / zone.area_m2, error(zone.stderr_lx);
+  zone.irradiance = Rgb(DVec3(zone.irradiance) + own);
+  zone.stderr_lx = Rgb(glm::sqrt(error * error + own * own));
+}
+
 /// The part of the curvature `bend` (in the sum of flux; variance `noise`) that is taken away.
 double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
                                   const Scratch& s) {
@@ -225,7 +241,7 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
   }
   const float within =
       within_gradient_m(record.irradiance, known.analytic.translation, record.radius_m);  // KBPv06
-  record.radius_m = std::max(within, kReach * zone_radius_m / a);
+  record.radius_m = std::max(within, std::min(record.radius_m, kReach * zone_radius_m / a));
   const float bounded = std::min(1.f, within / record.radius_m);
   if (std::isfinite(zone.edge_m)) record.radius_m = std::min(record.radius_m, zone.edge_m / a);
   const Gradients g = options_.gradients == GradientMode::none         ? Gradients{}
@@ -255,8 +271,9 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   record.distance_m = distance;
   record.radius_m = std::min(distance, static_cast<float>(*options_.max_radius_m));
   float narrow = surroundings_.zone_radius_m(place, s.near, distance);
-  const ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, at.photon, s)
-                                                                  : by_hull(place, narrow, at.photon, s);
+  ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, at.photon, s)
+                                                            : by_hull(place, narrow, at.photon, s);
+  count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
   s.frame = place.frame, s.zone = zone;
   // It serves no point whose photons it has not seen: their light may be another's.
   const float seen = narrow / static_cast<float>(options_.accuracy);

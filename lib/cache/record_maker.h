@@ -17,8 +17,14 @@
 
 namespace phos {
 
-/// Records from photons, by hull or kernel. Its make() leaves a record's photon out (Palm). radius_m is the
-/// distance after the gradient and edge limits, not clamped.
+/// Records from photons, by hull or kernel. radius_m is the distance after the gradient and edge limits, not
+/// clamped.
+///
+/// Of a photon that a record sits on counts a part. About a photon chosen at random, the others are as dense
+/// as everywhere (Palm, Slivnyak): there it must be left out. But a record serves a region, which gets one
+/// record however many photons fell into it; about one of a Poisson number of them with mean mu, that is not
+/// zero, mu / (1 - exp(-mu)) - 1 others are, and 1 - mu / (exp(mu) - 1) of the photon make it mu. With mu the
+/// candidates that the record covers that is 0 for a few candidates far apart, 1 for many.
 ///
 /// The kernel is the classical estimate, for comparison: zone, gradients and limits of the radius are the
 /// hull's, but its photons are divided by the whole disc. It looks for no border, no shadow edge, no wall
@@ -51,6 +57,8 @@ class RecordMaker : public Estimator {
  private:
   ZoneEstimate by_hull(ZonePlace& place, float& radius_m, std::uint32_t left_out, Scratch& scratch) const;
   ZoneEstimate by_kernel(ZonePlace& place, float radius_m, std::uint32_t left_out, Scratch& scratch) const;
+  void count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
+                 ZoneEstimate& zone, Scratch& scratch) const;
   void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,
                       IrradianceRecord& record) const;
   static double share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,

@@ -252,6 +252,7 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
     return e;
   }
   e.kind = ZoneKind::hull;
+  e.centred = edge.h > 0;
   e.partial = c.hull_partial;
   for (const std::uint32_t v : hull.vertices) scratch.used[v] = 0;
   e.centroid_m = c.hull_partial ? c.hull_centroid : Vec2(hull.centroid);

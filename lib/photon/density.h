@@ -51,6 +51,7 @@ struct ZoneEstimate {
   bool degenerate = false;   ///< enough photons, but no hull
   bool clustered = false;    ///< far from uniform where it is lit: a smaller zone is called for (C3)
   bool probed = false;
+  bool centred = true;   ///< the centre is within the area: no border of the lit region leaves it out
   bool partial = false;  ///< part of the disc, or of the hull, is not surface
 };
 

@@ -1,10 +1,13 @@
-// Are stated standard errors the true ones? For each scene of known light and each estimator, over many
-// seeds: the share of estimates within two stated standard errors of the truth (95 % of normal ones), the
-// true over the stated root mean square error, and the mean error in stated ones. CSV.
+// Are stated standard errors the true ones? For each scene of known light, Sponza among them where the scene
+// collection lies beside the project, and each estimator, over many seeds: the share of estimates within two
+// stated standard errors of the truth (95 % of normal ones), the true over the stated root mean square error,
+// and the mean error in stated ones. CSV.
 //   build/tests/cache_calibration_table [SEEDS [SCENE [small]]] > calibration.csv
 // small: with as few photons and records as the test has.
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <vector>
 
 #include "support/calibration.h"
 
@@ -16,9 +19,12 @@ int main(int argc, char** argv) {
   const test::CalibrationOptions options =
       small ? test::CalibrationOptions::small() : test::CalibrationOptions();
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
-  for (const test::AnalyticScene& s : test::all_point_scenes()) {
-    const test::CalibratedScene scene(s, options);
-    if (scene.name().find(only) == std::string::npos) continue;
+  std::vector<test::KnownLight> scenes;
+  for (const test::AnalyticScene& s : test::all_point_scenes()) scenes.push_back(test::known_light(s));
+  if (std::optional<test::KnownLight> sponza = test::sponza()) scenes.push_back(std::move(*sponza));
+  for (test::KnownLight& known : scenes) {
+    if (known.name.find(only) == std::string::npos) continue;
+    const test::CalibratedScene scene(std::move(known), options);
     test::CalibrationTable table;
     for (int seed = 1; seed <= seeds; ++seed) scene.measure(static_cast<std::uint64_t>(seed), table);
     for (const auto& [estimator, c] : table)

@@ -79,13 +79,14 @@ TEST_F(DensityZones, CollinearAndCoincident) {
     EXPECT_GT(irradiance_of(record(test::photons_on_floor(std::vector<Vec3>(500, place)))).irradiance.y, 0);
 }
 
-TEST_F(DensityZones, ItsOwnPhotonIsLeftOut) {
+TEST_F(DensityZones, ItsOwnPhotonCountsAsItsCandidatesAreMany) {
   const PhotonMap two = test::photons_on_floor({Vec3(0), Vec3(0)});
-  const RadianceRecord both = record(two), other = record(two, {Vec3(0), {0, 1, 0}, 0, 1});
+  const auto seated = [](float tried) { return RecordSite{Vec3(0), {0, 1, 0}, 0, 1, tried}; };
+  const RadianceRecord both = record(two), other = record(two, seated(0)), all = record(two, seated(1e6f));
   EXPECT_NEAR(other.light[1] / both.light[1], 0.5f, 1e-5f);
-  EXPECT_EQ(
-      test::norm(test::channel(record(test::photons_on_floor({Vec3(0)}), {Vec3(0), {0, 1, 0}, 0, 0}).light)),
-      0);
+  EXPECT_NEAR(all.light[1] / both.light[1], 1.f, 1e-5f);
+  const RecordSite alone{Vec3(0), {0, 1, 0}, 0, 0, 0};
+  EXPECT_EQ(test::norm(test::channel(record(test::photons_on_floor({Vec3(0)}), alone).light)), 0);
 }
 
 /// Photons along the horizon, whose inverse cosines are beyond bounds.

@@ -98,7 +98,7 @@ TEST_P(Zones, OneTwoThreePhotonsAreTheirFluxOverTheZone) {
     // And what curvature may have added to the mean: all photons come from one lamp.
     const float error = std::sqrt(static_cast<float>(n)) * r.stderr_lx.y / r.irradiance.y;
     EXPECT_GT(error, 0.99f) << n;
-    EXPECT_LT(error, 2.f) << n;
+    EXPECT_LT(error, 3.f) << n;
     last = r.irradiance.y;
   }
   if (hull()) {
@@ -135,12 +135,19 @@ TEST_P(Zones, CoincidentPhotons) {
   }
 }
 
-/// Two photons where the record sits: one is left out, and the other counts.
-TEST_P(Zones, OnlyTheRecordsOwnPhotonIsLeftOut) {
+/// Two photons where the record sits: its own does not count where it was the one candidate far and wide, and
+/// in full where there were many.
+TEST_P(Zones, TheRecordsOwnPhotonCountsAsItsCandidatesAreMany) {
   const PhotonMap map = map_at({Vec3(0), Vec3(0)});
   const float both = record(map).irradiance.y;
-  EXPECT_NEAR(record_of(map, {Vec3(0), {0, 1, 0}, 0, 1}).irradiance.y / both, 0.5f, 1e-5f);
-  EXPECT_EQ(record_of(map_at({Vec3(0)}), {Vec3(0), {0, 1, 0}, 0, 0}).irradiance, Rgb(0));
+  const auto seated = [&](float tried) {
+    return record_of(map, {Vec3(0), {0, 1, 0}, 0, 1, tried}).irradiance.y / both;
+  };
+  EXPECT_NEAR(seated(0), 0.5f, 1e-5f);
+  EXPECT_NEAR(seated(1e6f), 1.f, 1e-5f);
+  EXPECT_GT(seated(1), 0.5f);
+  EXPECT_LT(seated(1), 1.f);
+  EXPECT_EQ(record_of(map_at({Vec3(0)}), {Vec3(0), {0, 1, 0}, 0, 0, 0}).irradiance, Rgb(0));
 }
 
 /// Half of the photons stand twice in the same place: the same irradiance as with all apart.

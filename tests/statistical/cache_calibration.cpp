@@ -24,10 +24,29 @@ Limits limits_of(const std::string& scene, const std::string& estimator) {
   // Samples of lamps that are smooth all over are better than any of them tells.
   if (has(scene, "rectangle") || has(scene, "environment"))
     return {has(estimator, "kernel") ? 0 : 0.86, has(estimator, "hull record") ? 0.99 : 1};
+  // Ledges and mouldings are narrower than zones, whose light is mixed with that of others; rays do not state
+  // how their source is smoothed so.
+  if (scene == "Sponza") return {has(estimator, "kernel") ? 0 : has(estimator, "gather") ? 0.8 : 0.85, 1};
   // What disagrees is not all error, where records of wide zones reach far.
   if (has(estimator, "blended")) return {0.88, 0.998};
   if (has(estimator, "record") || has(estimator, "radiance")) return {0.86, 0.99};
   return {};
+}
+
+void expect_calibrated(const CalibratedScene& scene, std::uint64_t seeds) {
+  CalibrationTable table;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) scene.measure(seed, table);
+  Calibration all;
+  for (const auto& [estimator, c] : table) {
+    if (c.exact_share() == 1) continue;  // there is no error
+    const auto [least, most] = limits_of(scene.name(), estimator);
+    EXPECT_GE(c.share(), least) << scene.name() << ", " << estimator << ": true over stated " << c.ratio();
+    EXPECT_LE(c.share(), most) << scene.name() << ", " << estimator << ": true over stated " << c.ratio();
+    if (!has(estimator, "kernel")) all.add(c);
+    ::testing::Test::RecordProperty(estimator, std::to_string(c.share()));
+  }
+  EXPECT_GE(all.share(), 0.88) << scene.name();
+  EXPECT_LE(all.share(), 0.995) << scene.name();
 }
 
 class EveryScene : public ::testing::TestWithParam<std::size_t> {};
@@ -38,25 +57,20 @@ TEST_P(EveryScene, TwoStandardErrorsHoldTheTruth) {
   const bool common = s.name == "furnace" && s.scene.material[0].kd.x > 0.95f;
   CalibrationOptions options = CalibrationOptions::small();
   options.radiance = !common;
-  const CalibratedScene scene(s, options);
   const bool quick = s.scene.light[0].kind == Light::Kind::point || s.name == "emitting environment";
-  const std::uint64_t seeds = quick ? 64 : s.name == "furnace" ? 24 : 10;
-  CalibrationTable table;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) scene.measure(seed, table);
-  Calibration all;
-  for (const auto& [estimator, c] : table) {
-    if (c.exact_share() == 1) continue;  // there is no error
-    const auto [least, most] = limits_of(scene.name(), estimator);
-    EXPECT_GE(c.share(), least) << scene.name() << ", " << estimator << ": true over stated " << c.ratio();
-    EXPECT_LE(c.share(), most) << scene.name() << ", " << estimator << ": true over stated " << c.ratio();
-    if (!has(estimator, "kernel")) all.add(c);
-    RecordProperty(estimator, std::to_string(c.share()));
-  }
-  EXPECT_GE(all.share(), 0.88) << scene.name();
-  EXPECT_LE(all.share(), 0.995) << scene.name();
+  expect_calibrated({known_light(s), options}, quick ? 64 : s.name == "furnace" ? 24 : 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryScene, ::testing::Range<std::size_t>(0, 10));
+
+TEST(RealScene, TwoStandardErrorsHoldTheTruth) {
+  std::optional<KnownLight> known = sponza();
+  if (!known) GTEST_SKIP() << "the scene collection is not beside the project";
+  CalibrationOptions options = CalibrationOptions::small();
+  options.paths = 100'000, options.candidates = 0;  // all: nothing is to be read beyond its reach
+  options.points = 200, options.records = 40;
+  expect_calibrated({std::move(*known), options}, 2);
+}
 
 }  // namespace
 }  // namespace phos::test

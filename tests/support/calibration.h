@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +13,10 @@
 #include "cache/radiance_gather.h"
 #include "cache/sensors.h"
 #include "cache/two_level.h"
+#include "file/csv.h"
+#include "scene/load.h"
 #include "support/records.h"
+#include "support/run.h"
 
 namespace phos::test {
 
@@ -58,31 +64,106 @@ struct CalibrationOptions {
   }
 };
 
-/// Points that the scene's camera sees on surfaces that reflect and are lit; `truth` in lx.
-struct SeenPoints {
+/// Points on surfaces that reflect and are lit, with the irradiance there, lx, and how well that is known.
+struct KnownPoints {
   std::vector<SurfaceSample> at;
-  std::vector<double> truth;
+  std::vector<double> all, direct, all_error, direct_error;
+
+  void add(const SurfaceSample& point, double all_lx, double direct_lx, double all_stderr_lx = 0,
+           double direct_stderr_lx = 0) {
+    at.push_back(point), all.push_back(all_lx), direct.push_back(direct_lx);
+    all_error.push_back(all_stderr_lx), direct_error.push_back(direct_stderr_lx);
+  }
 };
+
+/// A scene, and what is known of its light.
+struct KnownLight {
+  std::string name;
+  Scene scene;
+  std::function<KnownPoints(const RayScene& rays, std::uint64_t seed, int most)> points;
+  double paths = 1;                   ///< times those asked for
+  Quantity quantity = Quantity::all;  ///< that records hold
+  bool interreflected = true;         ///< else all light is direct
+  bool even = false;                  ///< it comes alike from everywhere
+};
+
+/// Seen by the camera of a scene of known light.
+inline KnownLight known_light(const AnalyticScene& s) {
+  const Material& surface = s.scene.material[0];
+  const bool furnace = s.name == "furnace";
+  KnownLight known;
+  known.name = furnace ? s.name + " " + std::to_string(surface.kd.x).substr(0, 4) : s.name;
+  known.scene = s.scene;
+  known.paths = std::max(0.02, 1 - double(surface.kd.x));
+  known.interreflected = known.even = furnace;
+  const double emitted = std::numbers::pi * double(surface.emission.y);
+  known.points = [=, lx = s.irradiance_lx](const RayScene& rays, std::uint64_t seed, int most) {
+    KnownPoints seen;
+    for (std::uint64_t i = 0; seen.at.size() < static_cast<std::size_t>(most) && i < 100000; ++i) {
+      RandomStream random(seed, Stage::test, i);
+      const Camera::Ray ray = rays.scene().camera[0].ray(random.uniform2(), 1);
+      SurfacePoint point;
+      if (!trace(rays, {ray.origin, ray.direction}, point)) continue;
+      if (!(max_component(rays.scene().material[point.material].kd) > 0)) continue;
+      const double truth = lx(point.position, point.normal);
+      if (!(truth > 0)) continue;
+      seen.add({point.position, point.normal}, truth, furnace ? emitted : truth);
+    }
+    return seen;
+  };
+  return known;
+}
+
+/// Points of a table that the reference made of a real scene; each seed takes some of them.
+inline KnownLight known_light(const std::string& name, Scene scene, const std::string& table) {
+  const CsvTable rows = parse_csv(slurp(table), table);
+  KnownPoints every;
+  const auto number = [&](std::size_t row, const char* column) {
+    return rows.number(row, rows.column(column, table));
+  };
+  const auto vector = [&](std::size_t row, const char* x, const char* y, const char* z) {
+    return Vec3(number(row, x), number(row, y), number(row, z));
+  };
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    every.add({vector(i, "x", "y", "z"), vector(i, "nx", "ny", "nz")}, number(i, "E_lx"),
+              number(i, "direct_lx"), number(i, "stderr_lx"), number(i, "direct_stderr_lx"));
+  }
+  KnownLight known;
+  known.name = name, known.scene = std::move(scene);
+  known.quantity = Quantity::indirect;
+  known.points = [=](const RayScene&, std::uint64_t seed, int most) {
+    KnownPoints some;
+    const std::size_t n = every.at.size();
+    for (std::size_t k = 0; k < std::min(n, static_cast<std::size_t>(most)); ++k) {
+      const std::size_t i = (seed * static_cast<std::size_t>(most) + k) % n;
+      some.add(every.at[i], every.all[i], every.direct[i], every.all_error[i], every.direct_error[i]);
+    }
+    return some;
+  };
+  return known;
+}
+
+/// None where the scene collection is not beside the project.
+inline std::optional<KnownLight> sponza() {
+  const std::string model = PHOS_SOURCE "/../shared/scenes/sponza.glb";
+  if (!std::filesystem::exists(model)) return std::nullopt;
+  return known_light("Sponza", load_scene(model), PHOS_SOURCE "/data/golden/sponza-points.csv");
+}
 
 class CalibratedScene {
  public:
-  CalibratedScene(const AnalyticScene& scene, const CalibrationOptions& options)
-      : s_(scene), options_(options), rays_(s_.scene), lights_(s_.scene) {}
+  CalibratedScene(KnownLight known, const CalibrationOptions& options)
+      : known_(std::move(known)), options_(options), rays_(known_.scene), lights_(known_.scene) {}
 
-  const std::string name() const {
-    const float albedo = s_.scene.material[0].kd.x;
-    return s_.name == "furnace" ? s_.name + " " + std::to_string(albedo).substr(0, 4) : s_.name;
-  }
+  const std::string& name() const { return known_.name; }
 
   void measure(std::uint64_t seed, CalibrationTable& table) const {
-    const SeenPoints seen = points(seed);
-    const float albedo = s_.scene.material[0].kd.x;
-    const auto paths =
-        static_cast<std::int64_t>(static_cast<double>(options_.paths) * std::max(0.02, 1 - double(albedo)));
-    const Lit lit = light_up(s_.scene, paths, seed);
+    const KnownPoints seen = known_.points(rays_, seed, options_.points);
+    const auto paths = static_cast<std::int64_t>(static_cast<double>(options_.paths) * known_.paths);
+    const Lit lit = light_up(known_.scene, paths, seed);
     if (options_.photons) {
       for (const Estimate estimate : {Estimate::hull, Estimate::kernel}) {
-        RecordOptions options = all_light(s_.scene);
+        RecordOptions options = of_photons(known_.quantity);
         options.estimate = estimate;
         const RecordMaker maker(lit.photons, *lit.rays, options, seed);
         blended(estimate == Estimate::hull ? "hull" : "kernel", maker, lit, options, seen, seed, table);
@@ -90,46 +171,37 @@ class CalibratedScene {
     }
     if (options_.gathering) gather(lit, seen, seed, table);
     if (options_.sensors) sensors(lit, seen, seed, table);
-    if (options_.radiance && s_.name == "furnace") radiance(lit, seen, seed, table);
+    if (options_.radiance && known_.even) radiance(lit, seen, seed, table);
   }
 
  private:
-  SeenPoints points(std::uint64_t seed) const {
-    SeenPoints seen;
-    for (std::uint64_t i = 0; seen.at.size() < static_cast<std::size_t>(options_.points) && i < 100000; ++i) {
-      RandomStream random(seed, Stage::test, i);
-      const Camera::Ray ray = s_.scene.camera[0].ray(random.uniform2(), 1);
-      SurfacePoint point;
-      if (!trace(rays_, {ray.origin, ray.direction}, point)) continue;
-      if (!(max_component(s_.scene.material[point.material].kd) > 0)) continue;
-      const double truth = s_.irradiance_lx(point.position, point.normal);
-      if (!(truth > 0)) continue;
-      seen.at.push_back({point.position, point.normal}), seen.truth.push_back(truth);
-    }
-    return seen;
-  }
-  double direct_lx() const { return s_.irradiance_lx ? furnace_direct() : 0; }
-  double furnace_direct() const {
-    return s_.name == "furnace" ? std::numbers::pi * double(s_.scene.material[0].emission.y) : 0;
+  RecordOptions of_photons(Quantity quantity) const {
+    RecordOptions options;
+    options.paths = quantity;
+    options.resolve(known_.scene.bounds.diagonal_m());
+    return options;
   }
 
   /// Records at points, and what a cache of them says between them.
   void blended(const std::string& name, const Estimator& estimator, const Lit& lit,
-               const RecordOptions& options, const SeenPoints& seen, std::uint64_t seed,
-               CalibrationTable& table, double left_out = 0) const {
+               const RecordOptions& options, const KnownPoints& seen, std::uint64_t seed,
+               CalibrationTable& table) const {
+    const auto add = [&](const std::string& what, std::size_t i, const Rgb& lx, const Rgb& stated_lx) {
+      const double truth = seen.all[i] - (options.paths == Quantity::all ? 0 : seen.direct[i]);
+      table[name + what].add(double(lx.y), std::hypot(double(stated_lx.y), seen.all_error[i]), truth);
+    };
     const auto worker = estimator.make_worker();
     for (std::size_t i = 0; i < std::min(seen.at.size(), static_cast<std::size_t>(options_.records)); ++i) {
       const IrradianceRecord r =
           estimator.make({seen.at[i].position, seen.at[i].normal, kPointItems + i}, *worker).record;
-      table[name + " record"].add(double(r.irradiance.y), double(r.stderr_lx.y), seen.truth[i] - left_out);
+      add(" record", i, r.irradiance, r.stderr_lx);
     }
     const IrradianceCache cache = placed(estimator, lit, options, seed);
-    RecordTree tree(s_.scene.bounds, reading_accuracy(cache.accuracy));
+    RecordTree tree(known_.scene.bounds, reading_accuracy(cache.accuracy));
     for (const IrradianceRecord& r : cache.records) tree.insert(r);
     for (std::size_t i = 0; i < seen.at.size(); ++i) {
       const Interpolated e = tree.interpolate(seen.at[i].position, seen.at[i].normal);
-      if (e.weight > 0)
-        table[name + " blended"].add(double(e.irradiance.y), double(e.stderr_lx.y), seen.truth[i] - left_out);
+      if (e.weight > 0) add(" blended", i, e.irradiance, e.stderr_lx);
     }
   }
 
@@ -148,20 +220,19 @@ class CalibratedScene {
     RecordOptions options;
     options.estimate = Estimate::gather, options.paths = paths;
     options.rays = options_.rays;
-    options.resolve(s_.scene.bounds.diagonal_m());
+    options.resolve(known_.scene.bounds.diagonal_m());
     return options;
   }
 
-  void gather(const Lit& lit, const SeenPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
-    const RecordOptions options = gathered(Quantity::all);
+  void gather(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+    const RecordOptions options = gathered(known_.quantity);
     const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
     const GatherEstimator estimator(*lit.rays, lights_, coarse.source(), options, seed);
     blended("gather", estimator, lit, options, seen, seed, table);
   }
 
-  void sensors(const Lit& lit, const SeenPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
-    RecordOptions options = all_light(s_.scene);
-    options.paths = Quantity::indirect;
+  void sensors(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+    const RecordOptions options = of_photons(Quantity::indirect);
     const RecordMaker maker(lit.photons, *lit.rays, options, seed);
     SensorCaches caches({}, nullptr);
     caches.add(placed(maker, lit, options, seed), "cache");
@@ -174,26 +245,26 @@ class CalibratedScene {
     reading.direct_only = true;
     const auto direct = read_light(sensors, *lit.rays, lights_, caches, reading, report);
     for (std::size_t i = 0; i < seen.at.size(); ++i) {
-      // Without indirect light there is nothing to read in the cache: all is direct.
-      if (s_.name == "furnace")
-        table["sensor"].add(double(readings[i].illuminance_lx), double(readings[i].stderr_lx), seen.truth[i]);
-      const double truth = s_.name == "furnace" ? direct_lx() : seen.truth[i];
-      table["sensor direct"].add(double(direct[i].illuminance_lx), double(direct[i].stderr_lx), truth);
+      const auto add = [&](const char* what, const Reading& r, double truth, double error) {
+        table[what].add(double(r.illuminance_lx), std::hypot(double(r.stderr_lx), error), truth);
+      };
+      // Without indirect light there is nothing to read in the cache.
+      if (known_.interreflected) add("sensor", readings[i], seen.all[i], seen.all_error[i]);
+      add("sensor direct", direct[i], seen.direct[i], seen.direct_error[i]);
     }
   }
 
   /// Of even light L: what leaves by a lobe f is L times the integral of f, in harmonics f_00 L sqrt(2 pi).
-  void radiance(const Lit& lit, const SeenPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+  void radiance(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
     constexpr int kOrder = 5;
     const RecordOptions options = gathered(Quantity::indirect);
     const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
     const RadianceEstimator by_rays(*lit.rays, lights_, coarse.source(), options, kOrder,
                                     RadianceGradient::hybrid, seed);
-    RecordOptions by_hull = all_light(s_.scene);
-    by_hull.paths = Quantity::indirect;
+    const RecordOptions by_hull = of_photons(Quantity::indirect);
     const RadianceDensityEstimator by_photons(lit.photons, *lit.rays, by_hull, kOrder,
                                               RadianceGradient::analytic, seed);
-    const double indirect = seen.truth[0] - direct_lx();
+    const double indirect = seen.all[0] - seen.direct[0];
     for (const Estimator* estimator :
          {static_cast<const Estimator*>(&by_rays), static_cast<const Estimator*>(&by_photons)}) {
       const bool rays = estimator == &by_rays;
@@ -204,7 +275,7 @@ class CalibratedScene {
       const PlacementReport report =
           place_records(cache, *estimator, *lit.rays, rays ? options : by_hull, {},
                         photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);
-      RadianceTree tree(s_.scene.bounds, reading_accuracy(options.accuracy, 0.75), kOrder);
+      RadianceTree tree(known_.scene.bounds, reading_accuracy(options.accuracy, 0.75), kOrder);
       for (const RadianceRecord& r : report.radiance) tree.insert(r);
       RadianceTree::Worker memory;
       std::vector<float> lobe(3 * kOrder * kOrder, 0);
@@ -217,7 +288,7 @@ class CalibratedScene {
         const double truth = indirect / std::numbers::pi * double(lobe[0]) * std::sqrt(2 * std::numbers::pi);
         table[name + " through a lobe"].add(double(found.radiance.y), double(found.stderr_cd.y), truth);
       }
-      blended(name, *estimator, lit, rays ? options : by_hull, seen, seed, table, direct_lx());
+      blended(name, *estimator, lit, rays ? options : by_hull, seen, seed, table);
     }
   }
   static Vec3 sample_cosine(std::uint64_t seed, std::size_t i) {
@@ -238,7 +309,7 @@ class CalibratedScene {
       }
   }
 
-  AnalyticScene s_;
+  KnownLight known_;
   CalibrationOptions options_;
   RayScene rays_;
   Luminaires lights_;
