@@ -26,7 +26,8 @@ class Surroundings {
       : photons_(photons), rays_(rays), options_(resolved), seed_(seed) {}
 
   /// Distance of the surroundings, m, by photons and rays; infinity if there are none. Photons know the lit
-  /// ones, rays the dark ones too: the harmonic mean of both, or the one there is.
+  /// ones, rays the dark ones too: the harmonic mean of both, in which photons weigh less the fewer of those
+  /// looked for are near.
   float distance_m(const ZonePlace& place, std::uint64_t item, std::uint32_t left_out,
                    NearPhotons& near) const;
 
