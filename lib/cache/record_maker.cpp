@@ -10,8 +10,8 @@
 namespace phos {
 namespace {
 
-// A record reaches at least this part of the zone whose photons it has: nearer records would tell the same
-// tale.
+// A record reaches at least this part of the zone whose photons it has, as far as its surroundings let it:
+// nearer records would tell the same tale.
 constexpr float kReach = 0.75f;
 constexpr float kRounding = 2e-6f;  // of a coordinate: positions are floats that rays have found
 constexpr std::size_t kLeastClustered =
@@ -218,20 +218,22 @@ ComparedGradients RecordMaker::compared(const ZonePlace& place, const ZoneEstima
   return {analytic, analytic, analytic};
 }
 
-/// Irradiance at p with its error and gradients, and what they and the edges allow of the radius.
+/// Irradiance at p with its error and gradients, and what they and the edges allow of the radius. Without
+/// photons, but its own, it is known no better than by what one photon would have shown.
 void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& s,
                        IrradianceRecord& record) const {
   const auto a = static_cast<float>(options_.accuracy);
   const ZonePhotons& photons = s.gathered.zone;
+  const Rgb one_photon_lx = one_photon_lm_ / static_cast<float>(zone.area_m2);
   if (photons.size() == 0 || zone.kind == ZoneKind::dark) {
-    // What one photon would have shown: the dark is known no better.
-    record.stderr_lx = one_photon_lm_ / static_cast<float>(zone.area_m2);
+    record.stderr_lx = one_photon_lx;
     if (zone.kind == ZoneKind::dark) record.radius_m = std::min(record.radius_m, 0.5f * zone.edge_m / a);
     return;
   }
   record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
   move_to_centre(place, zone, zone_radius_m, s, record);
   record.stderr_lx *= path_error(photons.size());
+  if (!s.others) record.stderr_lx = glm::max(record.stderr_lx, one_photon_lx);
   record.shared = shared_of(noise_.spread(static_cast<double>(photons.size())));
   const ComparedGradients known = compared(place, zone, zone_radius_m, s);
   // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
@@ -273,6 +275,7 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   float narrow = surroundings_.zone_radius_m(place, s.near, distance);
   ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, at.photon, s)
                                                             : by_hull(place, narrow, at.photon, s);
+  s.others = s.gathered.zone.size() > 0;
   count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
   s.frame = place.frame, s.zone = zone;
   // It serves no point whose photons it has not seen: their light may be another's.

@@ -20,11 +20,11 @@ namespace phos {
 /// Records from photons, by hull or kernel. radius_m is the distance after the gradient and edge limits, not
 /// clamped.
 ///
-/// Of a photon that a record sits on counts a part. About a photon chosen at random, the others are as dense
-/// as everywhere (Palm, Slivnyak): there it must be left out. But a record serves a region, which gets one
-/// record however many photons fell into it; about one of a Poisson number of them with mean mu, that is not
-/// zero, mu / (1 - exp(-mu)) - 1 others are, and 1 - mu / (exp(mu) - 1) of the photon make it mu. With mu the
-/// candidates that the record covers that is 0 for a few candidates far apart, 1 for many.
+/// Of the photon that a record sits on, a part counts. About a photon chosen at random, the others are as
+/// dense as everywhere (Palm, Slivnyak): there it must be left out. But a record serves a region, which gets
+/// one record however many photons fell into it. Of a Poisson number of them with mean mu, one at least, any
+/// one has mu / (1 - exp(-mu)) - 1 others about it; with 1 - mu / (exp(mu) - 1) of itself they are mu. That
+/// part, mu being the candidates that the record covers, is 0 for few candidates far apart and 1 for many.
 ///
 /// The kernel is the classical estimate, for comparison: zone, gradients and limits of the radius are the
 /// hull's, but its photons are divided by the whole disc. It looks for no border, no shadow edge, no wall
@@ -38,6 +38,7 @@ class RecordMaker : public Estimator {
   struct Scratch : Worker {
     NearPhotons near;
     GatheredPhotons gathered;
+    bool others = false;  ///< are there photons in the zone but the record's own?
     DensityScratch density;
     Frame frame;              ///< of the last make()
     ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
