@@ -102,10 +102,8 @@ struct HitLight::Impl {
         seed(own_seed),
         bounces(options.gather_bounces),
         lamps(r, l) {
-    for (const Material& m : scene.material) {
-      const bool lobeless = (m.model == Model::phong || m.model == Model::ward) && !positive(m.ks);
-      surface.push_back({m.model == Model::lambert || lobeless, !m.base_colour.used(), m.kd});
-    }
+    for (const Material& m : scene.material)
+      surface.push_back({m.diffuse_alone(), !m.base_colour.used(), m.kd});
   }
 
   bool reads_cache(std::int64_t bounces_left) const {

@@ -71,7 +71,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const bool extended = lights_[i].extended();
     const float u0 = sequence.uniform();
-    const Vec2 shift = sequence.uniform2();
+    const std::uint32_t shift[2] = {sequence.bits(), sequence.bits()};
     if (out_of_sight(extent_[i], point)) continue;
     if (!environment && lights_[i].kind == Light::Kind::environment) continue;
     const int n = extended ? samples.count : 1;
@@ -81,8 +81,8 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       Illumination light;
       const int k = samples.first + s;
       const float u_triangle = (static_cast<float>(k) + u0) / static_cast<float>(samples.total);
-      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(k, shift),
-                              light))
+      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f),
+                              sobol_point(k, shift[0], shift[1]), light))
         continue;
       const float cosine = glm::dot(point.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
@@ -115,10 +115,10 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
   GlossLight sum;
   DVec3 all(0), square(0);
   const auto count_in = [&](const DVec3& value) { all += value, square += value * value; };
-  const Vec2 shift = sequence.uniform2();
+  const std::uint32_t shift[2] = {sequence.bits(), sequence.bits()};
   for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
-    if (!bsdf.sample_gloss(wo, r2_point(samples.first + s, shift), sample)) continue;
+    if (!bsdf.sample_gloss(wo, sobol_point(samples.first + s, shift[0], shift[1]), sample)) continue;
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) {

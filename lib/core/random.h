@@ -21,6 +21,7 @@ enum class Stage : std::uint32_t {
   specular = 7,
   reference = 8,
   pilot = 9,
+  edge_light = 10,
   test = 1000,
 };
 

@@ -72,4 +72,11 @@ Vec2 r2_point(int i, const Vec2& shift) {
   return p;
 }
 
+Vec2 sobol_point(int i, std::uint32_t shift_x, std::uint32_t shift_y) {
+  std::uint32_t x = shift_x, y = shift_y, bit = 1u << 31, column = 1u << 31;
+  for (auto rest = static_cast<std::uint32_t>(i); rest != 0; rest >>= 1, bit >>= 1, column ^= column >> 1)
+    if (rest & 1u) x ^= bit, y ^= column;
+  return Vec2(x >> 8, y >> 8) * 0x1p-24f;
+}
+
 }  // namespace phos

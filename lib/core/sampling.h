@@ -1,6 +1,8 @@
 // Warps from the unit square to directions and shapes. Directions are in a local frame with z up.
 #pragma once
 
+#include <cstdint>
+
 #include "core/vector.h"
 
 namespace phos {
@@ -23,5 +25,10 @@ Vec2 sample_triangle(const Vec2& u);
 /// Point i of the additive R2 sequence (Roberts 2018) that starts at `shift`, in [0,1)^2: low discrepancy in
 /// two dimensions, however many points there will be.
 Vec2 r2_point(int i, const Vec2& shift);
+/// Point i >= 0 of the first two dimensions of the Sobol' sequence, each with its digits shifted by 32 random
+/// bits, in [0,1)^2: the first 2^k points, and any later 2^k that begin at a multiple of it, have one in each
+/// elementary interval (a (0, 2)-sequence). Beside R2 where the same samples choose two things: there the two
+/// places do not go together.
+Vec2 sobol_point(int i, std::uint32_t shift_x, std::uint32_t shift_y);
 
 }  // namespace phos

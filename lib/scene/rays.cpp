@@ -66,6 +66,32 @@ float tree_units_per_m(const Scene& scene) {
   return std::ldexp(1.f, std::clamp(-std::ilogb(size_m), -126, 126));
 }
 
+constexpr std::size_t kPacket = 16;
+
+/// At most that many rays.
+void pack(std::span<const Ray> rays, float units_per_m, int (&valid)[kPacket], RTCRay16& packet) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    valid[i] = -1;
+    const Vec3 origin = units_per_m * ray.origin;
+    packet.org_x[i] = origin.x, packet.org_y[i] = origin.y, packet.org_z[i] = origin.z;
+    packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
+    packet.tnear[i] = units_per_m * ray.t_min_m, packet.tfar[i] = units_per_m * ray.t_max_m;
+    packet.time[i] = 0, packet.mask[i] = 0xffffffffu;
+    packet.id[i] = 0, packet.flags[i] = 0;
+  }
+  // Where the machine's packets are narrower, Embree takes no notice of `valid` but of a ray's interval.
+  std::fill(packet.tnear + rays.size(), packet.tnear + kPacket, 0.f);
+  std::fill(packet.tfar + rays.size(), packet.tfar + kPacket, -1.f);
+}
+
+RTCIntersectContext side_by_side() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
 RTCRayHit embree_ray(const Ray& ray, float units_per_m) {
   RTCRayHit query;
   const Vec3 origin = units_per_m * ray.origin;
@@ -255,31 +281,15 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
 }
 
 void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
-  constexpr std::size_t kPacket = 16;
   PHOS_CHECK(rays.size() == hits.size(), rays.size(), " rays, ", hits.size(), " hits");
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCIntersectContext context = side_by_side();
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     alignas(64) int valid[kPacket] = {};
     alignas(64) RTCRayHit16 packet;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Ray& ray = rays[first + i];
-      valid[i] = -1;
-      const Vec3 origin = impl_->units_per_m * ray.origin;
-      packet.ray.org_x[i] = origin.x, packet.ray.org_y[i] = origin.y, packet.ray.org_z[i] = origin.z;
-      packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y;
-      packet.ray.dir_z[i] = ray.direction.z;
-      packet.ray.tnear[i] = impl_->units_per_m * ray.t_min_m;
-      packet.ray.tfar[i] = impl_->units_per_m * ray.t_max_m;
-      packet.ray.time[i] = 0, packet.ray.mask[i] = 0xffffffffu;
-      packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
+    pack(rays.subspan(first, count), impl_->units_per_m, valid, packet.ray);
+    for (std::size_t i = 0; i < count; ++i)
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    // Where the machine's packets are narrower, Embree takes no notice of `valid` but of a ray's interval.
-    std::fill(packet.ray.tnear + count, packet.ray.tnear + kPacket, 0.f);
-    std::fill(packet.ray.tfar + count, packet.ray.tfar + kPacket, -1.f);
     const NoFloatTraps traps;  // Embree divides by zero components of directions
     rtcIntersect16(valid, impl_->tree, &context, &packet);
     for (std::size_t i = 0; i < count; ++i) {
@@ -288,6 +298,21 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
                          impl_->triangle(packet.hit.geomID[i], packet.hit.primID[i]), packet.hit.u[i],
                          packet.hit.v[i]};
     }
+  }
+}
+
+void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  PHOS_CHECK(rays.size() == blocked.size(), rays.size(), " rays, ", blocked.size(), " answers");
+  RTCIntersectContext context = side_by_side();
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    alignas(64) int valid[kPacket] = {};
+    alignas(64) RTCRay16 packet;
+    pack(rays.subspan(first, count), impl_->units_per_m, valid, packet);
+    const NoFloatTraps traps;  // Embree divides by zero components of directions
+    rtcOccluded16(valid, impl_->tree, &context, &packet);
+    for (std::size_t i = 0; i < count; ++i)
+      blocked[first + i] = packet.tfar[i] == -std::numeric_limits<float>::infinity();
   }
 }
 

@@ -89,6 +89,11 @@ struct Material {
   std::string spectrum;  ///< file that extras.phos.spectrum names; read where light is computed in bands
 
   bool emits() const { return max_component(emission) > 0; }
+  /// Is it Lambert's, without any other lobe?
+  bool diffuse_alone() const {
+    return model == Model::lambert ||
+           ((model == Model::phong || model == Model::ward) && !(max_component(ks) > 0));
+  }
   /// Does its reflection depend on where the tangent points?
   bool anisotropic() const {
     if (model == Model::metallic_roughness) return anisotropy > 0;

@@ -5,15 +5,16 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "core/sampling.h"
 #include "scene/lamp_form.h"
 #include "splat/same_surface.h"
 
 namespace phos {
 namespace {
 
-constexpr int kBlock = 4;           // pixels each way that share a set of rays
-constexpr int kReach = kBlock / 2;  // of a pixel's neighbours
+constexpr int kBlock = 4;               // pixels each way that share a set of rays
+constexpr int kReach = kBlock / 2;      // of a pixel's neighbours
+constexpr std::size_t kTile = 16;       // pixels each way whose rays are sent together
+constexpr std::size_t kMostRays = 256;  // of a lamp, told apart by their random numbers
 constexpr std::size_t kChunk = 1024;
 // Of the row or column at this distance: the outer two together count like one, so that the mean about a
 // pixel holds each part of the set once.
@@ -25,29 +26,6 @@ constexpr float kDoubt = 2;
 struct Receiver {
   Vec3 normal{0}, geometric_normal{0};
   float error_m = 0;
-};
-
-/// What a pixel's own rays to one lamp found.
-struct Sight {
-  float seen = 0,
-        sent = 0;   ///< sums of projected solid angles over density, of the rays that arrive and of all
-  Rgb light{0};     ///< lx: sum of what rays brought (lamps without closed form)
-  DVec3 light2{0};  ///< and of its squares
-  std::uint16_t rays = 0;
-};
-
-/// The same of several pixels, weighted.
-struct Finding {
-  float seen = 0, sent = 0, rays = 0, rays2 = 0;
-  Rgb light{0};
-  DVec3 light2{0};
-  void add(const Sight& s, float weight) {
-    seen += weight * s.seen, sent += weight * s.sent, light += weight * s.light;
-    light2 += static_cast<double>(weight) * s.light2;
-    rays += weight * static_cast<float>(s.rays), rays2 += weight * weight * static_cast<float>(s.rays);
-  }
-  float share() const { return seen / sent; }
-  float independent() const { return rays * rays / rays2; }
 };
 
 /// Bits: some ray of the pixel arrived, some did not.
@@ -83,23 +61,20 @@ class Interleaved {
     shared_.assign(pixels_, SharedLight());
     sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
     for (std::size_t lamp = 0; lamp < lights_.size(); ++lamp) {
+      std::fill(sight_.begin(), sight_.end(), Sight());
       if (!lights_[lamp].extended()) {
-        for_each([&](std::size_t i) { shared_[i].illuminance += from_point(lamp, i); });
+        send(lamp, 0, 1, [](std::size_t) { return true; });
+        for_each([&](std::size_t i) { shared_[i].illuminance += sight_[i].light; });
         continue;
       }
       const LampForm form(rays_.scene(), lights_[lamp]);
       const int first = pass * lamp_rays;
-      for_each([&](std::size_t i) {
-        sight_[i] = Sight();
-        send(lamp, i, first, 1, true);
-        found_[i] = state(sight_[i]);
-      });
+      send(lamp, first, 1, [](std::size_t) { return true; });
+      for_each([&](std::size_t i) { found_[i] = state(sight_[i]); });
       look_about();
-      if (lamp_rays > 1) {
-        for_each([&](std::size_t i) {
-          if (about_[i] == kMixed || !form.closed()) send(lamp, i, first + 1, lamp_rays - 1, false);
-        });
-      }
+      if (lamp_rays > 1)
+        send(lamp, first + 1, lamp_rays - 1,
+             [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
       for_each([&](std::size_t i) { add(form, i); });
     }
     return std::move(shared_);
@@ -134,49 +109,51 @@ class Interleaved {
     return p;
   }
 
-  bool visible(const SurfacePoint& p, const Illumination& light) const {
-    return glm::dot(p.geometric_normal, light.direction) > 0 && in_sight(rays_, p, light);
-  }
-
-  Rgb from_point(std::size_t lamp, std::size_t i) const {
-    const SurfacePoint p = point(i);
-    Illumination light;
-    if (!lights_.illuminate(lamp, p.position, 0, Vec2(0), light)) return Rgb(0);
-    const float cosine = glm::dot(p.normal, light.direction);
-    return cosine > 0 && visible(p, light) ? light.value * cosine : Rgb(0);
-  }
-
-  /// Rays first .. first + count - 1 of the pixel's part of its block's set.
-  void send(std::size_t lamp, std::size_t i, int first, int count, bool first_of_all) {
-    const SurfacePoint p = point(i);
-    const std::size_t x = i % width_, y = i / width_;
-    RandomStream random(seed_, Stage::direct_light, i);
-    random.start_bounce(static_cast<std::uint32_t>((lamp * 2 + (first_of_all ? 0 : 1)) & 0xffff));
-    Sight& sight = sight_[i];
-    sight.rays = static_cast<std::uint16_t>(sight.rays + count);
-    const bool by_u_alone = lights_.by_u_alone(lamp);
-    for (int s = first; s < first + count; ++s) {
-      const Stratum stratum(x, y, s);
-      const Vec2 jitter = random.uniform2();
-      Vec2 u = (Vec2(stratum.column, stratum.row) + jitter) / static_cast<float>(kBlock);
-      float u_triangle = 0;
-      if (!by_u_alone) {
-        u_triangle = (static_cast<float>(stratum.row * kBlock + stratum.column) + jitter.x) /
-                     static_cast<float>(kBlock * kBlock);
-        u = Vec2(random.uniform(), jitter.y);
+  /// Rays first .. first + count - 1 of each pixel's part of its block's set, of the pixels that want them.
+  /// Tile by tile, those of one stratum of the lamp together: such rays run side by side.
+  template <class Wanted>
+  void send(std::size_t lamp, int first, int count, const Wanted& wanted) {
+    const std::size_t height = pixels_ / width_;
+    parallel_for((height + kTile - 1) / kTile, 1, [&](std::size_t row) {
+      LampRays lamp_rays(rays_, lights_);
+      std::vector<SurfacePoint> points(kTile * kTile);
+      for (std::size_t x0 = 0, y0 = row * kTile; x0 < width_; x0 += kTile) {
+        const auto each = [&](const auto& visit) {
+          for (std::size_t k = 0; k < kTile * kTile; ++k) {
+            const auto [x, y] = in_tile(k);
+            const std::size_t i = (y0 + y) * width_ + x0 + x;
+            if (x0 + x < width_ && y0 + y < height && g_.covered(i) && wanted(i)) visit(k, i);
+          }
+        };
+        each([&](std::size_t k, std::size_t i) { points[k] = point(i); });
+        for (int s = first; s < first + count; ++s)
+          each([&](std::size_t k, std::size_t i) { aim(lamp, i, points[k], s, lamp_rays); });
+        lamp_rays.send();
       }
-      Illumination light;
-      if (!lights_.illuminate(lamp, p.position, std::min(u_triangle, 0x1.fffffep-1f),
-                              glm::min(u, Vec2(0x1.fffffep-1f)), light))
-        continue;
-      const float weight = glm::dot(p.normal, light.direction) / light.density;
-      if (!(weight > 0) || !std::isfinite(weight)) continue;
-      sight.sent += weight;
-      if (!visible(p, light)) continue;
-      sight.seen += weight;
-      const Rgb brought = light.value * weight;
-      sight.light += brought, sight.light2 += DVec3(brought) * DVec3(brought);
+    });
+  }
+
+  /// Pixel k of a tile in order of the strata, which those 4 apart share.
+  static std::pair<std::size_t, std::size_t> in_tile(std::size_t k) {
+    constexpr std::size_t kBlocks = kTile / kBlock;  // each way
+    const std::size_t stratum = k / (kBlocks * kBlocks), block = k % (kBlocks * kBlocks);
+    return {block % kBlocks * kBlock + stratum % kBlock, block / kBlocks * kBlock + stratum / kBlock};
+  }
+
+  void aim(std::size_t lamp, std::size_t i, const SurfacePoint& p, int s, LampRays& lamp_rays) {
+    RandomStream random(seed_, Stage::direct_light, i);
+    random.start_bounce(static_cast<std::uint32_t>(2 + lamp * kMostRays + static_cast<std::size_t>(s)) &
+                        0xffffu);
+    const Stratum stratum(i % width_, i / width_, s);
+    const Vec2 jitter = random.uniform2();
+    Vec2 u = (Vec2(stratum.column, stratum.row) + jitter) / static_cast<float>(kBlock);
+    float u_triangle = 0;
+    if (!lights_.by_u_alone(lamp)) {
+      u_triangle = (static_cast<float>(stratum.row * kBlock + stratum.column) + jitter.x) /
+                   static_cast<float>(kBlock * kBlock);
+      u = Vec2(random.uniform(), jitter.y);
     }
+    lamp_rays.aim(lamp, p, u_triangle, u, sight_[i]);
   }
 
   /// What the pixels within reach found, whatever their surface.
@@ -209,26 +186,15 @@ class Interleaved {
       return;
     }
     const auto [near, all] = found_about(i);
-    if (!form.closed()) {
-      const Rgb mean = all.light / all.rays;
-      shared_[i].illuminance += mean;
-      if (all.independent() > 1)
-        shared_[i].variance +=
-            glm::max(all.light2 / static_cast<double>(all.rays) - DVec3(mean) * DVec3(mean), DVec3(0)) /
-            static_cast<double>(all.independent() - 1);
-      return;
-    }
+    if (!form.closed()) return shared_[i].add_mean(all);
     if (!(all.seen > 0)) return;
     const Rgb whole = form.luminance() * unoccluded(form, i);
-    float share = all.share(), variance = share * (1 - share) / std::max(all.independent() - 1, 1.f);
-    const float variance_near = share * (1 - share) / std::max(near.independent() - 1, 1.f);
+    const float share = all.share(), variance_near = near.variance_of(share);
     const float change = near.sent > 0 ? near.share() - share : 0.f;
-    if (change * change > kDoubt * kDoubt * variance_near) {
-      share = near.share();
-      variance = variance_near;
-    }
-    shared_[i].illuminance += whole * share;
-    shared_[i].variance += DVec3(whole) * DVec3(whole) * static_cast<double>(variance);
+    if (change * change > kDoubt * kDoubt * variance_near)
+      shared_[i].add_share(whole, near.share(), variance_near);
+    else
+      shared_[i].add_share(whole, share, all.variance_of(share));
   }
 
   /// What the pixels about one found that show its surface: within one pixel, and within reach.
@@ -239,7 +205,7 @@ class Interleaved {
     for (int v = std::max(0, y - kReach); v <= std::min(g_.height - 1, y + kReach); ++v) {
       for (int u = std::max(0, x - kReach); u <= std::min(g_.width - 1, x + kReach); ++u) {
         const std::size_t j = static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u);
-        if (j != i && !same_surface(own, g_, j)) continue;
+        if (g_.hit[j].triangle != g_.hit[i].triangle && !same_surface(own, g_, j)) continue;
         all.add(sight_[j], kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
         if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) near.add(sight_[j], 1);
       }

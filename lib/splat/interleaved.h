@@ -5,14 +5,9 @@
 
 #include "scene/luminaires.h"
 #include "splat/gbuffer.h"
+#include "splat/lamp_rays.h"
 
 namespace phos {
-
-/// Illuminance of a diffuse visible surface, and the variance of that, lx and lx^2.
-struct SharedLight {
-  Rgb illuminance{0};
-  DVec3 variance{0};
-};
 
 /// Interleaved sampling (Keller and Heidrich 2001): the pixels of each 4 x 4 block send different rays of one
 /// low-discrepancy set towards a lamp with an area, and each pixel takes what the 25 about it that show its

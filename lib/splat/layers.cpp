@@ -20,6 +20,10 @@ void add_to(std::vector<T>& sums, std::size_t i, const T& value) {
   if (!sums.empty()) sums[i] += value;
 }
 
+Rgb times_of(int times, const Rgb& value) { return static_cast<float>(times) * value; }
+DVec3 times_of(int times, const DVec3& value) { return static_cast<double>(times) * value; }
+float times_of(int times, float value) { return static_cast<float>(times) * value; }
+
 bool black(std::span<const Rgb> values) {
   return std::all_of(values.begin(), values.end(), [](const Rgb& v) { return v == Rgb(0); });
 }
@@ -67,20 +71,21 @@ Layers::Layers(int width, int height, const LayerSet& wanted)
   make(Layer::depth, depth_);
 }
 
-void Layers::add(std::size_t i, const PixelSample& s) {
-  add_to(beauty_, i, s.beauty());
-  add_to(direct_, i, s.direct);
-  add_to(indirect_, i, s.indirect);
-  add_to(glossy_, i, s.glossy);
-  add_to(specular_, i, s.specular);
-  add_to(emission_, i, s.emission);
-  add_to(albedo_, i, s.albedo);
-  add_to(variance_, i, s.variance);
-  add_to(noisy_, i, DVec3(s.noisy));
-  add_to(noisy_square_, i, DVec3(s.noisy) * DVec3(s.noisy));
-  add_to(indirect_error_, i, s.indirect_error);
-  add_to(illuminance_, i, s.illuminance_lx);
-  add_to(weight_, i, s.weight);
+void Layers::add(std::size_t i, const PixelSample& s, int times) {
+  const auto add = [&](auto& sums, const auto& value) { add_to(sums, i, times_of(times, value)); };
+  add(beauty_, s.beauty());
+  add(direct_, s.direct);
+  add(indirect_, s.indirect);
+  add(glossy_, s.glossy);
+  add(specular_, s.specular);
+  add(emission_, s.emission);
+  add(albedo_, s.albedo);
+  add(variance_, s.variance);
+  add(noisy_, DVec3(s.noisy));
+  add(noisy_square_, DVec3(s.noisy) * DVec3(s.noisy));
+  add(indirect_error_, s.indirect_error);
+  add(illuminance_, s.illuminance_lx);
+  add(weight_, s.weight);
 }
 
 void Layers::set_surface(std::size_t i, const Vec3& position, const Vec3& normal, float depth_m) {
@@ -93,8 +98,9 @@ Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
   const auto n = static_cast<double>(samples);
   DVec3 variance = variance_[i] / (n * n);
   if (samples >= std::max(spread_from, 2)) {
+    // The spread has the noise of each sample's rays, but not of rays that samples share.
     const DVec3 mean = noisy_[i] / n;
-    variance = glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1);
+    variance = glm::max(variance, glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1));
   }
   const DVec3 shared = DVec3(indirect_error_[i]) / n;
   return Rgb(glm::sqrt(variance + shared * shared));

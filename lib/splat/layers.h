@@ -59,7 +59,8 @@ class Layers {
  public:
   Layers(int width, int height, const LayerSet& wanted);
 
-  void add(std::size_t pixel, const PixelSample& sample);
+  /// `times`: so many samples see the same.
+  void add(std::size_t pixel, const PixelSample& sample, int times = 1);
   /// What does not average: seen through the pixel's first sample.
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
   /// Divided by samples[pixel]. Pixels of more than one sample, and no fewer than `spread_from`, sent single

@@ -45,6 +45,12 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   return light;
 }
 
+PixelSample PixelShader::background(const Ray& ray) const {
+  PixelSample light;
+  light.emission = background_luminance(rays_.scene(), ray.direction);
+  return light;
+}
+
 void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
                              PixelSample& light, ShadingResult& result) const {
   Interpolated light_here = splat.found;

@@ -42,10 +42,12 @@ class PixelShader {
   /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a
   /// pixel's samples alone?
   bool single_rays(bool at_edge) const;
-  int lamp_rays_of_each() const { return rays_of_each(false, options_.light_samples); }
+  int lamp_rays_of_each(bool at_edge) const { return rays_of_each(at_edge, options_.light_samples); }
   /// `shared`: direct light of a diffuse surface that is known already; null: rays find it.
   PixelSample shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                     const Splat& splat, const SharedLight* shared, ShadingResult& result) const;
+  /// Where no surface is seen.
+  PixelSample background(const Ray& ray) const;
 
  private:
   void from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,

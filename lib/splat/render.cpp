@@ -12,11 +12,11 @@
 #include "file/atomic_file.h"
 #include "scene/load.h"
 #include "scene/picture.h"
+#include "splat/edge_shader.h"
 #include "splat/edges.h"
 #include "splat/gloss_splatter.h"
 #include "splat/interleaved.h"
 #include "splat/pixel_shader.h"
-#include "splat/same_surface.h"
 #include "splat/splatter.h"
 
 namespace phos {
@@ -24,10 +24,6 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
-/// Samples of an edge pixel that tell whether its neighbours' light is its own, and the difference, relative,
-/// from which on it is not.
-constexpr int kEdgeTests = 4;
-constexpr float kUneven = 0.25f;
 
 /// Adds its own life to an entry of a JSON object.
 class Stopwatch {
@@ -277,9 +273,10 @@ class Painter {
   /// Empty if direct light is had another way.
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
     if (options_.direct == DirectBy::interleaved) {
+      if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
       return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s),
-                               shader_.lamp_rays_of_each(), s, options_.seed);
+                               shader_.lamp_rays_of_each(false), s, options_.seed);
     }
     std::vector<SharedLight> shared;
     if (options_.direct != DirectBy::shadow_map) return shared;
@@ -293,10 +290,6 @@ class Painter {
   void find_edges(const GBuffer& gbuffer) {
     const Stopwatch watch(result_.seconds, "edges");
     edges_ = edge_pixels(rays_.scene(), gbuffer);
-    for (const std::uint32_t i : edges_) count_[i] = most_samples();
-  }
-  std::uint16_t most_samples() const {
-    return static_cast<std::uint16_t>(options_.pixel_samples + options_.edge_samples);
   }
 
   Ray ray_of(std::size_t pixel, const Vec2& where) const {
@@ -310,7 +303,7 @@ class Painter {
     const Vec2 where = subpixel_offset(s);
     run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
       const Ray ray = ray_of(i, where);
-      if (!gbuffer.covered(i)) return layers_.add(i, background(ray));
+      if (!gbuffer.covered(i)) return layers_.add(i, shader_.background(ray));
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
       PixelShader::Splat splat{splats.at(i)};
       if (!gloss.light.empty()) splat.gloss = gloss.light[i], splat.gloss_error = gloss.error[i];
@@ -319,57 +312,13 @@ class Painter {
     });
   }
 
-  /// Where no surface is seen.
-  PixelSample background(const Ray& ray) const {
-    PixelSample light;
-    light.emission = background_luminance(rays_.scene(), ray.direction);
-    return light;
-  }
-
-  /// Light is taken from a pixel about it that shows the same surface, where neighbours share theirs; else it
-  /// is looked up: splatting pays for whole pictures only.
   void shade_edges() {
     const Stopwatch watch(result_.seconds, "edges");
-    const auto more = static_cast<std::size_t>(options_.edge_samples);
+    const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, cached_direct(), pass_);
     run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
-      const std::size_t i = edges_[e];
-      std::vector<Ray> ray(more);
-      std::vector<Hit> hit(more);
-      for (std::size_t s = 0; s < more; ++s)
-        ray[s] = ray_of(i, subpixel_offset(samples_ + static_cast<int>(s)));
-      rays_.intersect(ray, hit);
-      bool even = !pass_.shared.empty();
-      for (std::size_t s = 0; s < more; ++s) {
-        const SampleOfPixel sample{i, static_cast<int>(s), true};
-        layers_.add(i, std::isfinite(hit[s].distance_m) ? shade_edge(sample, ray[s], hit[s], even, result)
-                                                        : background(ray[s]));
-      }
+      const std::uint32_t pixel = edges_[e];
+      count_[pixel] = static_cast<std::uint16_t>(samples_ + edge.shade(pixel, layers_, result));
     });
-  }
-
-  /// `even`: the light of neighbours has been right so far. The first samples of a pixel put it to the test:
-  /// shadows may be narrower than the pixel.
-  PixelSample shade_edge(const SampleOfPixel& sample, const Ray& ray, const Hit& hit, bool& even,
-                         ShadingResult& result) const {
-    const SurfacePoint point = rays_.surface(ray, hit);
-    std::optional<std::size_t> j;
-    if (!pass_.shared.empty())
-      j = nearest_alike({point.position, point.smooth_normal, static_cast<float>(point.material)},
-                        pass_.gbuffer, sample.pixel);
-    if (!j) return shader_.shade(sample, ray, point, {}, nullptr, result);
-    const SharedLight& shared = pass_.shared[*j];
-    const PixelShader::Splat splat{pass_.splats.at(*j)};
-    // Where a lamp is seen in part, its shadow may have an edge here.
-    const bool test = sample.index < kEdgeTests;
-    if (even && !test && shared.variance == DVec3(0))
-      return shader_.shade(sample, ray, point, splat, &shared, result);
-    const PixelSample light = shader_.shade(sample, ray, point, splat, nullptr, result);
-    if (test) {
-      const float expected = luminance(shared.illuminance * light.albedo) / kPi,
-                  found = luminance(light.direct);
-      if (std::fabs(found - expected) > kUneven * std::max(found, expected)) even = false;
-    }
-    return light;
   }
 
   /// body(i, result) for i < n; results are joined in order.
@@ -417,12 +366,7 @@ class Painter {
   Layers layers_;
   std::vector<std::uint16_t> count_;  // samples of each pixel
   std::vector<std::uint32_t> edges_;
-  struct Pass {
-    GBuffer gbuffer;
-    SplatBuffer splats;
-    std::vector<SharedLight> shared;  // of pixels that share their rays; else empty
-  };
-  Pass pass_;  // the latest
+  SeenPicture pass_;  // the latest
   ShadingResult total_;
   Progress progress_;
 };

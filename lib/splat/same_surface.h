@@ -15,16 +15,23 @@ struct SeenSurface {
   static SeenSurface of(const GBuffer& g, std::size_t i) {
     return {Vec3(g.position[i]), Vec3(g.normal[i]), g.albedo[i].w};
   }
+  static SeenSurface of(const SurfacePoint& p) {
+    return {p.position, p.smooth_normal, static_cast<float>(p.material)};
+  }
 };
 
-/// Same material, normals within 6 degrees, one plane: may what shines on pixel j stand for what shines on a?
-inline bool same_surface(const SeenSurface& a, const GBuffer& g, std::size_t j) {
+/// Same material, normals within 6 degrees, one plane: may what shines on b stand for what shines on a?
+inline bool same_surface(const SeenSurface& a, const SeenSurface& b) {
   constexpr float kSameDirection = 0.9945f;  // cos 6 degrees
-  constexpr float kSamePlane = 0.1f;         // sine of the slope at which j leaves the tangent plane of a
-  if (!g.covered(j) || g.albedo[j].w != a.material) return false;
-  if (glm::dot(a.normal, Vec3(g.normal[j])) < kSameDirection) return false;
-  const Vec3 way = Vec3(g.position[j]) - a.position;
+  constexpr float kSamePlane = 0.1f;         // sine of the slope at which b leaves the tangent plane of a
+  if (a.material != b.material || glm::dot(a.normal, b.normal) < kSameDirection) return false;
+  const Vec3 way = b.position - a.position;
   return std::fabs(glm::dot(a.normal, way)) <= kSamePlane * glm::length(way);
+}
+
+/// The same of what pixel j shows, if anything.
+inline bool same_surface(const SeenSurface& a, const GBuffer& g, std::size_t j) {
+  return g.covered(j) && same_surface(a, SeenSurface::of(g, j));
 }
 
 /// Of a pixel and the 8 about it, the one that shows the place nearest to `a` on the same surface.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "cache/shading.h"
+#include "scene/lamp_form.h"
+#include "scene/picture.h"
+#include "splat/edge_light.h"
 #include "splat/interleaved.h"
 #include "support/splat_scenes.h"
 
@@ -136,6 +139,128 @@ TEST(Interleaved, SharesWhatNeighboursFind) {
   }
   ASSERT_GT(n, 300);
   EXPECT_LT(std::sqrt(together / n), 0.4 * std::sqrt(own / n));
+}
+
+/// Samples of one pixel, all on one surface.
+struct PixelSamples {
+  PixelSamples(const RayScene& rays, const Camera& camera, std::size_t at, std::size_t count) : pixel(at) {
+    const PixelRays pixel_rays(camera, kSide, kSide);
+    for (std::size_t s = 0; s < count; ++s)
+      ray.push_back(pixel_rays(static_cast<int>(at % kSide), static_cast<int>(at / kSide),
+                               subpixel_offset(static_cast<int>(s))));
+    hit.resize(count);
+    rays.intersect(ray, hit);
+    for (std::uint32_t s = 0; s < count; ++s) all.push_back(s);
+  }
+  bool on_one_triangle() const {
+    return std::all_of(hit.begin(), hit.end(), [&](const Hit& h) {
+      return std::isfinite(h.distance_m) && h.triangle == hit[0].triangle;
+    });
+  }
+  EdgeSamples samples() const { return {pixel, 0, ray, hit, all}; }
+  std::size_t pixel;
+  std::vector<Ray> ray;
+  std::vector<Hit> hit;
+  std::vector<std::uint32_t> all;
+};
+
+/// What samples of a pixel find together is the closed form, lamps of all kinds.
+TEST_P(SceneWithDarkSurfaces, SamplesOfAPixelAgreeWithTheClosedForm) {
+  const AnalyticScene s = std::move(all_point_scenes()[GetParam()]);
+  const RayScene rays(s.scene);
+  const Luminaires lights(s.scene);
+  const GBuffer gbuffer = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, Vec2(0.5f));
+  const EdgeLight edge(rays, lights, 1, 1);
+  EdgeLight::Scratch scratch;
+  double pixels = 0, within = 0, sum = 0, truths = 0;
+  for (std::size_t i = 0; i < gbuffer.hit.size(); ++i) {
+    const PixelSamples pixel(rays, s.scene.camera[0], i, 16);
+    if (!gbuffer.covered(i) || !pixel.on_one_triangle()) continue;
+    if (!(max_component(s.scene.material_of(gbuffer.hit[i].triangle).kd) > 0)) continue;
+    double truth = 0;
+    for (const std::uint32_t k : pixel.all) {
+      const SurfacePoint p = rays.surface(pixel.ray[k], pixel.hit[k]);
+      truth += s.irradiance_lx(p.position, p.normal) / 16;
+    }
+    if (!(truth > 0)) continue;
+    const auto light = edge.light(pixel.samples(), nullptr, scratch);
+    ASSERT_TRUE(light);
+    const auto value = static_cast<double>(light->illuminance.y);
+    ++pixels, sum += value, truths += truth;
+    within += std::fabs(value - truth) <= 0.05 * truth + 3 * std::sqrt(light->variance.y / 16);
+  }
+  EXPECT_GT(pixels, 300) << s.name;
+  EXPECT_GT(within / pixels, 0.97) << s.name;
+  EXPECT_NEAR(sum / truths, 1, 0.01) << s.name;
+}
+
+/// A lamp above a floor, and a roof that hides half of it from the middle, turned about the vertical.
+Scene lit_floor(bool roofed, float turn = 0) {
+  Scene scene;
+  begin_instance(scene, "floor", add_lambert(scene, "floor", 0.5f, 0));
+  add_quad(scene, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0});
+  begin_instance(scene, "lamp", add_lambert(scene, "lamp", 0, 100));
+  add_quad(scene, {-1, 4, -1}, {2, 0, 0}, {0, 0, 2});
+  if (roofed) {
+    begin_instance(scene, "roof", add_lambert(scene, "roof", 0, 0));
+    const Vec3 along(std::sin(turn), 0, std::cos(turn)), away(along.z, 0, -along.x);
+    add_quad(scene, Vec3(0, 2, 0) - 9.f * along, 18.f * along, 9.f * away);
+  }
+  scene.camera.push_back(look_at({0, 1, 0}, {0, 0, 0}, {0, 0, 1}, 0.1f));
+  finalize(scene);
+  return scene;
+}
+/// Of its picture, the four pixels about the middle.
+constexpr std::size_t kMiddle = (kSide / 2 - 1) * kSide + kSide / 2 - 1;
+constexpr std::size_t kFour[] = {kMiddle, kMiddle + 1, kMiddle + kSide, kMiddle + kSide + 1};
+
+/// Half of a lamp is hidden: half of the light, by symmetry, with about the error that is stated.
+TEST(EdgeLight, HalfALampIsHalfTheLight) {
+  constexpr int kTurns = 40, kSeeds = 20, kSamples = 24;
+  double sum = 0, square = 0, stated = 0, half = 0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Scene scene = lit_floor(true, (static_cast<float>(turn) + 0.5f) / kTurns * kPi / 2);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    ASSERT_EQ(lights.size(), 1u);
+    half = 50 * static_cast<double>(LampForm(scene, lights[0]).projected_solid_angle({0, 0, 0}, {0, 1, 0}));
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const EdgeLight edge(rays, lights, 1, seed);
+      EdgeLight::Scratch scratch;
+      double mean = 0, variance = 0;  // of the four: that of the middle
+      for (const std::size_t i : kFour) {
+        const PixelSamples pixel(rays, scene.camera[0], i, kSamples);
+        const auto light = edge.light(pixel.samples(), nullptr, scratch);
+        ASSERT_TRUE(light);
+        mean += static_cast<double>(light->illuminance.y) / 4;
+        variance += light->variance.y / kSamples / 16;
+      }
+      sum += mean, square += (mean - half) * (mean - half), stated += variance;
+    }
+  }
+  const double n = kTurns * kSeeds, error = std::sqrt(square / n);
+  EXPECT_NEAR(sum / n, half, 4 * error / std::sqrt(n) + 0.001 * half);
+  EXPECT_LT(error, 0.05 * half);
+  EXPECT_GT(std::sqrt(stated / n), error);
+  EXPECT_LT(std::sqrt(stated / n), 2 * error);
+}
+
+/// Neighbours that are right are believed; those that know nothing of a shadow, or are in doubt, are not.
+TEST(EdgeLight, NeighboursArePutToTheTest) {
+  for (const bool roofed : {false, true}) {
+    const Scene scene = lit_floor(roofed);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    const float lux = 100 * LampForm(scene, lights[0]).projected_solid_angle({0, 0, 0}, {0, 1, 0});
+    const EdgeLight edge(rays, lights, 1, 1);
+    EdgeLight::Scratch scratch;
+    const PixelSamples pixel(rays, scene.camera[0], kMiddle, 24);
+    const SharedLight whole{Rgb(lux), DVec3(0)}, in_doubt{Rgb(lux), DVec3(1)}, dark;
+    EXPECT_EQ(edge.light(pixel.samples(), &whole, scratch).has_value(), roofed);
+    EXPECT_TRUE(edge.light(pixel.samples(), &in_doubt, scratch));
+    EXPECT_TRUE(edge.light(pixel.samples(), &dark, scratch));
+    EXPECT_TRUE(edge.light(pixel.samples(), nullptr, scratch));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Most, SceneWithDarkSurfaces, testing::Values(0, 1, 2, 8, 9));

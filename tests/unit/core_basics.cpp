@@ -132,6 +132,51 @@ TEST(Sampling, R2PointsKeepApartFromAnyStart) {
   }
 }
 
+TEST(Sampling, SobolPointsHaveOneInEachElementaryInterval) {
+  for (const std::uint32_t shift : {0u, 0x80000000u, 0xdeadbeefu}) {
+    for (int log_n = 0; log_n <= 8; ++log_n) {
+      const int n = 1 << log_n;
+      for (const int first : {0, n, 5 * n}) {
+        for (int wide = 0; wide <= log_n; ++wide) {
+          const int columns = 1 << wide, rows = n / columns;
+          std::vector<int> found(static_cast<std::size_t>(n));
+          for (int i = first; i < first + n; ++i) {
+            const Vec2 p = sobol_point(i, shift, ~shift);
+            ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << i;
+            ++found[static_cast<std::size_t>(static_cast<int>(p.y * static_cast<float>(rows)) * columns +
+                                             static_cast<int>(p.x * static_cast<float>(columns)))];
+          }
+          for (const int count : found) ASSERT_EQ(count, 1) << n << " from " << first << ", " << columns;
+        }
+      }
+    }
+  }
+}
+
+/// The share of samples that are in one half in both of two squares: where one sequence serves both, they go
+/// together, and more samples do not help.
+TEST(Sampling, SobolPointsDoNotGoWithR2Points) {
+  for (const int n : {16, 31, 64}) {
+    double one = 0, two = 0;
+    constexpr int kShifts = 1000;
+    for (std::uint64_t k = 0; k < kShifts; ++k) {
+      RandomStream random(1, Stage::test, k);
+      const Vec2 shift = random.uniform2();
+      const std::uint32_t shift_x = random.bits(), shift_y = random.bits();
+      int with_r2 = 0, with_sobol = 0;
+      for (int i = 0; i < n; ++i) {
+        if (r2_point(i, Vec2(0.5f)).x >= 0.5f) continue;
+        with_r2 += r2_point(i, shift).x < 0.5f;
+        with_sobol += sobol_point(i, shift_x, shift_y).x < 0.5f;
+      }
+      one += std::pow(with_r2 / static_cast<double>(n) - 0.25, 2);
+      two += std::pow(with_sobol / static_cast<double>(n) - 0.25, 2);
+    }
+    EXPECT_GT(std::sqrt(one / kShifts), 0.12) << n;
+    EXPECT_LT(std::sqrt(two / kShifts), 0.25 / std::sqrt(static_cast<double>(n))) << n;
+  }
+}
+
 TEST(Parallel, ReduceJoinsInOrderForAnyThreads) {
   std::vector<double> results;
   for (const int threads : {1, 2, 5}) {

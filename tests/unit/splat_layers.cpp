@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/random.h"
+#include "core/sampling.h"
 #include "splat/edges.h"
 #include "splat/layers.h"
 #include "splat/render.h"
@@ -164,6 +166,32 @@ TEST(GBuffer, PacketsAreSingleRays) {
         ASSERT_EQ(hit.v, g.hit[i].v);
       }
     }
+  }
+}
+
+/// So do those that ask whether anything is in the way, some of which have no way to go.
+TEST(Rays, PacketsAreOccludedAsSingleRaysAre) {
+  const Scene scene = cornell();
+  for (const char* isa : {"", "sse2"}) {
+    const RayScene rays(scene, {isa});
+    std::vector<Ray> ray;
+    for (std::uint64_t i = 0; i < 1003; ++i) {
+      RandomStream random(1, Stage::test, i);
+      const Vec3 size = scene.bounds.hi - scene.bounds.lo;
+      const Vec3 from = scene.bounds.lo + Vec3(random.uniform(), random.uniform(), random.uniform()) * size;
+      ray.push_back(
+          {from, sample_uniform_sphere(random.uniform2()), 0, i % 7 == 0 ? -1 : size.x * random.uniform()});
+    }
+    std::vector<std::uint8_t> blocked(ray.size(), 2);
+    rays.occluded(ray, blocked);
+    std::size_t free = 0;
+    for (std::size_t i = 0; i < ray.size(); ++i) {
+      ASSERT_EQ(blocked[i] == 1, ray[i].t_max_m > 0 && rays.occluded(ray[i])) << i;
+      ASSERT_LE(blocked[i], 1) << i;
+      free += ray[i].t_max_m > 0 && blocked[i] == 0;
+    }
+    EXPECT_GT(free, 100u);
+    EXPECT_LT(free, 800u);
   }
 }
 

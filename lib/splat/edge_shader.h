@@ -1,0 +1,81 @@
+// Shading of the further samples of pixels in which surfaces meet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "splat/edge_light.h"
+#include "splat/gbuffer.h"
+#include "splat/layers.h"
+#include "splat/pixel_shader.h"
+#include "splat/same_surface.h"
+#include "splat/splatter.h"
+
+namespace phos {
+
+/// What the first samples of all pixels see.
+struct SeenPicture {
+  GBuffer gbuffer;
+  SplatBuffer splats;
+  std::vector<SharedLight> shared;  ///< of pixels that share their shadow rays; else empty
+};
+
+/// Where pixels share their shadow rays: light is taken from a pixel about the sample that shows the same
+/// surface; else it is looked up: splatting pays for whole pictures only. Samples on one diffuse surface
+/// share theirs (EdgeLight); on a face that is the same all over they share everything. Where the first
+/// quarter of them see one surface, lit as the pixel about them is, the edge is a neighbour's, and the rest
+/// are not taken. Where pixels share nothing, each sample is shaded by itself, and all are. Const, usable
+/// from any thread; holds references.
+class EdgeShader {
+ public:
+  /// `cached_direct`: the cache holds direct light too.
+  EdgeShader(const RayScene& rays, const Luminaires& lights, const PixelRays& pixel_rays,
+             const PixelShader& shader, const RenderOptions& options, bool cached_direct,
+             const SeenPicture& picture);
+
+  /// Adds samples of the pixel; returns how many, at most options.edge_samples.
+  int shade(std::size_t pixel, Layers& layers, ShadingResult& result) const;
+
+ private:
+  struct Samples {
+    std::size_t pixel;
+    std::vector<Ray> ray;
+    std::vector<Hit> hit;
+    bool seen(std::size_t s) const { return std::isfinite(hit[s].distance_m); }
+  };
+  /// Those on one triangle.
+  struct Face {
+    std::uint32_t triangle, surface, first;  // first: sample
+    int samples;
+  };
+  /// Those that may stand for each other.
+  struct Surface {
+    SeenSurface seen;
+    SharedLight light;
+    const SharedLight* direct = nullptr;  // null: rays of each sample find it
+    bool as_about = false;                // what a pixel about them found is right for them
+    PixelShader::Splat splat;
+    std::vector<std::uint32_t> sample;
+  };
+  struct Sorted {
+    std::vector<Face> face;
+    std::vector<Surface> surface;
+  };
+  void trace(std::size_t count, Samples& samples) const;
+  Sorted sort(const Samples& samples) const;
+  void find_light(const Samples& samples, Sorted& sorted) const;
+  PixelSample sample(const Samples& samples, std::size_t s, const Surface* surface,
+                     ShadingResult& result) const;
+  void add(const Samples& samples, const Sorted& sorted, Layers& layers, ShadingResult& result) const;
+
+  const RayScene& rays_;
+  const PixelRays& pixel_rays_;
+  const PixelShader& shader_;
+  const RenderOptions& options_;
+  const SeenPicture& picture_;
+  bool cached_direct_;
+  EdgeLight edge_light_;
+  std::vector<bool> diffuse_, even_;  // per material: without another lobe; and the same all over
+};
+
+}  // namespace phos

@@ -1,0 +1,64 @@
+#include "splat/lamp_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cache/lamp_sampler.h"
+
+namespace phos {
+namespace {
+
+constexpr float kBelowOne = 0x1.fffffep-1f;
+
+}  // namespace
+
+void Finding::add(const Sight& s, float weight) {
+  seen += weight * s.seen, sent += weight * s.sent, light += weight * s.light;
+  light2 += static_cast<double>(weight) * s.light2;
+  rays += weight * static_cast<float>(s.rays), rays2 += weight * weight * static_cast<float>(s.rays);
+}
+
+void SharedLight::add_mean(const Finding& found) {
+  const Rgb mean = found.light / found.rays;
+  illuminance += mean;
+  if (found.independent() > 1)
+    variance +=
+        glm::max(found.light2 / static_cast<double>(found.rays) - DVec3(mean) * DVec3(mean), DVec3(0)) /
+        static_cast<double>(found.independent() - 1);
+}
+
+void SharedLight::add_share(const Rgb& whole_lx, float share, float variance_of_share) {
+  illuminance += whole_lx * share;
+  variance += DVec3(whole_lx) * DVec3(whole_lx) * static_cast<double>(variance_of_share);
+}
+
+void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight) {
+  ++sight.rays;
+  Illumination light;
+  if (!lights_.illuminate(lamp, p.position, std::min(u_triangle, kBelowOne), glm::min(u, Vec2(kBelowOne)),
+                          light))
+    return;
+  const float density = lights_[lamp].extended() ? light.density : 1;
+  const float weight = glm::dot(p.normal, light.direction) / density;
+  if (!(weight > 0) || !std::isfinite(weight)) return;
+  sight.sent += weight;
+  if (!(glm::dot(p.geometric_normal, light.direction) > 0)) return;
+  Ray ray = shadow_ray(p, light);
+  if (!(ray.t_max_m > 0)) ray.t_max_m = -1;  // too close to each other for anything to stand between
+  ray_.push_back(ray);
+  aim_.push_back({&sight, weight, light.value * weight});
+}
+
+void LampRays::send() {
+  blocked_.resize(ray_.size());
+  rays_.occluded(ray_, blocked_);
+  for (std::size_t k = 0; k < aim_.size(); ++k) {
+    if (blocked_[k]) continue;
+    const auto& [sight, weight, brings] = aim_[k];
+    sight->seen += weight;
+    sight->light += brings, sight->light2 += DVec3(brings) * DVec3(brings);
+  }
+  ray_.clear(), aim_.clear();
+}
+
+}  // namespace phos

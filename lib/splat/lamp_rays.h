@@ -1,0 +1,68 @@
+// Shadow rays towards lamps, sent together.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "scene/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// What rays to one lamp found.
+struct Sight {
+  float seen = 0,
+        sent = 0;   ///< sums of projected solid angles over density, of the rays that arrive and of all
+  Rgb light{0};     ///< lx: sum of what rays brought (lamps without closed form)
+  DVec3 light2{0};  ///< and of its squares
+  std::uint16_t rays = 0;
+};
+
+/// The same of several places, weighted.
+struct Finding {
+  float seen = 0, sent = 0, rays = 0, rays2 = 0;
+  Rgb light{0};
+  DVec3 light2{0};
+  void add(const Sight& s, float weight);
+  /// Of the lamp, as seen; there must be rays that were sent.
+  float share() const { return seen / sent; }
+  /// Variance of `share`, as these rays would find it.
+  float variance_of(float share) const { return share * (1 - share) / std::max(independent() - 1, 1.f); }
+  float independent() const { return rays * rays / rays2; }
+};
+
+/// Illuminance of a diffuse visible surface, and the variance of that, lx and lx^2.
+struct SharedLight {
+  Rgb illuminance{0};
+  DVec3 variance{0};
+  /// Adds a lamp without closed form: the mean of what the rays brought.
+  void add_mean(const Finding& found);
+  /// Adds one of which a share is seen, with its variance.
+  void add_share(const Rgb& whole_lx, float share, float variance);
+};
+
+/// Rays on their way. Holds references.
+class LampRays {
+ public:
+  LampRays(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {}
+  /// A ray from p to the place on a lamp that numbers in [0, 1] choose; to a lamp without an area, of which a
+  /// ray brings everything. `sight` must live until send().
+  void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight);
+  /// Tells each sight what its rays found.
+  void send();
+
+ private:
+  struct Aim {
+    Sight* sight;
+    float weight;
+    Rgb brings{0};
+  };
+  const RayScene& rays_;
+  const Luminaires& lights_;
+  std::vector<Ray> ray_;
+  std::vector<Aim> aim_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+}  // namespace phos
