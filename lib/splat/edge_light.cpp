@@ -12,7 +12,7 @@ namespace {
 /// Samples that tell whether their neighbours' light is their own, and the difference, relative, from which
 /// on it is not.
 constexpr std::size_t kTests = 8;
-constexpr float kUneven = 0.25f;
+constexpr float kUneven = 0.05f;
 constexpr std::uint32_t kShifts = 3;  // of a lamp's points
 /// Variance of the share that even points see of a lamp, over that of independent ones: 0.11 was measured for
 /// straight shadow edges; more is left for others.
