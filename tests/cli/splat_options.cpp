@@ -79,9 +79,14 @@ TEST_F(SplatOptions, EdgeSamplesAndLeakTest) {
   const std::string stats = slurp(path("e.json"));
   EXPECT_NE(stats.find("edge pixels"), std::string::npos);
   EXPECT_NE(stats.find("seconds.lookups with leak test"), std::string::npos);
-  ASSERT_EQ(splat({"--edge-samples", "3", "--threads", "1", "-o", path("one.exr"), "--quiet"}).code, 0);
-  ASSERT_EQ(splat({"--edge-samples", "3", "--threads", "3", "-o", path("three.exr"), "--quiet"}).code, 0);
-  EXPECT_EQ(slurp(path("one.exr")), slurp(path("three.exr")));
+  for (const char* direct : {"traced", "interleaved"}) {
+    for (const char* threads : {"1", "3"})
+      ASSERT_EQ(splat({"--edge-samples", "9", "--direct", direct, "--threads", threads, "-o",
+                       path(std::string(threads) + ".exr"), "--quiet"})
+                    .code,
+                0);
+    EXPECT_EQ(slurp(path("1.exr")), slurp(path("3.exr"))) << direct;
+  }
   const test::Run maps = splat({"--edge-samples", "3", "--direct", "shadow-map", "-o", path("no.exr")});
   EXPECT_EQ(maps.code, 2);
   EXPECT_TRUE(is_one_line(maps.err)) << maps.err;

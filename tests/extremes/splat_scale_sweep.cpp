@@ -84,6 +84,24 @@ TEST(ScaleSweep, IrradianceByRasterising) {
   });
 }
 
+/// Shadow rays that pixels share, and those that samples of a pixel share where surfaces meet.
+TEST(ScaleSweep, SharedDirectLight) {
+  sweep_scales("direct light that pixels share", rectangle_light_parallel(), [](const AnalyticScene& s) {
+    const RayScene rays(s.scene);
+    const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
+    RenderOptions render;
+    render.width = 32, render.height = 24, render.pixel_samples = 1, render.edge_samples = 12;
+    render.light_samples = 4, render.direct = DirectBy::interleaved, render.splat = SplatBy::cpu;
+    resolve(render, s.scene.camera[0], cache);
+    const Rendering picture = render_scene(rays, cache, render);
+    Figures f;
+    f.number(static_cast<double>(picture.edge_pixels));
+    for (const char* channel : {"direct.G", "stderr.G"})
+      for (const float v : picture.image.channel(channel)) f.add(static_cast<double>(v), -2, 1);
+    return f;
+  });
+}
+
 TEST(ScaleSweep, WholePipeline) {
   sweep_scales(
       "picture by the whole pipeline", uniform_box(0.5f),
