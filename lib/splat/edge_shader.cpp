@@ -8,9 +8,6 @@
 namespace phos {
 namespace {
 
-/// So many of the samples come first, this part of all.
-constexpr std::size_t kLeastFirst = 4, kFirstPart = 4;
-
 bool same_all_over(const Scene& scene, const Material& material) {
   const auto uses = material.texture_uses();
   return scene.colour.empty() &&
@@ -35,16 +32,15 @@ EdgeShader::EdgeShader(const RayScene& rays, const Luminaires& lights, const Pix
   }
 }
 
-/// Samples up to `count`.
-void EdgeShader::trace(std::size_t count, Samples& samples) const {
+EdgeShader::Samples EdgeShader::trace(std::size_t pixel) const {
   const auto width = static_cast<std::size_t>(picture_.gbuffer.width);
-  const int x = static_cast<int>(samples.pixel % width), y = static_cast<int>(samples.pixel / width);
-  const std::size_t before = samples.ray.size();
-  for (std::size_t s = before; s < count; ++s)
-    samples.ray.push_back(
-        pixel_rays_(x, y, subpixel_offset(static_cast<int>(options_.pixel_samples) + static_cast<int>(s))));
-  samples.hit.resize(count);
-  rays_.intersect(std::span(samples.ray).subspan(before), std::span(samples.hit).subspan(before));
+  const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+  const auto before = static_cast<int>(options_.pixel_samples);
+  Samples samples{pixel, {}, std::vector<Hit>(static_cast<std::size_t>(options_.edge_samples))};
+  for (int s = 0; s < static_cast<int>(options_.edge_samples); ++s)
+    samples.ray.push_back(pixel_rays_(x, y, subpixel_offset(before + s)));
+  rays_.intersect(samples.ray, samples.hit);
+  return samples;
 }
 
 /// By triangle and by surface, in order of their first.
@@ -60,7 +56,7 @@ EdgeShader::Sorted EdgeShader::sort(const Samples& samples) const {
       auto surface = std::find_if(sorted.surface.begin(), sorted.surface.end(),
                                   [&](const Surface& other) { return same_surface(other.seen, seen); });
       if (surface == sorted.surface.end())
-        surface = sorted.surface.insert(surface, Surface{seen, {}, nullptr, false, {}, {}});
+        surface = sorted.surface.insert(surface, Surface{seen, {}, nullptr, {}, {}});
       const auto number = static_cast<std::uint32_t>(surface - sorted.surface.begin());
       face = sorted.face.insert(face, {hit.triangle, number, s, 0});
     }
@@ -81,7 +77,6 @@ void EdgeShader::find_light(const Samples& samples, Sorted& sorted) const {
     if (cached_direct_) continue;
     const auto light = edge_light_.light({samples.pixel, k, samples.ray, samples.hit, surface.sample},
                                          about ? &picture_.shared[*about] : nullptr, scratch);
-    surface.as_about = !light;
     surface.light = light ? *light : picture_.shared[*about];
   }
 }
@@ -110,11 +105,9 @@ void EdgeShader::add(const Samples& samples, const Sorted& sorted, Layers& layer
   }
 }
 
-int EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result) const {
-  Samples samples{pixel, {}, {}};
-  const auto all = static_cast<std::size_t>(options_.edge_samples);
+void EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result) const {
+  const Samples samples = trace(pixel);
   const bool alone = picture_.shared.empty();
-  trace(all, samples);
   if (!alone) {
     Sorted sorted = sort(samples);
     find_light(samples, sorted);
@@ -126,7 +119,6 @@ int EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result) 
     else if (alone)
       layers.add(pixel, sample(samples, s, nullptr, result));
   }
-  return static_cast<int>(samples.hit.size());
 }
 
 }  // namespace phos

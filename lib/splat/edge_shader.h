@@ -22,10 +22,8 @@ struct SeenPicture {
 
 /// Where pixels share their shadow rays: light is taken from a pixel about the sample that shows the same
 /// surface; else it is looked up: splatting pays for whole pictures only. Samples on one diffuse surface
-/// share theirs (EdgeLight); on a face that is the same all over they share everything. Where the first
-/// quarter of them see one surface, lit as the pixel about them is, the edge is a neighbour's, and the rest
-/// are not taken. Where pixels share nothing, each sample is shaded by itself, and all are. Const, usable
-/// from any thread; holds references.
+/// share theirs (EdgeLight); on a face that is the same all over they share everything. Where pixels share
+/// nothing, each sample is shaded by itself. Const, usable from any thread; holds references.
 class EdgeShader {
  public:
   /// `cached_direct`: the cache holds direct light too.
@@ -33,8 +31,8 @@ class EdgeShader {
              const PixelShader& shader, const RenderOptions& options, bool cached_direct,
              const SeenPicture& picture);
 
-  /// Adds samples of the pixel; returns how many, at most options.edge_samples.
-  int shade(std::size_t pixel, Layers& layers, ShadingResult& result) const;
+  /// Adds options.edge_samples samples of the pixel.
+  void shade(std::size_t pixel, Layers& layers, ShadingResult& result) const;
 
  private:
   struct Samples {
@@ -53,7 +51,6 @@ class EdgeShader {
     SeenSurface seen;
     SharedLight light;
     const SharedLight* direct = nullptr;  // null: rays of each sample find it
-    bool as_about = false;                // what a pixel about them found is right for them
     PixelShader::Splat splat;
     std::vector<std::uint32_t> sample;
   };
@@ -61,7 +58,7 @@ class EdgeShader {
     std::vector<Face> face;
     std::vector<Surface> surface;
   };
-  void trace(std::size_t count, Samples& samples) const;
+  Samples trace(std::size_t pixel) const;
   Sorted sort(const Samples& samples) const;
   void find_light(const Samples& samples, Sorted& sorted) const;
   PixelSample sample(const Samples& samples, std::size_t s, const Surface* surface,

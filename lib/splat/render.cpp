@@ -290,6 +290,8 @@ class Painter {
   void find_edges(const GBuffer& gbuffer) {
     const Stopwatch watch(result_.seconds, "edges");
     edges_ = edge_pixels(rays_.scene(), gbuffer);
+    for (const std::uint32_t i : edges_)
+      count_[i] = static_cast<std::uint16_t>(options_.pixel_samples + options_.edge_samples);
   }
 
   Ray ray_of(std::size_t pixel, const Vec2& where) const {
@@ -315,10 +317,8 @@ class Painter {
   void shade_edges() {
     const Stopwatch watch(result_.seconds, "edges");
     const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, cached_direct(), pass_);
-    run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
-      const std::uint32_t pixel = edges_[e];
-      count_[pixel] = static_cast<std::uint16_t>(samples_ + edge.shade(pixel, layers_, result));
-    });
+    run(edges_.size(), 64,
+        [&](std::size_t e, ShadingResult& result) { edge.shade(edges_[e], layers_, result); });
   }
 
   /// body(i, result) for i < n; results are joined in order.
