@@ -33,7 +33,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     for (int k = 0; k < n; ++k) {
       Illumination light;
       const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
-      if (!lights.illuminate(i, receiver.position, std::min(u_triangle, 0x1.fffffep-1f), r2_point(k, shift2),
+      if (!lights.illuminate(i, receiver.position, std::min(u_triangle, kBelowOne), r2_point(k, shift2),
                              light))
         continue;
       const float cosine = glm::dot(receiver.normal, light.direction);

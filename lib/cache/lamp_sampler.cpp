@@ -14,7 +14,6 @@ namespace {
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
 constexpr double kMinimumShare = 0.1;
 constexpr long kMostSamples = 4;
-constexpr float kBelowOne = 0x1.fffffep-1f;
 /// An area light is near from this distance to its centre on, in radii of the sphere about it.
 constexpr float kNear = 1.5f;
 /// Share of rays near a lamp; and where there are too many lamps to tell.

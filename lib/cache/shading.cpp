@@ -81,7 +81,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       Illumination light;
       const int k = samples.first + s;
       const float u_triangle = (static_cast<float>(k) + u0) / static_cast<float>(samples.total);
-      if (!lights_.illuminate(i, point.position, std::min(u_triangle, 0x1.fffffep-1f),
+      if (!lights_.illuminate(i, point.position, std::min(u_triangle, kBelowOne),
                               sobol_point(k, shift[0], shift[1]), light))
         continue;
       const float cosine = glm::dot(point.normal, light.direction);

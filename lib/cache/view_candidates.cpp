@@ -6,6 +6,7 @@
 
 #include "cache/candidates.h"
 #include "core/parallel.h"
+#include "core/sampling.h"
 #include "scene/bsdf.h"
 #include "scene/picture.h"
 
@@ -74,8 +75,7 @@ class Sight {
           subpixel_offset(k) +
           st_ * Vec2(static_cast<float>(view_.width), static_cast<float>(view_.height)) * 0.618034f;
       BsdfSample sample;
-      if (!bsdf.sample_gloss(towards_eye, glm::min(u - glm::floor(u), Vec2(0x1.fffffep-1f)), sample))
-        continue;
+      if (!bsdf.sample_gloss(towards_eye, glm::min(u - glm::floor(u), Vec2(kBelowOne)), sample)) continue;
       look({point.leave(sample.direction), sample.direction}, travelled_m, Rgb(1), 1);
     }
   }

@@ -67,7 +67,7 @@ Vec2 r2_point(int i, const Vec2& shift) {
   Vec2 p;
   for (int d = 0; d < 2; ++d) {
     const double x = static_cast<double>(shift[d]) + i * kStep[d];
-    p[d] = std::min(static_cast<float>(x - std::floor(x)), 0x1.fffffep-1f);
+    p[d] = std::min(static_cast<float>(x - std::floor(x)), kBelowOne);
   }
   return p;
 }

@@ -7,6 +7,8 @@
 
 namespace phos {
 
+inline constexpr float kBelowOne = 0x1.fffffep-1f;  ///< the largest float below 1
+
 /// (cos, sin) of an angle of `turns` full turns, in [0, 1]; error below 1.5e-7. Polynomials: unlike the C
 /// library's, the same bits on every machine.
 Vec2 cos_sin(float turns);

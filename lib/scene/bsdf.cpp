@@ -311,7 +311,7 @@ bool Bsdf::sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const
   Vec3 i;
   if (u.x < broad) {
     i = sample_cosine_hemisphere({u.x / broad, u.y});
-  } else if (!sample_lobe(o, {std::min((u.x - broad) / (1 - broad), 0x1.fffffep-1f), u.y}, i)) {
+  } else if (!sample_lobe(o, {std::min((u.x - broad) / (1 - broad), kBelowOne), u.y}, i)) {
     return false;
   }
   const Vec3 wi = frame_.to_world(i);

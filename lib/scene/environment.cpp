@@ -24,7 +24,7 @@ int cell_of(double x, int count) { return static_cast<int>(std::fmin(std::fmax(x
 /// The cell of a cumulative distribution that holds u, and how far u is through it.
 template <class T>
 std::size_t invert(const T* cdf, std::size_t n, float u, double& fraction) {
-  const auto x = static_cast<T>(std::min(u, 0x1.fffffep-1f));
+  const auto x = static_cast<T>(std::min(u, kBelowOne));
   const auto i = std::min(static_cast<std::size_t>(std::upper_bound(cdf, cdf + n, x) - cdf), n - 1);
   const double below = i > 0 ? static_cast<double>(cdf[i - 1]) : 0;
   fraction = (static_cast<double>(x) - below) / (static_cast<double>(cdf[i]) - below);

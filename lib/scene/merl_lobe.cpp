@@ -37,7 +37,7 @@ bool MerlBrdf::sample_gloss(const Vec3& o, const Vec2& u, Vec3& i) const {
     i = sample_cosine_hemisphere({u.x / broad_share_, u.y});
     return i.z > 0;
   }
-  const float rest = std::min((u.x - broad_share_) / (1 - broad_share_), 0x1.fffffep-1f);
+  const float rest = std::min((u.x - broad_share_) / (1 - broad_share_), kBelowOne);
   return reflect_visible({alpha_, alpha_}, o, {rest, u.y}, i);
 }
 

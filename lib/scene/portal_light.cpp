@@ -79,12 +79,12 @@ PortalLight::Chances PortalLight::chances(const Vec3& from) const {
 std::size_t PortalLight::choose(const Chances& c, float u, float& rest) {
   float beyond = u * c.portals;
   std::size_t last = 0;
-  rest = 0x1.fffffep-1f;
+  rest = kBelowOne;
   for (std::size_t k = 0; k < c.promise.size(); ++k) {
     if (!(c.promise[k] > 0)) continue;
     last = k;
     if (beyond < c.promise[k]) {
-      rest = std::min(beyond / c.promise[k], 0x1.fffffep-1f);
+      rest = std::min(beyond / c.promise[k], kBelowOne);
       break;
     }
     beyond -= c.promise[k];
@@ -144,12 +144,12 @@ Environment::Sample PortalLight::sample(const Vec3& from, const Vec2& u) const {
   if (!(c.portals > 0)) return light_->sample(u);
   float y = u.y;
   if (y < c.sun) return sample_of(from, light_->sample_sun({u.x, y / c.sun}), c, nullptr);
-  y = std::min((y - c.sun) / (1 - c.sun), 0x1.fffffep-1f);
+  y = std::min((y - c.sun) / (1 - c.sun), kBelowOne);
   if (y < c.stray) {
     const Environment::Sample any = light_->sample({u.x, y / c.stray});
     return any.density > 0 ? sample_of(from, any.direction, c, nullptr) : any;
   }
-  y = std::min((y - c.stray) / (1 - c.stray), 0x1.fffffep-1f);
+  y = std::min((y - c.stray) / (1 - c.stray), kBelowOne);
   float rest = 0;
   const Piece* piece = &piece_[choose(c, y, rest)];
   const Portal& portal = piece->portal;

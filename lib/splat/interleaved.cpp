@@ -14,7 +14,7 @@ namespace {
 constexpr int kBlock = 4;               // pixels each way that share a set of rays
 constexpr int kReach = kBlock / 2;      // of a pixel's neighbours
 constexpr std::size_t kTile = 16;       // pixels each way whose rays are sent together
-constexpr std::size_t kMostRays = 256;  // of a lamp, told apart by their random numbers
+constexpr std::size_t kMostRays = 256;  // of a lamp; further ones have the random numbers of the next lamp
 constexpr std::size_t kChunk = 1024;
 // Of the row or column at this distance: the outer two together count like one, so that the mean about a
 // pixel holds each part of the set once.

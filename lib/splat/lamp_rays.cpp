@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "cache/lamp_sampler.h"
+#include "core/sampling.h"
 
 namespace phos {
 namespace {
 
-constexpr float kBelowOne = 0x1.fffffep-1f;
+constexpr std::size_t kMost = 8192;  // rays on their way at once
 
 }  // namespace
 
@@ -47,6 +48,7 @@ void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, co
   if (!(ray.t_max_m > 0)) ray.t_max_m = -1;  // too close to each other for anything to stand between
   ray_.push_back(ray);
   aim_.push_back({&sight, weight, light.value * weight});
+  if (ray_.size() == kMost) send();
 }
 
 void LampRays::send() {

@@ -16,7 +16,7 @@ struct Sight {
         sent = 0;   ///< sums of projected solid angles over density, of the rays that arrive and of all
   Rgb light{0};     ///< lx: sum of what rays brought (lamps without closed form)
   DVec3 light2{0};  ///< and of its squares
-  std::uint16_t rays = 0;
+  std::uint32_t rays = 0;
 };
 
 /// The same of several places, weighted.
@@ -47,9 +47,9 @@ class LampRays {
  public:
   LampRays(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {}
   /// A ray from p to the place on a lamp that numbers in [0, 1] choose; to a lamp without an area, of which a
-  /// ray brings everything. `sight` must live until send().
+  /// ray brings everything. `sight` must live until send(); where rays are many, some are sent before.
   void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight);
-  /// Tells each sight what its rays found.
+  /// Tells each sight what the rest of its rays found.
   void send();
 
  private:

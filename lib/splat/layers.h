@@ -59,12 +59,13 @@ class Layers {
  public:
   Layers(int width, int height, const LayerSet& wanted);
 
-  /// `times`: so many samples see the same.
+  /// A sample, or as many that see the same as `times` tells.
   void add(std::size_t pixel, const PixelSample& sample, int times = 1);
   /// What does not average: seen through the pixel's first sample.
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
   /// Divided by samples[pixel]. Pixels of more than one sample, and no fewer than `spread_from`, sent single
-  /// rays, so that their noise shows in the spread of their samples alone.
+  /// rays, whose noise shows in the spread of their samples alone, or rays that samples share, whose noise
+  /// does not: the larger is stated.
   Image image(std::span<const std::uint16_t> samples, int spread_from) const;
 
  private:

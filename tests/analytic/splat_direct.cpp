@@ -245,6 +245,28 @@ TEST(EdgeLight, HalfALampIsHalfTheLight) {
   EXPECT_LT(std::sqrt(stated / n), 2 * error);
 }
 
+/// In half shadow, as many rays as the option takes, of which only some are on their way at once.
+TEST(Interleaved, AnyNumberOfRays) {
+  const Scene scene = lit_floor(true);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const double half =
+      50 * static_cast<double>(LampForm(scene, lights[0]).projected_solid_angle({0, 0, 0}, {0, 1, 0}));
+  constexpr int kFew = 6;
+  const GBuffer gbuffer = trace_gbuffer(rays, scene.camera[0], kFew, kFew, Vec2(0.5f));
+  for (const int count : {255, 65535, 65536}) {
+    const auto light = interleaved_light(rays, lights, gbuffer, PixelRays(scene.camera[0], kFew, kFew),
+                                         Vec2(0.5f), count, 0, 1);
+    double mean = 0;
+    for (const SharedLight& l : light) {
+      mean += static_cast<double>(l.illuminance.y) / kFew / kFew;
+      EXPECT_GT(l.variance.y, 0) << count;
+      EXPECT_LT(std::sqrt(l.variance.y), half / std::sqrt(static_cast<double>(count))) << count;
+    }
+    EXPECT_NEAR(mean, half, 0.01 * half) << count;
+  }
+}
+
 /// Neighbours that are right are believed; those that know nothing of a shadow, or are in doubt, are not.
 TEST(EdgeLight, NeighboursArePutToTheTest) {
   for (const bool roofed : {false, true}) {
