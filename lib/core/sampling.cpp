@@ -79,4 +79,9 @@ Vec2 sobol_point(int i, std::uint32_t shift_x, std::uint32_t shift_y) {
   return Vec2(x >> 8, y >> 8) * 0x1p-24f;
 }
 
+float golden_point(int i, std::uint32_t shift) {
+  constexpr std::uint32_t kGolden = 0x9e3779b9u;  // 2^32 / golden ratio
+  return static_cast<float>((shift + static_cast<std::uint32_t>(i) * kGolden) >> 8) * 0x1p-24f;
+}
+
 }  // namespace phos

@@ -32,5 +32,8 @@ Vec2 r2_point(int i, const Vec2& shift);
 /// elementary interval (a (0, 2)-sequence). Beside R2 where the same samples choose two things: there the two
 /// places do not go together.
 Vec2 sobol_point(int i, std::uint32_t shift_x, std::uint32_t shift_y);
+/// Point i >= 0 of the additive sequence of the golden ratio that starts at `shift` / 2^32, in [0,1): low
+/// discrepancy in one dimension.
+float golden_point(int i, std::uint32_t shift);
 
 }  // namespace phos

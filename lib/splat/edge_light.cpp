@@ -27,8 +27,6 @@ EdgeLight::EdgeLight(const RayScene& rays, const Luminaires& lights, int rays_ea
 
 /// Rays from places begin .. end - 1 of the samples to all lamps.
 void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& s) const {
-  // Of the golden ratio: even over the triangles of a lamp, however many rays there will be.
-  constexpr std::uint32_t kGolden = 0x9e3779b9u;
   LampRays lamp_rays(rays_, lights_);
   for (std::size_t place = begin; place < end; ++place) {
     const std::uint32_t i = samples.sample[place];
@@ -40,9 +38,7 @@ void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t 
       const int count = lights_[lamp].extended() ? rays_each_ : 1;
       for (int r = 0; r < count; ++r) {
         const int k = static_cast<int>(place) * count + r;
-        const std::uint32_t turn = shift[2] + static_cast<std::uint32_t>(k) * kGolden;
-        lamp_rays.aim(lamp, p, static_cast<float>(turn >> 8) * 0x1p-24f, sobol_point(k, shift[0], shift[1]),
-                      s.sight[lamp]);
+        lamp_rays.aim(lamp, p, golden_point(k, shift[2]), sobol_point(k, shift[0], shift[1]), s.sight[lamp]);
       }
     }
   }

@@ -1,25 +1,34 @@
 #include "splat/interleaved.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "core/sampling.h"
 #include "scene/lamp_form.h"
 #include "splat/same_surface.h"
 
 namespace phos {
 namespace {
 
-constexpr int kBlock = 4;               // pixels each way that share a set of rays
-constexpr int kReach = kBlock / 2;      // of a pixel's neighbours
-constexpr std::size_t kTile = 16;       // pixels each way whose rays are sent together
-constexpr std::size_t kMostRays = 256;  // of a lamp; further ones have the random numbers of the next lamp
+constexpr int kBlock = 4;           // pixels each way that share a set of rays
+constexpr int kReach = kBlock / 2;  // of a pixel's neighbours
+constexpr std::size_t kTile = 16;   // pixels each way whose rays are sent together
 constexpr std::size_t kChunk = 1024;
 // Of the row or column at this distance: the outer two together count like one, so that the mean about a
 // pixel holds each part of the set once.
 constexpr float kShare[kReach + 1] = {1, 1, 0.5f};
-/// Standard errors at which what is nearest is believed against what is all about: a shadow's edge.
+/// Rays of a pixel to a lamp, all passes counted, from which on those of the pixels next to it do, without
+/// the others about it, and from which on its own alone do: the more, the less is blurred. Of a lamp without
+/// a closed form, whose noise is everywhere, so many times as many.
+constexpr int kNextDo = 16, kOwnDo = 512, kNoisy = 8;
+/// One in so many, and at least one, shows where a shadow's edge may be.
+constexpr int kPerTest = 16;
+/// Of one pass, that alone tell a share of a lamp.
+constexpr int kTelling = 16;
+/// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
 constexpr float kDoubt = 2;
 
 /// What a shadow ray leaves from.
@@ -28,35 +37,61 @@ struct Receiver {
   float error_m = 0;
 };
 
+/// How far about a pixel.
+enum Reach : std::size_t { kOwn, kNext, kAll, kReaches };
+
 /// Bits: some ray of the pixel arrived, some did not.
 enum : std::uint8_t { kNothing = 0, kSeen = 1, kBlocked = 2, kMixed = 3 };
 
-/// Strata of a lamp, 4 x 4, of ray `s` of the pixel at (x, y) of a picture: the pixels of any 4 x 4 meet each
-/// stratum once with each of their rays, those of any 2 x 2 a quarter each, and so do the first 4 rays of a
-/// pixel.
+/// Of a lamp, 4 x 4, where the first ray of the pixel at (x, y) of a picture goes: the pixels of any 4 x 4
+/// meet each once, those of any 2 x 2 a quarter each.
 struct Stratum {
-  Stratum(std::size_t x, std::size_t y, int s)
-      : column(corner(x, x >> 1) ^ corner(bit(s, 0), bit(s, 2))),
-        row(corner(y, y >> 1) ^ corner(bit(s, 0) ^ bit(s, 1), bit(s, 2) ^ bit(s, 3))) {}
-  static std::size_t bit(int s, int i) { return static_cast<std::size_t>(s >> i & 1); }
+  Stratum(std::size_t x, std::size_t y) : column(corner(x)), row(corner(y)) {}
   /// Of 0 .. 3: the half, and which part of it.
-  static unsigned corner(std::size_t half, std::size_t part) {
-    return static_cast<unsigned>((half & 1) << 1 | (part & 1));
+  static std::uint32_t corner(std::size_t at) {
+    return static_cast<std::uint32_t>((at & 1) << 1 | (at >> 1 & 1));
   }
-  unsigned column, row;
+  std::uint32_t column, row;
+};
+
+/// Points on a lamp of the rays of one pixel: Sobol' points, so that the more there are, the finer they cover
+/// it, with their digits shifted such that each ray of the pixels of a 4 x 4 block, too, meets each stratum
+/// once.
+class LampPoints {
+ public:
+  LampPoints() = default;
+  LampPoints(const Stratum& stratum, bool by_u_alone, RandomStream& random) : by_u_alone_(by_u_alone) {
+    const std::uint32_t first =
+        by_u_alone ? stratum.column << 30 : (stratum.row * kBlock + stratum.column) << 28;
+    shift_[0] = first | random.bits() >> (by_u_alone ? 2 : 4);
+    shift_[1] = by_u_alone ? stratum.row << 30 | random.bits() >> 2 : random.bits();
+    turn_ = random.bits();
+  }
+  /// u_triangle and u of ray s.
+  std::pair<float, Vec2> at(int s) const {
+    const Vec2 p = sobol_point(s, shift_[0], shift_[1]);
+    if (by_u_alone_) return {0.f, p};
+    return {p.x, {golden_point(s, turn_), p.y}};
+  }
+
+ private:
+  bool by_u_alone_ = true;
+  std::uint32_t shift_[2]{}, turn_ = 0;
 };
 
 class Interleaved {
  public:
-  Interleaved(const RayScene& rays, const Luminaires& lights, const GBuffer& gbuffer, std::uint64_t seed)
+  Interleaved(const RayScene& rays, const Luminaires& lights, const GBuffer& gbuffer, const RayShare& share,
+              std::uint64_t seed)
       : rays_(rays),
         lights_(lights),
         g_(gbuffer),
+        share_(share),
         width_(static_cast<std::size_t>(gbuffer.width)),
         pixels_(gbuffer.hit.size()),
         seed_(seed) {}
 
-  std::vector<SharedLight> light(const PixelRays& pixel_rays, const Vec2& subpixel, int lamp_rays, int pass) {
+  std::vector<SharedLight> light(const PixelRays& pixel_rays, const Vec2& subpixel) {
     find_receivers(pixel_rays, subpixel);
     shared_.assign(pixels_, SharedLight());
     sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
@@ -68,12 +103,12 @@ class Interleaved {
         continue;
       }
       const LampForm form(rays_.scene(), lights_[lamp]);
-      const int first = pass * lamp_rays;
-      send(lamp, first, 1, [](std::size_t) { return true; });
+      const int first = share_.pass * share_.rays, tests = std::max(1, share_.rays / kPerTest);
+      send(lamp, first, tests, [](std::size_t) { return true; });
       for_each([&](std::size_t i) { found_[i] = state(sight_[i]); });
       look_about();
-      if (lamp_rays > 1)
-        send(lamp, first + 1, lamp_rays - 1,
+      if (share_.rays > tests)
+        send(lamp, first + tests, share_.rays - tests,
              [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
       for_each([&](std::size_t i) { add(form, i); });
     }
@@ -81,6 +116,11 @@ class Interleaved {
   }
 
  private:
+  std::size_t reach(const LampForm& form) const {
+    const std::int64_t rays = std::int64_t{share_.rays} * share_.passes / (form.closed() ? 1 : kNoisy);
+    return rays >= kOwnDo && share_.rays >= kTelling ? kOwn : rays >= kNextDo ? kNext : kAll;
+  }
+
   static std::uint8_t state(const Sight& s) {
     return static_cast<std::uint8_t>((s.seen > 0 ? kSeen : 0) | (s.sent > s.seen ? kBlocked : 0));
   }
@@ -116,7 +156,8 @@ class Interleaved {
     const std::size_t height = pixels_ / width_;
     parallel_for((height + kTile - 1) / kTile, 1, [&](std::size_t row) {
       LampRays lamp_rays(rays_, lights_);
-      std::vector<SurfacePoint> points(kTile * kTile);
+      std::vector<SurfacePoint> from(kTile * kTile);
+      std::vector<LampPoints> to(kTile * kTile);
       for (std::size_t x0 = 0, y0 = row * kTile; x0 < width_; x0 += kTile) {
         const auto each = [&](const auto& visit) {
           for (std::size_t k = 0; k < kTile * kTile; ++k) {
@@ -125,9 +166,12 @@ class Interleaved {
             if (x0 + x < width_ && y0 + y < height && g_.covered(i) && wanted(i)) visit(k, i);
           }
         };
-        each([&](std::size_t k, std::size_t i) { points[k] = point(i); });
+        each([&](std::size_t k, std::size_t i) { from[k] = point(i), to[k] = lamp_points(lamp, i); });
         for (int s = first; s < first + count; ++s)
-          each([&](std::size_t k, std::size_t i) { aim(lamp, i, points[k], s, lamp_rays); });
+          each([&](std::size_t k, std::size_t i) {
+            const auto [u_triangle, u] = to[k].at(s);
+            lamp_rays.aim(lamp, from[k], u_triangle, u, sight_[i]);
+          });
         lamp_rays.send();
       }
     });
@@ -140,20 +184,10 @@ class Interleaved {
     return {block % kBlocks * kBlock + stratum % kBlock, block / kBlocks * kBlock + stratum / kBlock};
   }
 
-  void aim(std::size_t lamp, std::size_t i, const SurfacePoint& p, int s, LampRays& lamp_rays) {
+  LampPoints lamp_points(std::size_t lamp, std::size_t i) const {
     RandomStream random(seed_, Stage::direct_light, i);
-    random.start_bounce(static_cast<std::uint32_t>(2 + lamp * kMostRays + static_cast<std::size_t>(s)) &
-                        0xffffu);
-    const Stratum stratum(i % width_, i / width_, s);
-    const Vec2 jitter = random.uniform2();
-    Vec2 u = (Vec2(stratum.column, stratum.row) + jitter) / static_cast<float>(kBlock);
-    float u_triangle = 0;
-    if (!lights_.by_u_alone(lamp)) {
-      u_triangle = (static_cast<float>(stratum.row * kBlock + stratum.column) + jitter.x) /
-                   static_cast<float>(kBlock * kBlock);
-      u = Vec2(random.uniform(), jitter.y);
-    }
-    lamp_rays.aim(lamp, p, u_triangle, u, sight_[i]);
+    random.start_bounce(static_cast<std::uint32_t>(2 + lamp) & 0xffffu);
+    return {Stratum(i % width_, i / width_), lights_.by_u_alone(lamp), random};
   }
 
   /// What the pixels within reach found, whatever their surface.
@@ -185,32 +219,36 @@ class Interleaved {
       shared_[i].illuminance += form.luminance() * unoccluded(form, i);
       return;
     }
-    const auto [near, all] = found_about(i);
-    if (!form.closed()) return shared_[i].add_mean(all);
-    if (!(all.seen > 0)) return;
-    const Rgb whole = form.luminance() * unoccluded(form, i);
-    const float share = all.share(), variance_near = near.variance_of(share);
-    const float change = near.sent > 0 ? near.share() - share : 0.f;
-    if (change * change > kDoubt * kDoubt * variance_near)
-      shared_[i].add_share(whole, near.share(), variance_near);
-    else
-      shared_[i].add_share(whole, share, all.variance_of(share));
+    const std::array<Finding, kReaches> found = found_about(i);
+    std::size_t reach = this->reach(form);
+    if (!form.closed()) return shared_[i].add_mean(found[reach]);
+    while (reach < kAll && !(found[reach].sent > 0)) ++reach;
+    if (!(found[reach].seen > 0)) return;
+    const float share = found[reach].share();
+    if (reach > kOwn && found[reach - 1].sent > 0) {
+      const Finding& nearer = found[reach - 1];
+      const float change = nearer.share() - share;
+      if (change * change > kDoubt * kDoubt * nearer.variance_of(share)) --reach;
+    }
+    shared_[i].add_share(form.luminance() * unoccluded(form, i), found[reach].share(),
+                         found[reach].variance_of(share));
   }
 
-  /// What the pixels about one found that show its surface: within one pixel, and within reach.
-  std::pair<Finding, Finding> found_about(std::size_t i) const {
-    Finding near, all;
+  /// What a pixel found, with those next to it that show its surface, and with all of these within reach.
+  std::array<Finding, kReaches> found_about(std::size_t i) const {
+    std::array<Finding, kReaches> found;
     const SeenSurface own = SeenSurface::of(g_, i);
     const int x = static_cast<int>(i % width_), y = static_cast<int>(i / width_);
+    found[kOwn].add(sight_[i], 1);
     for (int v = std::max(0, y - kReach); v <= std::min(g_.height - 1, y + kReach); ++v) {
       for (int u = std::max(0, x - kReach); u <= std::min(g_.width - 1, x + kReach); ++u) {
         const std::size_t j = static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u);
         if (g_.hit[j].triangle != g_.hit[i].triangle && !same_surface(own, g_, j)) continue;
-        all.add(sight_[j], kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
-        if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) near.add(sight_[j], 1);
+        found[kAll].add(sight_[j], kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
+        if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) found[kNext].add(sight_[j], 1);
       }
     }
-    return {near, all};
+    return found;
   }
 
   float unoccluded(const LampForm& form, std::size_t i) const {
@@ -220,6 +258,7 @@ class Interleaved {
   const RayScene& rays_;
   const Luminaires& lights_;
   const GBuffer& g_;
+  RayShare share_;
   std::size_t width_, pixels_;
   std::uint64_t seed_;
   std::vector<Receiver> receiver_;
@@ -232,9 +271,8 @@ class Interleaved {
 
 std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaires& lights,
                                            const GBuffer& gbuffer, const PixelRays& pixel_rays,
-                                           const Vec2& subpixel, int lamp_rays, int pass,
-                                           std::uint64_t seed) {
-  return Interleaved(rays, lights, gbuffer, seed).light(pixel_rays, subpixel, lamp_rays, pass);
+                                           const Vec2& subpixel, const RayShare& share, std::uint64_t seed) {
+  return Interleaved(rays, lights, gbuffer, share, seed).light(pixel_rays, subpixel);
 }
 
 }  // namespace phos

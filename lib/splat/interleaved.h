@@ -9,15 +9,24 @@
 
 namespace phos {
 
+/// Of a pixel's rays to a lamp with an area.
+struct RayShare {
+  int rays = 1;    ///< of this pass, at least 1
+  int pass = 0;    ///< of which this is the one, from 0: which part of the set it gets
+  int passes = 1;  ///< samples of a pixel in all
+};
+
 /// Interleaved sampling (Keller and Heidrich 2001): the pixels of each 4 x 4 block send different rays of one
 /// low-discrepancy set towards a lamp with an area, and each pixel takes what the 25 about it that show its
 /// own surface found. Of a lamp with a closed form (LampForm) that is the share of it that is visible: no
-/// noise where it is seen whole, or not at all; of others, their mean. One ray each shows where a shadow's
-/// edge may be; there each pixel sends `lamp_rays` in all. Shadows are blurred over 4 pixels, which is the
-/// price. Lamps without an area: one ray, not shared. `pass` picks the part of the set that this sample of
-/// the pixels gets. One entry per pixel; zero where nothing is visible. Same bytes for any number of threads.
+/// noise where it is seen whole, or not at all; of others, their mean. One ray each, or one in 16, shows
+/// where a shadow's edge may be; there each pixel sends all of its `share.rays`. Shadows are blurred over 4
+/// pixels, which is the price; over 2 from 16 rays a pixel on, all passes counted, and not at all from 512 on
+/// (without a closed form: 128 and 4096), so that the error goes to zero with more rays. Lamps without an
+/// area: one ray, not shared. One entry per pixel; zero where nothing is visible. Same bytes for any number
+/// of threads.
 std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaires& lights,
                                            const GBuffer& gbuffer, const PixelRays& pixel_rays,
-                                           const Vec2& subpixel, int lamp_rays, int pass, std::uint64_t seed);
+                                           const Vec2& subpixel, const RayShare& share, std::uint64_t seed);
 
 }  // namespace phos

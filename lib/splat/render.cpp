@@ -121,7 +121,8 @@ void declare_options(Options& options, RenderOptions& r) {
                             {"none", DirectBy::none}},
                            "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one "
                            "diffuse surface share theirs, at edges too, and more of them only where a lamp "
-                           "is seen in part (a fraction of the time; blurs shadows over up to 4 pixels); by "
+                           "is seen in part (a fraction of the time; blurs shadows, over up to 4 pixels of few rays "
+                           "and not at all of 512); by "
                            "shadow maps (fast preview, "
                            "diffuse only); or left out");
   options.integer("light-samples", r.light_samples, "N",
@@ -276,7 +277,7 @@ class Painter {
       if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
       return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s),
-                               shader_.lamp_rays_of_each(false), s, options_.seed);
+                               {shader_.lamp_rays_of_each(false), s, samples_}, options_.seed);
     }
     std::vector<SharedLight> shared;
     if (options_.direct != DirectBy::shadow_map) return shared;

@@ -78,7 +78,7 @@ struct Interleaved {
     const Vec2 middle(0.5f);
     gbuffer = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, middle);
     light = interleaved_light(rays, lights, gbuffer, PixelRays(s.scene.camera[0], kSide, kSide), middle,
-                              rays_of_each, 0, 1);
+                              {rays_of_each, 0, 1}, 1);
     for (const SharedLight& l : light) {
       value.push_back(static_cast<double>(l.illuminance.y));
       error.push_back(std::sqrt(static_cast<double>(l.variance.y)));
@@ -194,13 +194,14 @@ TEST_P(SceneWithDarkSurfaces, SamplesOfAPixelAgreeWithTheClosedForm) {
   EXPECT_NEAR(sum / truths, 1, 0.01) << s.name;
 }
 
-/// A lamp above a floor, and a roof that hides half of it from the middle, turned about the vertical.
-Scene lit_floor(bool roofed, float turn = 0) {
+/// A lamp above a floor, 2 m each way or as far as x = `right`, and a roof that hides half of it from the
+/// middle, turned about the vertical.
+Scene lit_floor(bool roofed, float turn = 0, float right = 1) {
   Scene scene;
   begin_instance(scene, "floor", add_lambert(scene, "floor", 0.5f, 0));
   add_quad(scene, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0});
   begin_instance(scene, "lamp", add_lambert(scene, "lamp", 0, 100));
-  add_quad(scene, {-1, 4, -1}, {2, 0, 0}, {0, 0, 2});
+  add_quad(scene, {-1, 4, -1}, {right + 1, 0, 0}, {0, 0, 2});
   if (roofed) {
     begin_instance(scene, "roof", add_lambert(scene, "roof", 0, 0));
     const Vec3 along(std::sin(turn), 0, std::cos(turn)), away(along.z, 0, -along.x);
@@ -256,7 +257,7 @@ TEST(Interleaved, AnyNumberOfRays) {
   const GBuffer gbuffer = trace_gbuffer(rays, scene.camera[0], kFew, kFew, Vec2(0.5f));
   for (const int count : {255, 65535, 65536}) {
     const auto light = interleaved_light(rays, lights, gbuffer, PixelRays(scene.camera[0], kFew, kFew),
-                                         Vec2(0.5f), count, 0, 1);
+                                         Vec2(0.5f), {count, 0, 1}, 1);
     double mean = 0;
     for (const SharedLight& l : light) {
       mean += static_cast<double>(l.illuminance.y) / kFew / kFew;
@@ -264,6 +265,37 @@ TEST(Interleaved, AnyNumberOfRays) {
       EXPECT_LT(std::sqrt(l.variance.y), half / std::sqrt(static_cast<double>(count))) << count;
     }
     EXPECT_NEAR(mean, half, 0.01 * half) << count;
+  }
+}
+
+/// From below the roof's edge a point sees the lamp as far as its own distance on the other side.
+TEST(Interleaved, BlursLessWithMoreRaysAndInTheEndNotAtAll) {
+  Scene scene = lit_floor(true);
+  scene.camera[0] = look_at({0, 1, 0}, {0, 0, 0}, {0, 0, 1}, 2.4f);  // the half shadow is 18 pixels wide
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const GBuffer gbuffer = trace_gbuffer(rays, scene.camera[0], kSide, kSide, Vec2(0.5f));
+  std::vector<double> truth;
+  double mean = 0;
+  for (std::size_t i = 0; i < gbuffer.hit.size(); ++i) {
+    const Vec3 p(gbuffer.position[i]);
+    const Scene seen = lit_floor(false, 0, std::clamp(-p.x, -0.9999f, 1.f));
+    truth.push_back(
+        100 * static_cast<double>(LampForm(seen, Luminaires(seen)[0]).projected_solid_angle(p, {0, 1, 0})));
+    mean += truth.back() / static_cast<double>(gbuffer.hit.size());
+  }
+  double before = HUGE_VAL;
+  for (const auto& [count, most] : {std::pair{8, 0.04}, {64, 0.012}, {1024, 0.001}}) {
+    const auto light = interleaved_light(rays, lights, gbuffer, PixelRays(scene.camera[0], kSide, kSide),
+                                         Vec2(0.5f), {count, 0, 1}, 1);
+    double square = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      square += std::pow(static_cast<double>(light[i].illuminance.y) - truth[i], 2) /
+                static_cast<double>(truth.size());
+    const double error = std::sqrt(square) / mean;
+    EXPECT_LT(error, most) << count;
+    EXPECT_LT(error, 0.6 * before) << count;
+    before = error;
   }
 }
 
