@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
     if (!needs.lit)
       throw Error(ExitCode::bad_input, scene_path,
                   "has no light, so there is nothing to plan; give it a lamp or an --environment");
-    task.gloss = needs.gloss;
+    task.gloss = needs.gloss, task.specular = needs.specular;
+    task.diagonal_m = scene.bounds.diagonal_m();
     if (task.image) resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
     if (needs.animated && !options.given("frame") && !options.given("time"))
       tool.say(

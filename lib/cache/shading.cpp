@@ -14,11 +14,15 @@ constexpr float kLeastThroughput = 1e-4f;
 /// counted as lost.
 constexpr int kGlossDepth = 3;
 
-/// Balance heuristic weight of a light sample against `gloss_rays` rays of the gloss lobe.
+/// Power heuristic weight of a light sample against `gloss_rays` rays of the gloss lobe: even points on a
+/// lamp do better than their variance tells, and few rays of a broad lobe that hit it or not should not spoil
+/// that.
 float light_weight(int light_samples, float light_density, int gloss_rays, float gloss_density) {
   const float l = static_cast<float>(light_samples) * light_density;
   const float g = static_cast<float>(gloss_rays) * gloss_density;
-  return l > 0 ? l / (l + g) : 0.f;
+  if (!(l > 0)) return 0;
+  const float ratio = g / l;
+  return 1 / (1 + ratio * ratio);
 }
 
 /// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is

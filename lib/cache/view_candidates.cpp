@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
-#include "scene/picture.h"
 
 namespace phos {
 namespace {
@@ -72,7 +71,7 @@ class Sight {
   void glance(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& towards_eye, float travelled_m) {
     for (int k = 0; k < kGlossRays; ++k) {
       const Vec2 u =
-          subpixel_offset(k) +
+          r2_point(k, Vec2(0.5f)) +
           st_ * Vec2(static_cast<float>(view_.width), static_cast<float>(view_.height)) * 0.618034f;
       BsdfSample sample;
       if (!bsdf.sample_gloss(towards_eye, glm::min(u - glm::floor(u), Vec2(kBelowOne)), sample)) continue;
@@ -146,7 +145,7 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
     if (x >= view.width || y >= view.height) return;
     const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
     const Vec2 st =
-        (Vec2(static_cast<float>(x), static_cast<float>(y)) + subpixel_offset(static_cast<int>(i / square))) /
+        (Vec2(static_cast<float>(x), static_cast<float>(y)) + r2_point(static_cast<int>(i / square), Vec2(0.5f))) /
         size;
     const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
     const std::size_t first = out.size();

@@ -22,6 +22,18 @@ void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& 
   }
 }
 
-Vec2 subpixel_offset(int sample) { return r2_point(sample, Vec2(0.5f)); }
+Vec2 further_offset(int i, int n, int before) {
+  // Of all starts of the sequence, on a grid, that of the least centred L2 discrepancies of 2 to 16 samples:
+  // 0.0024 for 16 of them, where R2 alone has 0.015.
+  constexpr Vec2 kStart(0.302f, 0.26f);
+  const int own = (n + 1) / 2;
+  const Vec2 p = r2_point(before / 2 + i % own, kStart);
+  return i < own ? p : glm::min(Vec2(1) - p, Vec2(kBelowOne));
+}
+
+Vec2 subpixel_offset(int i, int n) {
+  const int centre = n % 2;
+  return i < centre ? Vec2(0.5f) : further_offset(i - centre, n - centre, 0);
+}
 
 }  // namespace phos

@@ -16,8 +16,15 @@ inline constexpr std::int64_t kPictureSide = 1000;
 /// gets `longer_side` pixels. Throws Error(usage) for a picture of more than 2^28 pixels.
 void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& width, std::int64_t& height);
 
-/// Where sample 0, 1, ... of a pixel lies in it, in [0,1)^2: the centre, then the additive R2 sequence from
-/// there.
-Vec2 subpixel_offset(int sample);
+/// Where sample i of n of a pixel lies in it, in [0,1)^2: half of them along an additive R2 sequence, then
+/// their mirror images about the centre, in the same order; if n is odd, the centre before. So their mean is
+/// the centre, and pictures do not shift with their number; and where the numbers for a lamp of samples i and
+/// i
+/// + n / 2 are close to each other, as Sobol' points of a power of two are, place and lamp do not go
+/// together.
+Vec2 subpixel_offset(int i, int n);
+/// Of sample i of n more of a pixel that has `before` already: further points of that sequence, and, but of
+/// the last one if n is odd, their mirror images.
+Vec2 further_offset(int i, int n, int before);
 
 }  // namespace phos

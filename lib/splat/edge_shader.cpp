@@ -35,10 +35,10 @@ EdgeShader::EdgeShader(const RayScene& rays, const Luminaires& lights, const Pix
 EdgeShader::Samples EdgeShader::trace(std::size_t pixel) const {
   const auto width = static_cast<std::size_t>(picture_.gbuffer.width);
   const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
-  const auto before = static_cast<int>(options_.pixel_samples);
+  const auto before = static_cast<int>(options_.pixel_samples),
+             more = static_cast<int>(options_.edge_samples);
   Samples samples{pixel, {}, std::vector<Hit>(static_cast<std::size_t>(options_.edge_samples))};
-  for (int s = 0; s < static_cast<int>(options_.edge_samples); ++s)
-    samples.ray.push_back(pixel_rays_(x, y, subpixel_offset(before + s)));
+  for (int s = 0; s < more; ++s) samples.ray.push_back(pixel_rays_(x, y, further_offset(s, more, before)));
   rays_.intersect(samples.ray, samples.hit);
   return samples;
 }

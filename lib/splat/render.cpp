@@ -114,17 +114,18 @@ void declare_options(Options& options, RenderOptions& r) {
   options.integer("max-misses", r.max_misses, "N", "at most this many points go into --misses", kNotNegative,
                   Recorded::no);
   options.section("Direct light, gloss, mirrors and glass");
-  options.choice<DirectBy>("direct", r.direct,
-                           {{"traced", DirectBy::traced},
-                            {"interleaved", DirectBy::interleaved},
-                            {"shadow-map", DirectBy::shadow_map},
-                            {"none", DirectBy::none}},
-                           "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one "
-                           "diffuse surface share theirs, at edges too, and more of them only where a lamp "
-                           "is seen in part (a fraction of the time; blurs shadows, over up to 4 pixels of few rays "
-                           "and not at all of 512); by "
-                           "shadow maps (fast preview, "
-                           "diffuse only); or left out");
+  options.choice<DirectBy>(
+      "direct", r.direct,
+      {{"traced", DirectBy::traced},
+       {"interleaved", DirectBy::interleaved},
+       {"shadow-map", DirectBy::shadow_map},
+       {"none", DirectBy::none}},
+      "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one "
+      "diffuse surface share theirs, at edges too, and more of them only where a lamp "
+      "is seen in part (a fraction of the time; blurs shadows, over up to 4 pixels of few rays "
+      "and not at all of 512); by "
+      "shadow maps (fast preview, "
+      "diffuse only); or left out");
   options.integer("light-samples", r.light_samples, "N",
                   "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
                   "at least); or "
@@ -242,7 +243,7 @@ class Painter {
 
   GBuffer see(int s) {
     const Stopwatch watch(result_.seconds, "visible surface");
-    const Vec2 where = subpixel_offset(s);
+    const Vec2 where = subpixel_offset(s, samples_);
     return by_gl() ? gl_->rasterise(camera_, width_, height_, where)
                    : trace_gbuffer(rays_, camera_, width_, height_, where);
   }
@@ -261,7 +262,7 @@ class Painter {
   GlossBuffer gloss_from_cache(int s, const GBuffer& gbuffer) {
     if (!gloss_ || gloss_->size() == 0) return {};
     const Stopwatch watch(result_.seconds, "gloss splat");
-    const Vec2 where = subpixel_offset(s);
+    const Vec2 where = subpixel_offset(s, samples_);
     const double accuracy = *options_.gloss_accuracy;
     GlossBuffer drawn =
         options_.leak_test == LeakTest::ray ? look_up_gloss(*gloss_, rays_, gbuffer, camera_, where)
@@ -276,7 +277,7 @@ class Painter {
     if (options_.direct == DirectBy::interleaved) {
       if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
-      return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s),
+      return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s, samples_),
                                {shader_.lamp_rays_of_each(false), s, samples_}, options_.seed);
     }
     std::vector<SharedLight> shared;
@@ -303,7 +304,7 @@ class Painter {
   void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const GlossBuffer& gloss,
              const std::vector<SharedLight>& shared) {
     const Stopwatch watch(result_.seconds, "shading");
-    const Vec2 where = subpixel_offset(s);
+    const Vec2 where = subpixel_offset(s, samples_);
     run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
       const Ray ray = ray_of(i, where);
       if (!gbuffer.covered(i)) return layers_.add(i, shader_.background(ray));

@@ -17,9 +17,11 @@ constexpr double kAccuracy[] = {0.5, 0.25};
 constexpr double kRays[] = {64, 256, 128};
 constexpr double kCountRays = 32;  ///< of records that are made to be counted
 struct Samples {
-  double pixel, light, gloss;
+  double pixel, edge, light, gloss;
 };
-constexpr Samples kSamples[] = {{1, 2, 128}, {1, 256, 4}, {4, 32, 32}, {32, 32, 32}};
+constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},  {1, 16, 16, 16},
+                                {4, 4, 32, 32}, {4, 64, 64, 16}, {32, 64, 32, 32}};
+constexpr Samples kFine = {32, 64, 32, 32}, kTimed = {1, 16, 8, 4};
 constexpr double kSensorRays[] = {4, 64};
 constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
 constexpr double kReferencePaths = 4096;  ///< and of a sensor
@@ -30,13 +32,15 @@ constexpr double kOwnDoubt = 0.1;        ///< relative, of any measured mean squ
 Knobs knobs_of(double photons, double accuracy, double rays) {
   Knobs k{};
   k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = accuracy, k[at(Knob::rays)] = rays;
-  k[at(Knob::pixel_samples)] = k[at(Knob::light_rays)] = k[at(Knob::gloss_rays)] = k[at(Knob::sensor_rays)] =
-      1;
+  for (const Knob knob :
+       {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays, Knob::gloss_rays, Knob::sensor_rays})
+    k[at(knob)] = 1;
   return k;
 }
 
 Knobs with(Knobs k, const Samples& s) {
-  k[at(Knob::pixel_samples)] = s.pixel, k[at(Knob::light_rays)] = s.light, k[at(Knob::gloss_rays)] = s.gloss;
+  k[at(Knob::pixel_samples)] = s.pixel, k[at(Knob::edge_samples)] = s.edge;
+  k[at(Knob::light_rays)] = s.light, k[at(Knob::gloss_rays)] = s.gloss;
   return k;
 }
 
@@ -127,7 +131,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
       for (const Samples& s : kSamples)
         if (c == 0)
           add_rows(image, runs.sized(with(caches[c], s)), runs.pictures(with(caches[c], s), true), true);
-      const Knobs fine = with(caches[c], kSamples[3]);
+      const Knobs fine = with(caches[c], kFine);
       if (c > 0) add_rows(image, runs.sized(fine), runs.pictures(fine, false), false);
     }
     if (!task.lux) continue;
@@ -139,11 +143,12 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   }
   const std::vector<double> counts =
       runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]}, kCountRays);
+  if (task.image) runs.time_picture(with(caches[0], kTimed));
   pilot.records = counted(kAccuracy[0], counts[0], kAccuracy[1], counts[1]);
   for (auto& [name, p] : pilot.time.part)
     p.fit(runs.times(name.substr(0, name.find(','))), options.seed + 11);
   if (task.image) {
-    pilot.image_error = image_error_model(task.gloss);
+    pilot.image_error = image_error_model(task);
     fit_errors(*pilot.image_error, image, options.seed + 20, "direct light and gloss");
     pilot.image_resolution = resolution_of(image.indirect_bias);
     pilot.image_reference.places = static_cast<double>(task.width * task.height);

@@ -62,7 +62,7 @@ inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
 
 /// Terms of the models.
-PlanModel image_error_model(bool specular);
+PlanModel image_error_model(const PlanTask& task);
 PlanModel lux_error_model();
 PlanModel time_model(const PlanTask& task);
 

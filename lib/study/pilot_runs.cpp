@@ -152,8 +152,10 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
     Command command = picture_command(small_, knobs, small_.scene, name("view-", i), name("picture-", i));
     if (!whole) {
       std::vector<std::string>& words = command.arguments;
-      const auto gloss = std::find(words.begin(), words.end(), "--gloss-samples");
-      if (gloss != words.end()) words.erase(gloss, gloss + 2);
+      for (const char* name : {"--gloss-samples", "--direct"}) {
+        const auto option = std::find(words.begin(), words.end(), name);
+        if (option != words.end()) words.erase(option, option + 2);
+      }
       words.insert(words.end(), {"--direct", "none", "--gloss-samples", "0", "--layers", "indirect"});
     }
     command = seeded(command, options_.seed + kPipelineSeed + i);
@@ -182,6 +184,14 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   out.indirect = out.whole;
   out.indirect.noise2 = noise.noise2, out.indirect.noise2_sigma = noise.noise2_sigma;
   return out;
+}
+
+void PilotRuns::time_picture(const Knobs& knobs) {
+  Knobs k = knobs;
+  k[at(Knob::pixels)] = static_cast<double>(task_.width * task_.height);
+  timed(
+      "picture", k,
+      seeded(picture_command(task_, k, task_.scene, name("count-", 0), name("picture-", 0)), options_.seed));
 }
 
 std::vector<double> PilotRuns::lux_of(const std::string& path, const char* column) const {

@@ -7,8 +7,8 @@
 
 #include "study/command.h"
 #include "study/pilot.h"
-#include "study/scratch_folder.h"
 #include "study/plan_separate.h"
+#include "study/scratch_folder.h"
 
 namespace phos {
 
@@ -36,6 +36,9 @@ class PilotRuns {
   SeparatedLayers lux_tables(const Knobs& knobs);
   /// Records that the whole task takes, at each accuracy.
   std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
+  /// The picture that is meant, in its own size, of the last records that were counted: edges are a smaller
+  /// share of more pixels.
+  void time_picture(const Knobs& knobs);
 
   /// The knobs with the pilot's own number of pixels.
   Knobs sized(Knobs knobs) const;

@@ -29,13 +29,14 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   };
   groups.push_back(records);
   if (task.image) {
-    KnobGroup picture{
-        {Knob::pixel_samples, Knob::light_rays, Knob::gloss_rays},
-        {doubling(1, 1024), doubling(1, 4096), task.gloss ? doubling(1, 4096) : std::vector<double>{1}}};
+    KnobGroup picture{{Knob::pixel_samples, Knob::edge_samples, Knob::light_rays, Knob::gloss_rays},
+                      {doubling(1, 1024), doubling(1, 1024), doubling(1, 4096),
+                       task.gloss ? doubling(1, 4096) : std::vector<double>{1}}};
     // Each sample of a pixel sends at least one ray of a kind.
     picture.allowed = [gloss = task.gloss](const Knobs& k) {
       const double s = k[at(Knob::pixel_samples)];
-      return k[at(Knob::light_rays)] >= s && (!gloss || k[at(Knob::gloss_rays)] >= s);
+      return k[at(Knob::edge_samples)] >= s && k[at(Knob::light_rays)] >= s &&
+             (!gloss || k[at(Knob::gloss_rays)] >= s);
     };
     groups.push_back(picture);
   }

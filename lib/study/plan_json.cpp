@@ -16,7 +16,7 @@ Json json_of(const Prediction& p, const PlanTask& task) {
   for (const Knob knob : {Knob::photons, Knob::accuracy, Knob::rays})
     settings[name_of(knob)] = p.knobs[at(knob)];
   if (task.image) {
-    for (const Knob knob : {Knob::pixel_samples, Knob::light_rays})
+    for (const Knob knob : {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays})
       settings[name_of(knob)] = p.knobs[at(knob)];
     if (task.gloss) settings[name_of(Knob::gloss_rays)] = p.knobs[at(Knob::gloss_rays)];
   }

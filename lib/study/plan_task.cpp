@@ -27,6 +27,10 @@ Words gathered(const Knobs& k) {
       "--estimate", "gather", "--accuracy", knob_word(k, Knob::accuracy), "--rays", knob_word(k, Knob::rays)};
 }
 
+/// Of the scene's diagonal: smallest radius of records of a picture. Half the usual one: on Sponza, 400
+/// pixels wide, the same time gives 4.6 instead of 5.3 % of indirect light; a quarter gave nothing more.
+constexpr float kLeastRadius = 1 / 200.f;
+
 }  // namespace
 
 std::string knob_word(const Knobs& knobs, Knob knob) {
@@ -52,7 +56,10 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   add(words, {photons, "--place", "view"});
   add(words, view(task));
   add(words, gathered(knobs));
-  if (task.cached_direct) add(words, {"--direct", "cached", "--footprint", "adaptive"});
+  if (task.cached_direct)
+    add(words, {"--direct", "cached", "--footprint", "adaptive"});
+  else if (task.diagonal_m > 0)
+    add(words, {"--min-radius", shortest(kLeastRadius * task.diagonal_m)});
   if (task.pixels_of_final < 1)
     add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
   return {"phos-irradiance", words, out};
@@ -75,8 +82,11 @@ Command picture_command(const PlanTask& task, const Knobs& knobs, const std::str
   Words words = of_scene(task, scene);
   words.push_back(cache);
   add(words, view(task));
-  add(words, {"--pixel-samples", knob_word(knobs, Knob::pixel_samples), "--light-samples",
-              knob_word(knobs, Knob::light_rays)});
+  const std::int64_t samples = std::llround(knobs[at(Knob::pixel_samples)]),
+                     more = std::llround(knobs[at(Knob::edge_samples)]) - samples;
+  add(words, {"--pixel-samples", std::to_string(samples)});
+  if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
+  add(words, {"--direct", "interleaved", "--light-samples", knob_word(knobs, Knob::light_rays)});
   if (task.gloss) add(words, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
   return {"phos-splat", words, out};
 }

@@ -16,11 +16,13 @@ struct PlanTask {
   std::vector<std::string> scene_words;  ///< options that every stage needs: "--environment", "sky.hdr"
   std::string camera;                    ///< "": the scene's first
   std::int64_t width = 0, height = 0;    ///< of the picture, pixels, both resolved
+  float diagonal_m = 0;                  ///< of the scene; 0: records have the smallest radius that is usual
   double pixels_of_final = 1;  ///< the same pixel of the picture that is meant, in pixels of this one
   bool image = true, lux = false;
   std::string points;             ///< CSV of the sensors
   std::vector<std::string> grid;  ///< or the options of phos-sense that set them out; empty: there is a CSV
   bool gloss = false;             ///< something glossy is traced: --gloss-samples counts
+  bool specular = false;          ///< mirrors or smooth glass are
   bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
 };
 

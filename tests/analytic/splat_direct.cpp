@@ -147,7 +147,7 @@ struct PixelSamples {
     const PixelRays pixel_rays(camera, kSide, kSide);
     for (std::size_t s = 0; s < count; ++s)
       ray.push_back(pixel_rays(static_cast<int>(at % kSide), static_cast<int>(at / kSide),
-                               subpixel_offset(static_cast<int>(s))));
+                               subpixel_offset(static_cast<int>(s), static_cast<int>(count))));
     hit.resize(count);
     rays.intersect(ray, hit);
     for (std::uint32_t s = 0; s < count; ++s) all.push_back(s);

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "scene/bsdf.h"
-#include "scene/picture.h"
 #include "splat/gbuffer.h"
 #include "splat/render.h"
 #include "support/gloss_scenes.h"
@@ -89,7 +88,7 @@ void expect_reflected(const Sheet& sheet, const test::WorldLight& light, float s
   const std::vector<Rgb> glossy = made.image.rgb("glossy"), indirect = made.image.rgb("indirect");
   const PixelRays pixel_rays(sheet.scene.camera[0], kSide, kSide);
   for (int pixel = 0; pixel < kSide * kSide; pixel += 37) {
-    const Ray r = pixel_rays(pixel % kSide, pixel / kSide, subpixel_offset(0));
+    const Ray r = pixel_rays(pixel % kSide, pixel / kSide, Vec2(0.5f));
     SurfacePoint point;
     if (!trace(picture.rays, {r.origin, r.direction}, point)) continue;
     const Rgb truth = reflected(sheet.scene, point, -r.direction, light);

@@ -14,8 +14,9 @@ namespace {
 /// Share of a frame's lookups that no record answers.
 double missing(const std::string& scene, const std::string& film, int frame) {
   const std::string folder = scratch("film-missing"), stats = folder + "/s.json";
-  const test::Run run = run_tool({"splat", scene, film, "--frame", std::to_string(frame), "--width", "24",
-                                  "--stats", stats, "--quiet", "-o", folder + "/p.exr"});
+  const test::Run run =
+      run_tool({"splat", scene, film, "--frame", std::to_string(frame), "--width", "24", "--pixel-samples",
+                "1", "--stats", stats, "--quiet", "-o", folder + "/p.exr"});
   EXPECT_EQ(run.code, 0) << run.err;
   const Json s = parse_json(slurp(stats), "stats");
   return s.find("cache misses")->as_number() / s.find("cache lookups")->as_number();
@@ -78,8 +79,8 @@ TEST(TemporalFilm, CameraCutLosesNoRecords) {
   ASSERT_EQ(temporal(quick({scene, "--frames", "0:16", "-o", film})).code, 0);
   for (const char* frame : {"7", "8", "15"}) {
     const std::string stats = folder + "/s.json";
-    ASSERT_EQ(run_tool({"splat", scene, film, "--frame", frame, "--width", "24", "--stats", stats, "--quiet",
-                        "-o", folder + "/p.exr"})
+    ASSERT_EQ(run_tool({"splat", scene, film, "--frame", frame, "--width", "24", "--pixel-samples", "1",
+                        "--stats", stats, "--quiet", "-o", folder + "/p.exr"})
                   .code,
               0);
     const Json s = parse_json(slurp(stats), "stats");

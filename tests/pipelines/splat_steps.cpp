@@ -39,14 +39,15 @@ class Steps : public testing::Test {
     return -1;
   }
   /// name.exr and name.ref.exr, 32 pixels wide.
-  static void make_picture_and_reference(const std::string& scene, const std::string& name) {
+  static void make_picture_and_reference(const std::string& scene, const std::string& name,
+                                         const char* samples = "512") {
     const std::string photons = path(name + ".photons"), cache = path(name + ".irradiance");
     must({"photons", scene, "--photons", "200000", "-o", photons});
     must({"irradiance", scene, photons, "-o", cache});
     ASSERT_GT(fill(scene, photons, cache, {"--width", "32", "--pixel-samples", "16"}), 0);
     must({"splat", scene, cache, "--width", "32", "--pixel-samples", "16", "--light-samples", "64", "-o",
           path(name + ".exr")});
-    must({"reference", scene, "--width", "32", "--samples", "512", "-o", path(name + ".ref.exr")});
+    must({"reference", scene, "--width", "32", "--samples", samples, "-o", path(name + ".ref.exr")});
   }
   static LayerMetrics compare_layer(const Image& image, const Image& reference, const std::string& layer) {
     const auto metrics = compare_images(image, reference, {{layer}, false});
@@ -142,7 +143,7 @@ TEST_F(Steps, GlossyCornellAgreesWithTheReference) {
 TEST_F(Steps, MirrorAndGlassAgreeWithTheReference) {
   const std::string scene = shared("scenes/mcguire-cornellbox-sphere.glb");
   if (scene.empty()) GTEST_SKIP() << "the scene collection is not beside the project";
-  make_picture_and_reference(scene, "s");
+  make_picture_and_reference(scene, "s", "4096");
   const Image image = read_image(path("s.exr")), reference = read_image(path("s.ref.exr"));
   ASSERT_TRUE(image.has_layer("specular"));
   const LayerMetrics specular = compare_layer(image, reference, "specular");

@@ -126,7 +126,7 @@ TEST(ViewPlacement, EveryPixelIsCovered) {
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 120; ++x) {
       for (int s = 0; s < 4; ++s) {
-        const Vec2 st = (Vec2(x, y) + subpixel_offset(s)) / Vec2(120, 100);
+        const Vec2 st = (Vec2(x, y) + r2_point(s, Vec2(0.5f))) / Vec2(120, 100);
         const Camera::Ray ray = studio.scene.camera[0].ray(st, 1.2f);
         SurfacePoint p;
         if (!trace(studio.rays, {ray.origin, ray.direction}, p) || !Bsdf(studio.scene, p).has_diffuse())

@@ -9,7 +9,6 @@
 #include "cache/growth.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "scene/picture.h"
 #include "support/glossy_room.h"
 #include "support/radiance_records.h"
 
@@ -144,7 +143,7 @@ TEST(RadiancePlacement, EveryVisiblePointIsCovered) {
   RadianceTree::Worker worker;
   std::map<std::uint32_t, int> seen;
   for (int i = 0; i < 64 * 64; ++i) {
-    const Vec2 st = (Vec2(i % 64, i / 64) + subpixel_offset(0)) / 64.f;
+    const Vec2 st = (Vec2(i % 64, i / 64) + Vec2(0.5f)) / 64.f;
     const Camera::Ray ray = studio.parlour.scene.camera[0].ray(st, 1);
     SurfacePoint point;
     if (!trace(studio.rays, {ray.origin, ray.direction}, point)) continue;

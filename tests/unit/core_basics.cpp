@@ -153,27 +153,18 @@ TEST(Sampling, SobolPointsHaveOneInEachElementaryInterval) {
   }
 }
 
-/// The share of samples that are in one half in both of two squares: where one sequence serves both, they go
-/// together, and more samples do not help.
-TEST(Sampling, SobolPointsDoNotGoWithR2Points) {
-  for (const int n : {16, 31, 64}) {
-    double one = 0, two = 0;
-    constexpr int kShifts = 1000;
-    for (std::uint64_t k = 0; k < kShifts; ++k) {
-      RandomStream random(1, Stage::test, k);
-      const Vec2 shift = random.uniform2();
-      const std::uint32_t shift_x = random.bits(), shift_y = random.bits();
-      int with_r2 = 0, with_sobol = 0;
-      for (int i = 0; i < n; ++i) {
-        if (r2_point(i, Vec2(0.5f)).x >= 0.5f) continue;
-        with_r2 += r2_point(i, shift).x < 0.5f;
-        with_sobol += sobol_point(i, shift_x, shift_y).x < 0.5f;
-      }
-      one += std::pow(with_r2 / static_cast<double>(n) - 0.25, 2);
-      two += std::pow(with_sobol / static_cast<double>(n) - 0.25, 2);
+/// The largest gap between n of them, around the unit circle: at most (golden ratio + 1) / n.
+TEST(Sampling, GoldenPointsLeaveNoGap) {
+  for (const std::uint32_t shift : {0u, 0xdeadbeefu}) {
+    std::vector<float> sorted;
+    for (int n = 1; n <= 300; ++n) {
+      sorted.push_back(golden_point(n - 1, shift));
+      ASSERT_TRUE(sorted.back() >= 0 && sorted.back() < 1) << n;
+      std::sort(sorted.begin(), sorted.end());
+      float gap = 1 + sorted.front() - sorted.back();
+      for (std::size_t i = 1; i < sorted.size(); ++i) gap = std::max(gap, sorted[i] - sorted[i - 1]);
+      EXPECT_LT(gap, 2.62f / static_cast<float>(n)) << n;
     }
-    EXPECT_GT(std::sqrt(one / kShifts), 0.12) << n;
-    EXPECT_LT(std::sqrt(two / kShifts), 0.25 / std::sqrt(static_cast<double>(n))) << n;
   }
 }
 

@@ -231,6 +231,27 @@ TEST(StudyPlan, TheScriptHoldsPredictionAndReasons) {
   }
 }
 
+/// Edge samples are counted in all by a plan, and beside the others by phos-splat.
+TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
+  PlanTask task = picture();
+  task.diagonal_m = 25;
+  Knobs k{};
+  k[at(K::pixel_samples)] = 4, k[at(K::edge_samples)] = 64, k[at(K::light_rays)] = 32;
+  k[at(K::accuracy)] = 0.4, k[at(K::rays)] = 256;
+  EXPECT_EQ(
+      shell_line(picture_command(task, k, "s.glb", "c", "i.exr")),
+      "phos-splat s.glb c --width 200 --height 150 --pixel-samples 4 --edge-samples 60 --direct interleaved "
+      "--light-samples 32 -o i.exr");
+  k[at(K::edge_samples)] = 4;
+  EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
+            std::string::npos);
+  const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
+  EXPECT_NE(records.find("--min-radius 0.125 "), std::string::npos) << records;
+  task.cached_direct = true;  // whose zones are adaptive
+  EXPECT_EQ(shell_line(view_records_command(task, k, "s.glb", "p", "c")).find("--min-radius"),
+            std::string::npos);
+}
+
 TEST(StudyPlan, JsonHoldsTheSame) {
   PlanTask task = picture();
   const Pilot pilot = synthetic_pilot();
