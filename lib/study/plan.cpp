@@ -143,7 +143,7 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
   std::optional<Prediction> found =
       first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_high() <= error; });
   // Sure to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
-  constexpr double kDearest = 8;
+  constexpr double kDearest = 3;
   const auto any = [](const Prediction&) { return true; };
   std::optional<Prediction> guess = first_that(task, pilot, front, kMargin * error, any);
   if (!guess && !found && predict(task, pilot, front.back().knobs).error_low() <= error) {
