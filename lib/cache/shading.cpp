@@ -18,11 +18,10 @@ constexpr int kGlossDepth = 3;
 /// lamp do better than their variance tells, and few rays of a broad lobe that hit it or not should not spoil
 /// that.
 float light_weight(int light_samples, float light_density, int gloss_rays, float gloss_density) {
-  const float l = static_cast<float>(light_samples) * light_density;
-  const float g = static_cast<float>(gloss_rays) * gloss_density;
-  if (!(l > 0)) return 0;
-  const float ratio = g / l;
-  return 1 / (1 + ratio * ratio);
+  // In double: the square of a ratio is beyond the range of floats where a map shines next to nothing.
+  const double l = light_samples * static_cast<double>(light_density);
+  const double g = gloss_rays * static_cast<double>(gloss_density);
+  return l > 0 ? static_cast<float>(1 / (1 + (g / l) * (g / l))) : 0.f;
 }
 
 /// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is

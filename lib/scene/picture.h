@@ -18,10 +18,9 @@ void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& 
 
 /// Where sample i of n of a pixel lies in it, in [0,1)^2: half of them along an additive R2 sequence, then
 /// their mirror images about the centre, in the same order; if n is odd, the centre before. So their mean is
-/// the centre, and pictures do not shift with their number; and where the numbers for a lamp of samples i and
-/// i
-/// + n / 2 are close to each other, as Sobol' points of a power of two are, place and lamp do not go
-/// together.
+/// the centre, and pictures do not shift with their number. And samples i and i + n / 2, which lie opposite
+/// each other, have nearly the same Sobol' points of a lamp where n is a power of two: place and lamp do not
+/// go together.
 Vec2 subpixel_offset(int i, int n);
 /// Of sample i of n more of a pixel that has `before` already: further points of that sequence, and, but of
 /// the last one if n is odd, their mirror images.

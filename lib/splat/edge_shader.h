@@ -13,7 +13,7 @@
 
 namespace phos {
 
-/// What the first samples of all pixels see.
+/// What one sample of each pixel sees.
 struct SeenPicture {
   GBuffer gbuffer;
   SplatBuffer splats;

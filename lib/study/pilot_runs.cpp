@@ -149,16 +149,9 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   Image made[2];
   const bool whole = direct || task_.cached_direct;
   for (std::size_t i = 0; i < 2; ++i) {
-    Command command = picture_command(small_, knobs, small_.scene, name("view-", i), name("picture-", i));
-    if (!whole) {
-      std::vector<std::string>& words = command.arguments;
-      for (const char* name : {"--gloss-samples", "--direct"}) {
-        const auto option = std::find(words.begin(), words.end(), name);
-        if (option != words.end()) words.erase(option, option + 2);
-      }
-      words.insert(words.end(), {"--direct", "none", "--gloss-samples", "0", "--layers", "indirect"});
-    }
-    command = seeded(command, options_.seed + kPipelineSeed + i);
+    const auto draw = whole ? picture_command : indirect_picture_command;
+    const Command command = seeded(draw(small_, knobs, small_.scene, name("view-", i), name("picture-", i)),
+                                   options_.seed + kPipelineSeed + i);
     if (direct)
       timed("picture", sized(knobs), command);
     else

@@ -77,8 +77,10 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
   return {"phos-irradiance", words, out};
 }
 
-Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                        const std::string& cache, const std::string& out) {
+namespace {
+
+Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene, const std::string& cache,
+              const Words& light, const std::string& out) {
   Words words = of_scene(task, scene);
   words.push_back(cache);
   add(words, view(task));
@@ -86,9 +88,23 @@ Command picture_command(const PlanTask& task, const Knobs& knobs, const std::str
                      more = std::llround(knobs[at(Knob::edge_samples)]) - samples;
   add(words, {"--pixel-samples", std::to_string(samples)});
   if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
-  add(words, {"--direct", "interleaved", "--light-samples", knob_word(knobs, Knob::light_rays)});
-  if (task.gloss) add(words, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
+  add(words, light);
   return {"phos-splat", words, out};
+}
+
+}  // namespace
+
+Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& cache, const std::string& out) {
+  Words light{"--direct", "interleaved", "--light-samples", knob_word(knobs, Knob::light_rays)};
+  if (task.gloss) add(light, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
+  return drawn(task, knobs, scene, cache, light, out);
+}
+
+Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                 const std::string& cache, const std::string& out) {
+  return drawn(task, knobs, scene, cache,
+               {"--direct", "none", "--gloss-samples", "0", "--layers", "indirect"}, out);
 }
 
 Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,

@@ -54,6 +54,9 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
                                const std::string& add_to, const std::string& out);
 Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                         const std::string& cache, const std::string& out);
+/// The same with indirect light alone.
+Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                 const std::string& cache, const std::string& out);
 Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                       const std::string& cache, const std::string& points, const std::string& out);
 /// A table that sets out a grid's points: their places, and direct light with a ray to each lamp.

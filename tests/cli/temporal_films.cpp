@@ -11,15 +11,20 @@
 namespace phos::test {
 namespace {
 
-/// Share of a frame's lookups that no record answers.
-double missing(const std::string& scene, const std::string& film, int frame) {
+/// Share of a frame's lookups that no record answers, with so many samples a pixel.
+double missing(const std::string& scene, const std::string& film, int frame, const char* samples) {
   const std::string folder = scratch("film-missing"), stats = folder + "/s.json";
   const test::Run run =
       run_tool({"splat", scene, film, "--frame", std::to_string(frame), "--width", "24", "--pixel-samples",
-                "1", "--stats", stats, "--quiet", "-o", folder + "/p.exr"});
+                samples, "--stats", stats, "--quiet", "-o", folder + "/p.exr"});
   EXPECT_EQ(run.code, 0) << run.err;
   const Json s = parse_json(slurp(stats), "stats");
   return s.find("cache misses")->as_number() / s.find("cache lookups")->as_number();
+}
+/// Records are placed for the middles of pixels; four samples of one lie beside it, a few on the rims.
+void expect_records(const std::string& scene, const std::string& film, int frame, double most) {
+  EXPECT_EQ(missing(scene, film, frame, "1"), 0) << film << " " << frame;
+  EXPECT_LT(missing(scene, film, frame, "4"), most) << film << " " << frame;
 }
 
 // Records ride on what moves: where floor, ceiling and lamp go together, so does the light.
@@ -77,15 +82,7 @@ TEST(TemporalFilm, CameraCutLosesNoRecords) {
   const std::string scene = slabs.write("temporal-cut", 17), folder = scratch("temporal-cut-out");
   const std::string film = folder + "/f.irradiance";
   ASSERT_EQ(temporal(quick({scene, "--frames", "0:16", "-o", film})).code, 0);
-  for (const char* frame : {"7", "8", "15"}) {
-    const std::string stats = folder + "/s.json";
-    ASSERT_EQ(run_tool({"splat", scene, film, "--frame", frame, "--width", "24", "--pixel-samples", "1",
-                        "--stats", stats, "--quiet", "-o", folder + "/p.exr"})
-                  .code,
-              0);
-    const Json s = parse_json(slurp(stats), "stats");
-    EXPECT_LT(s.find("cache misses")->as_number(), 0.03 * s.find("cache lookups")->as_number()) << frame;
-  }
+  for (const int frame : {7, 8, 15}) expect_records(scene, film, frame, 0.05);
 }
 
 TEST(TemporalFilm, RadianceFilmOfWhatIsGlossy) {
@@ -178,8 +175,7 @@ TEST(TemporalFilm, WhatComesAndGoesHasRecords) {
     const test::Run run =
         temporal(quick({scene, "--frames", "0:16", "--max-life", "16", "--lives", lives, "-o", film}));
     ASSERT_EQ(run.code, 0) << run.err;
-    for (const int frame : {0, 2, 3, 4, 5, 7, 9, 10, 11, 12, 16})
-      EXPECT_LT(missing(scene, film, frame), 0.05) << lives << " " << frame;
+    for (const int frame : {0, 2, 3, 4, 5, 7, 9, 10, 11, 12, 16}) expect_records(scene, film, frame, 0.06);
   }
 }
 

@@ -242,6 +242,9 @@ TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
       shell_line(picture_command(task, k, "s.glb", "c", "i.exr")),
       "phos-splat s.glb c --width 200 --height 150 --pixel-samples 4 --edge-samples 60 --direct interleaved "
       "--light-samples 32 -o i.exr");
+  EXPECT_EQ(shell_line(indirect_picture_command(task, k, "s.glb", "c", "i.exr")),
+            "phos-splat s.glb c --width 200 --height 150 --pixel-samples 4 --edge-samples 60 --direct none "
+            "--gloss-samples 0 --layers indirect -o i.exr");
   k[at(K::edge_samples)] = 4;
   EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
             std::string::npos);
