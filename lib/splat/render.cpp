@@ -162,7 +162,8 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
     throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
   if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
-    throw Error(ExitCode::usage, "--edge-samples", "sends rays for direct light too; give --direct traced");
+    throw Error(ExitCode::usage, "--edge-samples",
+                "sends rays for direct light too; give --direct traced or interleaved");
   if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
     throw Error(ExitCode::usage, "--environment-mode", "by harmonics is for --direct traced alone");
 }
