@@ -32,7 +32,7 @@ LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_
   samples_ = static_cast<std::uint32_t>(std::clamp(std::lround(std::exp(entropy)), 1l, kMostSamples));
   for (std::size_t i = 0; i < lights.size(); ++i) {
     area_ = area_ || lights[i].kind == Light::Kind::area;
-    panel_.push_back(panel_of(rays.scene(), lights[i]));
+    panel_.emplace_back(rays.scene(), lights[i]);
   }
   if (lights.size() > kMostCompared) return;
   for (std::size_t i = 0; i < lights.size(); ++i) lamp_.push_back(lamp_of(rays.scene(), lights[i]));
@@ -51,57 +51,6 @@ LampSampler::Lamp LampSampler::lamp_of(const Scene& scene, const Light& light) {
   lamp.centre = extent.centre, lamp.radius_m = extent.radius_m, lamp.front = extent.front;
   lamp.strength = luminance(light.flux_lm) / (lamp.front != Vec3(0) ? kPi : 4 * kPi);
   return lamp;
-}
-
-/// Makes one of two triangles that are the halves of a parallelogram.
-bool LampSampler::join(Patch& first, const Patch& second) {
-  const auto corner = [](const Patch& t, unsigned i) {
-    return i % 3 == 0 ? t.corner : t.corner + t.edge[i % 3 - 1];
-  };
-  for (unsigned a = 0; a < 3; ++a) {
-    for (unsigned b = 0; b < 3; ++b) {
-      const Vec3 opposite = corner(first, a), p = corner(first, a + 1), q = corner(first, a + 2);
-      // The common edge runs the other way round in the second triangle.
-      const float slack = first.error_m + second.error_m;
-      if (glm::length(p - corner(second, b + 2)) > slack || glm::length(q - corner(second, b + 1)) > slack)
-        continue;
-      if (glm::length((p - opposite) - (corner(second, b) - q)) > 4 * slack) continue;
-      first.corner = opposite, first.edge[0] = p - opposite, first.edge[1] = q - opposite;
-      first.error_m = std::max(first.error_m, second.error_m);
-      first.area_m2 += second.area_m2, first.parallelogram = true;
-      return true;
-    }
-  }
-  return false;
-}
-
-LampSampler::Panel LampSampler::panel_of(const Scene& scene, const Light& light) {
-  Panel panel;
-  if (light.kind != Light::Kind::area) return panel;
-  const Instance& instance = scene.instance[light.instance];
-  const Material& material = scene.material[instance.material];
-  if (!shines_evenly(scene, instance)) return panel;
-  panel.luminance_cd_m2 = material.emission, panel.two_sided = material.double_sided;
-  double sum = 0;
-  std::vector<double> below;
-  for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
-       ++t) {
-    const auto& v = scene.triangle[t].v;
-    const Vec3 &a = scene.position[v[0]], &b = scene.position[v[1]], &c = scene.position[v[2]];
-    const Patch patch{
-        a, {b - a, c - a}, geometric_normal(scene, t), offset_m(a, b, c), phos::area_m2(scene, t), false};
-    if (!(patch.area_m2 > 0)) continue;
-    sum += static_cast<double>(patch.area_m2);
-    if (!panel.patch.empty() && !panel.patch.back().parallelogram && join(panel.patch.back(), patch)) {
-      below.back() = sum;
-      continue;
-    }
-    panel.patch.push_back(patch), below.push_back(sum);
-  }
-  // Uniform over the area: the same all over for every patch.
-  for (Patch& patch : panel.patch) patch.area_m2 = static_cast<float>(sum);
-  for (const double x : below) panel.cdf.push_back(static_cast<float>(x / sum));
-  return panel;
 }
 
 /// Illuminance at the point from a lamp that nothing hides, roughly for an area light; 0 only where it brings
@@ -198,34 +147,6 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   light.certain = true;
 }
 
-/// A point of a panel, uniform over its area. Fills what it needs of the light; lux 0 where it is dark.
-void LampSampler::from_panel(const SurfacePoint& point, const Panel& panel, float u_patch, const Vec2& u,
-                             float probability, ArrivingLight& light) {
-  std::size_t k = 0;
-  if (panel.patch.size() > 1) {
-    const auto above = std::upper_bound(panel.cdf.begin(), panel.cdf.end() - 1, u_patch);
-    k = static_cast<std::size_t>(above - panel.cdf.begin());
-  }
-  const Patch& patch = panel.patch[k];
-  const Vec2 weight = patch.parallelogram ? u : sample_triangle(u);
-  const Vec3 end = patch.corner + (weight.x * patch.edge[0] + weight.y * patch.edge[1]);
-  const Vec3 way = end - point.position;
-  const float height_m = glm::dot(way, point.normal), above_m = glm::dot(way, point.geometric_normal);
-  float before_m = -glm::dot(way, patch.normal);
-  if (panel.two_sided) before_m = std::fabs(before_m);
-  if (!(height_m > 0) || !(above_m > 0) || !(before_m > 0)) return;
-  light.ray.origin = point.position + point.error_m * point.geometric_normal;
-  const Vec3 free_way = end - light.ray.origin;
-  const float d2 = glm::dot(free_way, free_way);
-  if (!(d2 > 0)) return;
-  const float per_m = 1 / std::sqrt(d2), per_m2 = per_m * per_m;
-  light.lux =
-      panel.luminance_cd_m2 * ((height_m * per_m2) * (before_m * per_m2) * (patch.area_m2 / probability));
-  light.ray.direction = free_way * per_m;
-  light.ray.t_max_m = d2 * per_m - std::max(patch.error_m, point.error_m);
-  light.certain = !(light.ray.t_max_m > 0);
-}
-
 void LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& u,
                          ArrivingLight& light) const {
   light.lux = Rgb(0);
@@ -233,8 +154,13 @@ void LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& 
   const float rays = ray_share(point);
   if (u[0] < rays) return by_ray(point, {u[1], u[2]}, rays, light);
   const Choice lamp = choose(point, std::min((u[0] - rays) / (1 - rays), kBelowOne));
-  if (rays == 0 && !panel_[lamp.light].patch.empty())
-    return from_panel(point, panel_[lamp.light], lamp.rest, {u[1], u[2]}, lamp.probability, light);
+  if (const LampPanel& panel = panel_[lamp.light]; rays == 0 && !panel.empty()) {
+    const LampPanel::Way way = panel.way(point, lamp.rest, {u[1], u[2]});
+    if (!(way.weight_sr > 0) || !way.above) return;
+    light.lux = panel.luminance() * (way.weight_sr / lamp.probability);
+    light.ray = way.ray, light.certain = !(way.ray.t_max_m > 0);
+    return;
+  }
   Illumination arriving;
   if (!lights_.illuminate(lamp.light, point.position, lamp.rest, {u[1], u[2]}, arriving)) return;
   const float cosine = glm::dot(point.normal, arriving.direction);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/lamp_panel.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -56,26 +57,8 @@ class LampSampler {
     float strength = 0;  // intensity towards the front, cd; directional: lx
     Light beam;          // of a spot or measured light: itself
   };
-  /// A triangle or parallelogram of an area light, from a corner along two edges.
-  struct Patch {
-    Vec3 corner{0}, edge[2]{Vec3(0), Vec3(0)}, normal{0};
-    float error_m = 0;
-    float area_m2 = 0;  // over the probability of this patch
-    bool parallelogram = false;
-  };
-  /// The patches of an area light that is as bright all over.
-  struct Panel {
-    Rgb luminance_cd_m2{0};
-    bool two_sided = false;
-    std::vector<float> cdf;
-    std::vector<Patch> patch;  // empty for every other light
-  };
   using Promises = std::array<float, kMostCompared>;
   static Lamp lamp_of(const Scene& scene, const Light& light);
-  static Panel panel_of(const Scene& scene, const Light& light);
-  static bool join(Patch& first, const Patch& second);
-  static void from_panel(const SurfacePoint& point, const Panel& panel, float u_patch, const Vec2& u,
-                         float probability, ArrivingLight& light);
   float promise_lx(const Lamp& lamp, const SurfacePoint& point) const;
   float promises(const SurfacePoint& point, Promises& each) const;
   float ray_share(const SurfacePoint& point) const;
@@ -83,9 +66,9 @@ class LampSampler {
 
   const RayScene& rays_;
   const Luminaires& lights_;
-  std::vector<Lamp> lamp_;    // empty where there are too many
-  std::vector<Panel> panel_;  // per light
-  std::vector<float> share_;  // of power
+  std::vector<Lamp> lamp_;        // empty where there are too many
+  std::vector<LampPanel> panel_;  // per light
+  std::vector<float> share_;      // of power
   std::vector<double> cdf_;
   bool area_ = false;  // any is an area light
   std::uint32_t samples_ = 1;

@@ -5,14 +5,6 @@
 
 namespace phos {
 
-Vec3 normalized_or_zero(const Vec3& v) {
-  if (!is_finite(v)) return Vec3(0);
-  const float largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-  if (!(largest > 0)) return Vec3(0);
-  const Vec3 scaled = v / largest;
-  return scaled / std::sqrt(glm::dot(scaled, scaled));
-}
-
 namespace {
 
 /// For v in [-1, 1].

@@ -30,7 +30,15 @@ inline bool is_finite(const Vec3& v) {
 
 /// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scales
 /// first).
-Vec3 normalized_or_zero(const Vec3& v);
+inline Vec3 normalized_or_zero(const Vec3& v) {
+  const float d2 = glm::dot(v, v);
+  if (d2 > 1e-30f && d2 < 1e30f) return v / std::sqrt(d2);  // no part of it is lost
+  if (!is_finite(v)) return Vec3(0);
+  const float largest = max_component(glm::abs(v));
+  if (!(largest > 0)) return Vec3(0);
+  const Vec3 scaled = v / largest;
+  return scaled / std::sqrt(glm::dot(scaled, scaled));
+}
 
 /// Orthonormal, right-handed; z is the normal.
 struct Frame {

@@ -3,17 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/luminaires.h"
-
 namespace phos {
 namespace {
 
-constexpr std::uint32_t kMostTriangles = 32;
+constexpr std::size_t kMostPatches = 32;
 
-/// Angle between unit vectors over its sine: 1 for equal ones.
-double angle_over_sine(double sine, double cosine) {
-  if (sine > 1e-7) return std::atan2(sine, cosine) / sine;
-  return cosine > 0 ? 1.0 : 0.0;  // opposite ones: the edge runs through the origin
+/// Angle between unit vectors over its sine, from the square of that: 1 for equal ones.
+double angle_over_sine(double sine2, double cosine) {
+  if (sine2 < 0.01 && cosine > 0)  // the series of asin(x) / x: what is left out is below 1e-13
+    return 1 +
+           sine2 * (1. / 6 +
+                    sine2 * (3. / 40 +
+                             sine2 * (5. / 112 +
+                                      sine2 * (35. / 1152 + sine2 * (63. / 2816 + sine2 * (231. / 13312))))));
+  const double sine = std::sqrt(sine2);
+  return sine > 1e-7 ? std::atan2(sine, cosine) / sine
+                     : 0.0;  // opposite ones: the edge runs through the origin
 }
 
 /// Sutherland and Hodgman's step for the plane through the origin that faces n. `out` holds one more.
@@ -45,23 +50,19 @@ double projected_solid_angle(std::span<const DVec3> corners, const DVec3& n) {
     // Clockwise for one who looks from inside the cone: counter-clockwise seen from the surface's side.
     const DVec3 &a = unit[(i + 1) % count], &b = unit[i];
     const DVec3 across = glm::cross(a, b);
-    sum += angle_over_sine(glm::length(across), glm::dot(a, b)) * glm::dot(across, n);
+    sum += angle_over_sine(glm::dot(across, across), glm::dot(a, b)) * glm::dot(across, n);
   }
   return 0.5 * sum;
 }
 
-LampForm::LampForm(const Scene& scene, const Light& light) {
-  if (light.kind != Light::Kind::area) return;
-  const Instance& instance = scene.instance[light.instance];
-  const Material& material = scene.material[instance.material];
-  if (!shines_evenly(scene, instance) || instance.triangle_count > kMostTriangles) return;
-  luminance_ = material.emission;
-  double_sided_ = material.double_sided;
-  for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {
-    const Triangle& triangle = scene.triangle[instance.first_triangle + t];
-    Polygon polygon{{}, DVec3(geometric_normal(scene, instance.first_triangle + t)), 3};
-    for (int c = 0; c < 3; ++c) polygon.corner[c] = DVec3(scene.position[triangle.v[c]]);
-    polygon_.push_back(polygon);
+LampForm::LampForm(const LampPanel& panel) : luminance_(panel.luminance()), double_sided_(panel.two_sided()) {
+  if (panel.patches().size() > kMostPatches) return;
+  for (const LampPanel::Patch& patch : panel.patches()) {
+    const DVec3 a(patch.corner), b = a + DVec3(patch.edge[0]), c = a + DVec3(patch.edge[1]);
+    if (patch.parallelogram)
+      polygon_.push_back({{a, b, b + DVec3(patch.edge[1]), c}, DVec3(patch.normal), 4});
+    else
+      polygon_.push_back({{a, b, c}, DVec3(patch.normal), 3});
   }
 }
 
@@ -71,9 +72,8 @@ float LampForm::projected_solid_angle(const Vec3& p, const Vec3& n) const {
   for (const Polygon& polygon : polygon_) {
     if (!double_sided_ && !(glm::dot(origin - polygon.corner[0], polygon.normal) > 0)) continue;
     DVec3 corner[4];
-    for (int c = 0; c < polygon.corners; ++c) corner[c] = polygon.corner[c] - origin;
-    sum += std::fabs(
-        phos::projected_solid_angle(std::span(corner, static_cast<std::size_t>(polygon.corners)), DVec3(n)));
+    for (unsigned c = 0; c < polygon.corners; ++c) corner[c] = polygon.corner[c] - origin;
+    sum += std::fabs(phos::projected_solid_angle(std::span(corner, polygon.corners), DVec3(n)));
   }
   return static_cast<float>(sum);
 }

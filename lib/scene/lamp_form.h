@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/vector.h"
-#include "scene/scene.h"
+#include "scene/lamp_panel.h"
 
 namespace phos {
 
@@ -18,8 +18,9 @@ double projected_solid_angle(std::span<const DVec3> corners, const DVec3& n);
 /// Unoccluded irradiance from an area light.
 class LampForm {
  public:
-  LampForm(const Scene& scene, const Light& light);
-  /// Is there a closed form worth its time: an area light of one luminance and few triangles? Corners of a
+  explicit LampForm(const LampPanel& panel);
+  LampForm(const Scene& scene, const Light& light) : LampForm(LampPanel(scene, light)) {}
+  /// Is there a closed form worth its time: an area light of one luminance and few patches? Corners of a
   /// lamp that hide each other are left to the test of visibility.
   bool closed() const { return !polygon_.empty(); }
   /// cd/m2
@@ -30,7 +31,7 @@ class LampForm {
  private:
   struct Polygon {
     DVec3 corner[4], normal;
-    int corners;
+    unsigned corners;
   };
   std::vector<Polygon> polygon_;
   Rgb luminance_{0};

@@ -21,21 +21,19 @@ constexpr float kEven = 0.25f;
 }  // namespace
 
 EdgeLight::EdgeLight(const RayScene& rays, const Luminaires& lights, int rays_each, std::uint64_t seed)
-    : rays_(rays), lights_(lights), rays_each_(rays_each), seed_(seed) {
-  for (std::size_t i = 0; i < lights.size(); ++i) form_.emplace_back(rays.scene(), lights[i]);
-}
+    : lamps_(rays, lights), rays_each_(rays_each), seed_(seed) {}
 
 /// Rays from places begin .. end - 1 of the samples to all lamps.
 void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& s) const {
-  LampRays lamp_rays(rays_, lights_);
+  LampRays lamp_rays(lamps_);
   for (std::size_t place = begin; place < end; ++place) {
     const std::uint32_t i = samples.sample[place];
-    const SurfacePoint p = rays_.surface(samples.ray[i], samples.hit[i]);
-    for (std::size_t lamp = 0; lamp < form_.size(); ++lamp) {
+    const SurfacePoint p = lamps_.rays.surface(samples.ray[i], samples.hit[i]);
+    for (std::size_t lamp = 0; lamp < lamps_.form.size(); ++lamp) {
       const Sight& found = s.sight[lamp];
-      if (begin > 0 && form_[lamp].closed() && !(found.seen > 0 && found.seen < found.sent)) continue;
+      if (begin > 0 && lamps_.form[lamp].closed() && !(found.seen > 0 && found.seen < found.sent)) continue;
       const std::uint32_t* shift = &s.shift[lamp * kShifts];
-      const int count = lights_[lamp].extended() ? rays_each_ : 1;
+      const int count = lamps_.lights[lamp].extended() ? rays_each_ : 1;
       for (int r = 0; r < count; ++r) {
         const int k = static_cast<int>(place) * count + r;
         lamp_rays.aim(lamp, p, golden_point(k, shift[2]), sobol_point(k, shift[0], shift[1]), s.sight[lamp]);
@@ -49,24 +47,25 @@ void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t 
 void EdgeLight::add_whole(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& s) const {
   for (std::size_t place = begin; place < end; ++place) {
     const std::uint32_t i = samples.sample[place];
-    const SurfacePoint p = rays_.surface(samples.ray[i], samples.hit[i]);
-    for (std::size_t lamp = 0; lamp < form_.size(); ++lamp)
-      if (form_[lamp].closed() && s.sight[lamp].seen > 0)
-        s.whole[lamp] += form_[lamp].projected_solid_angle(p.position, p.normal);
+    const SurfacePoint p = lamps_.rays.surface(samples.ray[i], samples.hit[i]);
+    for (std::size_t lamp = 0; lamp < lamps_.form.size(); ++lamp)
+      if (lamps_.form[lamp].closed() && s.sight[lamp].seen > 0)
+        s.whole[lamp] += lamps_.form[lamp].projected_solid_angle(p.position, p.normal);
   }
 }
 
 /// `places`: at which the lamps were taken whole.
 SharedLight EdgeLight::sum(std::size_t places, const Scratch& s) const {
   SharedLight all;
-  for (std::size_t lamp = 0; lamp < form_.size(); ++lamp) {
+  for (std::size_t lamp = 0; lamp < lamps_.form.size(); ++lamp) {
     Finding found;
     found.add(s.sight[lamp], 1);
-    if (!form_[lamp].closed()) {
+    if (!lamps_.form[lamp].closed()) {
       all.add_mean(found);
     } else if (found.seen > 0) {
       const float whole = s.whole[lamp] / static_cast<float>(places);
-      all.add_share(form_[lamp].luminance() * whole, found.share(), kEven * found.variance_of(found.share()));
+      all.add_share(lamps_.form[lamp].luminance() * whole, found.share(),
+                    kEven * found.variance_of(found.share()));
     }
   }
   return all;
@@ -74,10 +73,10 @@ SharedLight EdgeLight::sum(std::size_t places, const Scratch& s) const {
 
 std::optional<SharedLight> EdgeLight::light(const EdgeSamples& samples, const SharedLight* about,
                                             Scratch& s) const {
-  s.sight.assign(form_.size(), Sight()), s.whole.assign(form_.size(), 0.f);
+  s.sight.assign(lamps_.form.size(), Sight()), s.whole.assign(lamps_.form.size(), 0.f);
   RandomStream random(seed_, Stage::edge_light, samples.pixel);
   random.start_bounce(samples.number & 0xffffu);
-  s.shift.resize(form_.size() * kShifts);
+  s.shift.resize(lamps_.form.size() * kShifts);
   for (std::uint32_t& shift : s.shift) shift = random.bits();
 
   const std::size_t places = samples.sample.size(), tests = std::min(places, kTests);

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/lamp_form.h"
 #include "splat/lamp_rays.h"
 
 namespace phos {
@@ -45,11 +44,9 @@ class EdgeLight {
   void add_whole(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& scratch) const;
   SharedLight sum(std::size_t places, const Scratch& scratch) const;
 
-  const RayScene& rays_;
-  const Luminaires& lights_;
+  AimedLamps lamps_;
   int rays_each_;
   std::uint64_t seed_;
-  std::vector<LampForm> form_;  // per lamp
 };
 
 }  // namespace phos

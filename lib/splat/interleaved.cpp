@@ -83,7 +83,8 @@ class Interleaved {
  public:
   Interleaved(const RayScene& rays, const Luminaires& lights, const GBuffer& gbuffer, const RayShare& share,
               std::uint64_t seed)
-      : rays_(rays),
+      : lamps_(rays, lights),
+        rays_(rays),
         lights_(lights),
         g_(gbuffer),
         share_(share),
@@ -102,7 +103,7 @@ class Interleaved {
         for_each([&](std::size_t i) { shared_[i].illuminance += sight_[i].light; });
         continue;
       }
-      const LampForm form(rays_.scene(), lights_[lamp]);
+      const LampForm& form = lamps_.form[lamp];
       const int first = share_.pass * share_.rays, tests = std::max(1, share_.rays / kPerTest);
       send(lamp, first, tests, [](std::size_t) { return true; });
       for_each([&](std::size_t i) { found_[i] = state(sight_[i]); });
@@ -155,7 +156,7 @@ class Interleaved {
   void send(std::size_t lamp, int first, int count, const Wanted& wanted) {
     const std::size_t height = pixels_ / width_;
     parallel_for((height + kTile - 1) / kTile, 1, [&](std::size_t row) {
-      LampRays lamp_rays(rays_, lights_);
+      LampRays lamp_rays(lamps_);
       std::vector<SurfacePoint> from(kTile * kTile);
       std::vector<LampPoints> to(kTile * kTile);
       for (std::size_t x0 = 0, y0 = row * kTile; x0 < width_; x0 += kTile) {
@@ -255,6 +256,7 @@ class Interleaved {
     return form.projected_solid_angle(Vec3(g_.position[i]), receiver_[i].normal);
   }
 
+  AimedLamps lamps_;
   const RayScene& rays_;
   const Luminaires& lights_;
   const GBuffer& g_;

@@ -33,27 +33,45 @@ void SharedLight::add_share(const Rgb& whole_lx, float share, float variance_of_
   variance += DVec3(whole_lx) * DVec3(whole_lx) * static_cast<double>(variance_of_share);
 }
 
+AimedLamps::AimedLamps(const RayScene& the_rays, const Luminaires& the_lights)
+    : rays(the_rays), lights(the_lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    panel.emplace_back(rays.scene(), lights[i]);
+    form.emplace_back(panel.back());
+  }
+}
+
+void LampRays::add(const Ray& ray, const Aim& aim) {
+  ray_.push_back(ray);
+  if (!(ray.t_max_m > 0)) ray_.back().t_max_m = -1;  // too close to each other for anything to stand between
+  aim_.push_back(aim);
+  if (ray_.size() == kMost) send();
+}
+
 void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight) {
   ++sight.rays;
-  Illumination light;
-  if (!lights_.illuminate(lamp, p.position, std::min(u_triangle, kBelowOne), glm::min(u, Vec2(kBelowOne)),
-                          light))
+  if (const LampPanel& panel = lamps_.panel[lamp]; !panel.empty() && !panel.near(p.position)) {
+    const LampPanel::Way way = panel.way(p, u_triangle, u);
+    if (!(way.weight_sr > 0)) return;
+    sight.sent += way.weight_sr;
+    if (way.above) add(way.ray, {&sight, way.weight_sr, panel.luminance() * way.weight_sr});
     return;
-  const float density = lights_[lamp].extended() ? light.density : 1;
+  }
+  Illumination light;
+  if (!lamps_.lights.illuminate(lamp, p.position, std::min(u_triangle, kBelowOne),
+                                glm::min(u, Vec2(kBelowOne)), light))
+    return;
+  const float density = lamps_.lights[lamp].extended() ? light.density : 1;
   const float weight = glm::dot(p.normal, light.direction) / density;
   if (!(weight > 0) || !std::isfinite(weight)) return;
   sight.sent += weight;
   if (!(glm::dot(p.geometric_normal, light.direction) > 0)) return;
-  Ray ray = shadow_ray(p, light);
-  if (!(ray.t_max_m > 0)) ray.t_max_m = -1;  // too close to each other for anything to stand between
-  ray_.push_back(ray);
-  aim_.push_back({&sight, weight, light.value * weight});
-  if (ray_.size() == kMost) send();
+  add(shadow_ray(p, light), {&sight, weight, light.value * weight});
 }
 
 void LampRays::send() {
   blocked_.resize(ray_.size());
-  rays_.occluded(ray_, blocked_);
+  lamps_.rays.occluded(ray_, blocked_);
   for (std::size_t k = 0; k < aim_.size(); ++k) {
     if (blocked_[k]) continue;
     const auto& [sight, weight, brings] = aim_[k];

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/lamp_form.h"
+#include "scene/lamp_panel.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -42,10 +44,19 @@ struct SharedLight {
   void add_share(const Rgb& whole_lx, float share, float variance);
 };
 
-/// Rays on their way. Holds references.
+/// The lamps of a scene, as shadow rays are aimed at them. Holds references.
+struct AimedLamps {
+  AimedLamps(const RayScene& rays, const Luminaires& lights);
+  const RayScene& rays;
+  const Luminaires& lights;
+  std::vector<LampPanel> panel;  ///< per lamp
+  std::vector<LampForm> form;    ///< per lamp
+};
+
+/// Rays on their way. Holds a reference.
 class LampRays {
  public:
-  LampRays(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {}
+  explicit LampRays(const AimedLamps& lamps) : lamps_(lamps) {}
   /// A ray from p to the place on a lamp that numbers in [0, 1] choose; to a lamp without an area, of which a
   /// ray brings everything. `sight` must live until send(); where rays are many, some are sent before.
   void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight);
@@ -58,8 +69,9 @@ class LampRays {
     float weight;
     Rgb brings{0};
   };
-  const RayScene& rays_;
-  const Luminaires& lights_;
+  void add(const Ray& ray, const Aim& aim);
+
+  const AimedLamps& lamps_;
   std::vector<Ray> ray_;
   std::vector<Aim> aim_;
   std::vector<std::uint8_t> blocked_;
