@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kChunk = 4;     // records made by one task
 constexpr std::size_t kBlock = 4096;  // records made between two reports of progress
-constexpr std::size_t kLeastBatch = 16, kMostBatch = 1024;
+constexpr std::size_t kLeastBatch = 16, kMostBatch = 128;
 
 }  // namespace
 

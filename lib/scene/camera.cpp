@@ -37,7 +37,7 @@ CameraRays::CameraRays(const Camera& camera, float image_aspect)
 Camera::Ray CameraRays::operator()(const Vec2& st) const {
   const Vec2 ndc(2 * st.x - 1, 1 - 2 * st.y);
   if (perspective_) {
-    const Vec3 local = glm::normalize(Vec3(ndc.x * half_height_ * image_aspect_, ndc.y * half_height_, -1));
+    const Vec3 local(ndc.x * half_height_ * image_aspect_, ndc.y * half_height_, -1);
     return {origin_, glm::normalize(axes_.to_world(local))};
   }
   return {origin_ + ndc.x * half_height_ * image_aspect_ * axes_.x + ndc.y * half_height_ * axes_.y,

@@ -8,17 +8,26 @@ namespace {
 
 constexpr std::size_t kMostPatches = 32;
 
-/// Angle between unit vectors over its sine, from the square of that: 1 for equal ones.
-double angle_over_sine(double sine2, double cosine) {
-  if (sine2 < 0.01 && cosine > 0)  // the series of asin(x) / x: what is left out is below 1e-13
-    return 1 +
-           sine2 * (1. / 6 +
-                    sine2 * (3. / 40 +
-                             sine2 * (5. / 112 +
-                                      sine2 * (35. / 1152 + sine2 * (63. / 2816 + sine2 * (231. / 13312))))));
-  const double sine = std::sqrt(sine2);
-  return sine > 1e-7 ? std::atan2(sine, cosine) / sine
-                     : 0.0;  // opposite ones: the edge runs through the origin
+/// arccos(c) / sin(arccos(c)) for c in [0, 1], a polynomial in 2 c - 1 fitted at Chebyshev points; relative
+/// error 2e-12.
+double acute_over_sine(double c) {
+  constexpr double kFactor[] = {1.2091995761558605,     -0.26360014130677117,    0.069733192088144977,
+                                -0.019837145979242205,  0.0058616282241016286,   -0.0017729385310771791,
+                                0.00054477992094009947, -0.00016926275937191148, 5.305078881076277e-05,
+                                -1.686176411713913e-05, 5.3619636259689643e-06,  -1.5519419285980031e-06,
+                                4.8776749565418562e-07, -2.6111313858134919e-07, 8.6488168776553322e-08};
+  const double t = 2 * c - 1;
+  double sum = 0;
+  for (std::size_t i = std::size(kFactor); i-- > 0;) sum = sum * t + kFactor[i];
+  return sum;
+}
+
+/// Angle between unit vectors over its sine: 1 for equal ones.
+double angle_over_sine(double cosine, const DVec3& cross) {
+  if (cosine >= 0) return acute_over_sine(cosine);
+  const double sine = glm::length(cross);
+  if (!(sine > 1e-7)) return 0;  // opposite ones: the edge runs through the origin
+  return std::numbers::pi / sine - acute_over_sine(-cosine);
 }
 
 /// Sutherland and Hodgman's step for the plane through the origin that faces n. `out` holds one more.
@@ -50,7 +59,7 @@ double projected_solid_angle(std::span<const DVec3> corners, const DVec3& n) {
     // Clockwise for one who looks from inside the cone: counter-clockwise seen from the surface's side.
     const DVec3 &a = unit[(i + 1) % count], &b = unit[i];
     const DVec3 across = glm::cross(a, b);
-    sum += angle_over_sine(glm::dot(across, across), glm::dot(a, b)) * glm::dot(across, n);
+    sum += angle_over_sine(glm::dot(a, b), across) * glm::dot(across, n);
   }
   return 0.5 * sum;
 }

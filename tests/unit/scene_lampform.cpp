@@ -52,6 +52,39 @@ TEST(ProjectedSolidAngle, ChangesSignSeenFromBehindAndSurvivesItsLimits) {
   EXPECT_NEAR(projected_solid_angle(tiny, {0, 0, 1}), 1e-18, 1e-24);
 }
 
+TEST(ProjectedSolidAngle, IsRightForEdgesOfEveryLength) {
+  // A narrow strip from 45 degrees to one side to `far` on the other, straight above: two long edges.
+  const double width = 1e-3;
+  for (double far = -44.5; far < 90; far += 0.5) {
+    const double x = std::tan(far * std::numbers::pi / 180);
+    const std::vector<DVec3> strip{{-1, 0, 1}, {-1, width, 1}, {x, width, 1}, {x, 0, 1}};
+    const auto edge = [&](double b) {  // of a rectangle 0 .. b by 0 .. width
+      return 0.5 * (b / std::hypot(1, b) * std::atan(width / std::hypot(1, b)) +
+                    width / std::hypot(1, width) * std::atan(b / std::hypot(1, width)));
+    };
+    const double exact = edge(x) + edge(1);
+    EXPECT_NEAR(projected_solid_angle(strip, {0, 0, 1}), exact, 1e-9 * exact) << far;
+  }
+}
+
+TEST(LampForm, TakesTwoTrianglesForTheParallelogramThatTheyAre) {
+  const Scene scene = load_scene(std::string(PHOS_SOURCE) + "/data/cornell-measured.glb");
+  const LampPanel panel(scene, scene.light[0]);
+  ASSERT_EQ(panel.patches().size(), 1u);
+  EXPECT_TRUE(panel.patches()[0].parallelogram);
+  const Instance& lamp = scene.instance[scene.light[0].instance];
+  ASSERT_EQ(lamp.triangle_count, 2u);
+  const Vec3 p = scene.bounds.centre(), n(0, 1, 0);
+  double halves = 0;
+  for (std::uint32_t t = lamp.first_triangle; t < lamp.first_triangle + 2; ++t) {
+    std::vector<DVec3> corner;
+    for (const std::uint32_t v : scene.triangle[t].v) corner.push_back(DVec3(scene.position[v]) - DVec3(p));
+    halves += projected_solid_angle(corner, DVec3(n));
+  }
+  EXPECT_GT(halves, 0.01);
+  EXPECT_NEAR(static_cast<double>(LampForm(panel).projected_solid_angle(p, n)), halves, 1e-6 * halves);
+}
+
 TEST(LampForm, IsTheMeanOfTheLampsSamples) {
   const Scene scene = load_scene(std::string(PHOS_SOURCE) + "/data/cornell-measured.glb");
   const Luminaires lights(scene);
