@@ -36,7 +36,8 @@ void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t 
       const int count = lamps_.lights[lamp].extended() ? rays_each_ : 1;
       for (int r = 0; r < count; ++r) {
         const int k = static_cast<int>(place) * count + r;
-        lamp_rays.aim(lamp, p, golden_point(k, shift[2]), sobol_point(k, shift[0], shift[1]), s.sight[lamp]);
+        lamp_rays.aim(lamp, p, golden_point(k, shift[2]), sobol_point(k, shift[0], shift[1]), s.sight[lamp],
+                      &s.brought[lamp]);
       }
     }
   }
@@ -59,7 +60,7 @@ SharedLight EdgeLight::sum(std::size_t places, const Scratch& s) const {
   SharedLight all;
   for (std::size_t lamp = 0; lamp < lamps_.form.size(); ++lamp) {
     Finding found;
-    found.add(s.sight[lamp], 1);
+    found.add(s.sight[lamp], 1), found.add(s.brought[lamp], 1);
     if (!lamps_.form[lamp].closed()) {
       all.add_mean(found);
     } else if (found.seen > 0) {
@@ -73,7 +74,8 @@ SharedLight EdgeLight::sum(std::size_t places, const Scratch& s) const {
 
 std::optional<SharedLight> EdgeLight::light(const EdgeSamples& samples, const SharedLight* about,
                                             Scratch& s) const {
-  s.sight.assign(lamps_.form.size(), Sight()), s.whole.assign(lamps_.form.size(), 0.f);
+  s.sight.assign(lamps_.form.size(), Sight()), s.brought.assign(lamps_.form.size(), Brought());
+  s.whole.assign(lamps_.form.size(), 0.f);
   RandomStream random(seed_, Stage::edge_light, samples.pixel);
   random.start_bounce(samples.number & 0xffffu);
   s.shift.resize(lamps_.form.size() * kShifts);

@@ -29,8 +29,9 @@ class EdgeLight {
   EdgeLight(const RayScene& rays, const Luminaires& lights, int rays_each, std::uint64_t seed);
 
   struct Scratch {
-    std::vector<Sight> sight;  // per lamp
-    std::vector<float> whole;  // per lamp: sum of projected solid angles
+    std::vector<Sight> sight;      // per lamp
+    std::vector<Brought> brought;  // per lamp
+    std::vector<float> whole;      // per lamp: sum of projected solid angles
     std::vector<std::uint32_t> shift;
   };
   /// Light of them all; nothing where `about`, that of the pixel about them (null: none), is right: then no

@@ -97,13 +97,14 @@ class Interleaved {
     shared_.assign(pixels_, SharedLight());
     sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
     for (std::size_t lamp = 0; lamp < lights_.size(); ++lamp) {
+      const LampForm& form = lamps_.form[lamp];
       std::fill(sight_.begin(), sight_.end(), Sight());
+      brought_.assign(form.closed() ? 0 : pixels_, Brought());
       if (!lights_[lamp].extended()) {
         send(lamp, 0, 1, [](std::size_t) { return true; });
-        for_each([&](std::size_t i) { shared_[i].illuminance += sight_[i].light; });
+        for_each([&](std::size_t i) { shared_[i].illuminance += brought_[i].light; });
         continue;
       }
-      const LampForm& form = lamps_.form[lamp];
       const int first = share_.pass * share_.rays, tests = std::max(1, share_.rays / kPerTest);
       send(lamp, first, tests, [](std::size_t) { return true; });
       for_each([&](std::size_t i) { found_[i] = state(sight_[i]); });
@@ -171,7 +172,7 @@ class Interleaved {
         for (int s = first; s < first + count; ++s)
           each([&](std::size_t k, std::size_t i) {
             const auto [u_triangle, u] = to[k].at(s);
-            lamp_rays.aim(lamp, from[k], u_triangle, u, sight_[i]);
+            lamp_rays.aim(lamp, from[k], u_triangle, u, sight_[i], brought_.empty() ? nullptr : &brought_[i]);
           });
         lamp_rays.send();
       }
@@ -240,13 +241,17 @@ class Interleaved {
     std::array<Finding, kReaches> found;
     const SeenSurface own = SeenSurface::of(g_, i);
     const int x = static_cast<int>(i % width_), y = static_cast<int>(i / width_);
-    found[kOwn].add(sight_[i], 1);
+    const auto add = [&](Reach reach, std::size_t j, float weight) {
+      found[reach].add(sight_[j], weight);
+      if (!brought_.empty()) found[reach].add(brought_[j], weight);
+    };
+    add(kOwn, i, 1);
     for (int v = std::max(0, y - kReach); v <= std::min(g_.height - 1, y + kReach); ++v) {
       for (int u = std::max(0, x - kReach); u <= std::min(g_.width - 1, x + kReach); ++u) {
         const std::size_t j = static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u);
         if (g_.hit[j].triangle != g_.hit[i].triangle && !same_surface(own, g_, j)) continue;
-        found[kAll].add(sight_[j], kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
-        if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) found[kNext].add(sight_[j], 1);
+        add(kAll, j, kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
+        if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) add(kNext, j, 1);
       }
     }
     return found;
@@ -265,6 +270,7 @@ class Interleaved {
   std::uint64_t seed_;
   std::vector<Receiver> receiver_;
   std::vector<Sight> sight_;                 // per pixel, of one lamp
+  std::vector<Brought> brought_;             // empty for a lamp with a closed form
   std::vector<std::uint8_t> found_, about_;  // states of a pixel, and of it with its neighbours
   std::vector<SharedLight> shared_;
 };

@@ -14,9 +14,12 @@ constexpr std::size_t kMost = 8192;  // rays on their way at once
 }  // namespace
 
 void Finding::add(const Sight& s, float weight) {
-  seen += weight * s.seen, sent += weight * s.sent, light += weight * s.light;
-  light2 += static_cast<double>(weight) * s.light2;
+  seen += weight * s.seen, sent += weight * s.sent;
   rays += weight * static_cast<float>(s.rays), rays2 += weight * weight * static_cast<float>(s.rays);
+}
+
+void Finding::add(const Brought& b, float weight) {
+  light += weight * b.light, light2 += static_cast<double>(weight) * b.light2;
 }
 
 void SharedLight::add_mean(const Finding& found) {
@@ -48,13 +51,14 @@ void LampRays::add(const Ray& ray, const Aim& aim) {
   if (ray_.size() == kMost) send();
 }
 
-void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight) {
+void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight,
+                   Brought* brought) {
   ++sight.rays;
   if (const LampPanel& panel = lamps_.panel[lamp]; !panel.empty() && !panel.near(p.position)) {
     const LampPanel::Way way = panel.way(p, u_triangle, u);
     if (!(way.weight_sr > 0)) return;
     sight.sent += way.weight_sr;
-    if (way.above) add(way.ray, {&sight, way.weight_sr, panel.luminance() * way.weight_sr});
+    if (way.above) add(way.ray, {&sight, brought, way.weight_sr, panel.luminance() * way.weight_sr});
     return;
   }
   Illumination light;
@@ -66,7 +70,7 @@ void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, co
   if (!(weight > 0) || !std::isfinite(weight)) return;
   sight.sent += weight;
   if (!(glm::dot(p.geometric_normal, light.direction) > 0)) return;
-  add(shadow_ray(p, light), {&sight, weight, light.value * weight});
+  add(shadow_ray(p, light), {&sight, brought, weight, light.value * weight});
 }
 
 void LampRays::send() {
@@ -74,9 +78,9 @@ void LampRays::send() {
   lamps_.rays.occluded(ray_, blocked_);
   for (std::size_t k = 0; k < aim_.size(); ++k) {
     if (blocked_[k]) continue;
-    const auto& [sight, weight, brings] = aim_[k];
+    const auto& [sight, brought, weight, brings] = aim_[k];
     sight->seen += weight;
-    sight->light += brings, sight->light2 += DVec3(brings) * DVec3(brings);
+    if (brought) brought->light += brings, brought->light2 += DVec3(brings) * DVec3(brings);
   }
   ray_.clear(), aim_.clear();
 }

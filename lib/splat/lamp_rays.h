@@ -15,10 +15,14 @@ namespace phos {
 /// What rays to one lamp found.
 struct Sight {
   float seen = 0,
-        sent = 0;   ///< sums of projected solid angles over density, of the rays that arrive and of all
-  Rgb light{0};     ///< lx: sum of what rays brought (lamps without closed form)
-  DVec3 light2{0};  ///< and of its squares
+        sent = 0;  ///< sums of projected solid angles over density, of the rays that arrive and of all
   std::uint32_t rays = 0;
+};
+
+/// What they brought, for lamps without closed form: sums of it, lx, and of its squares.
+struct Brought {
+  Rgb light{0};
+  DVec3 light2{0};
 };
 
 /// The same of several places, weighted.
@@ -27,6 +31,7 @@ struct Finding {
   Rgb light{0};
   DVec3 light2{0};
   void add(const Sight& s, float weight);
+  void add(const Brought& b, float weight);
   /// Of the lamp, as seen; there must be rays that were sent.
   float share() const { return seen / sent; }
   /// Variance of `share`, as these rays would find it.
@@ -58,14 +63,17 @@ class LampRays {
  public:
   explicit LampRays(const AimedLamps& lamps) : lamps_(lamps) {}
   /// A ray from p to the place on a lamp that numbers in [0, 1] choose; to a lamp without an area, of which a
-  /// ray brings everything. `sight` must live until send(); where rays are many, some are sent before.
-  void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight);
+  /// ray brings everything. `sight`, and `brought` unless it is null, must live until send(); where rays are
+  /// many, some are sent before.
+  void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, Sight& sight,
+           Brought* brought);
   /// Tells each sight what the rest of its rays found.
   void send();
 
  private:
   struct Aim {
     Sight* sight;
+    Brought* brought;
     float weight;
     Rgb brings{0};
   };
