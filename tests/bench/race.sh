@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# First-bounce race: the whole way from .glb to .exr on one thread, and its error; beside it Blender's Cycles, if it is there
+# (Debian packages blender and python3-numpy).
+#   tests/bench/race.sh SCENE FOLDER [--places P] [--accuracy A] [--rays N] [--min-radius M] [--light-samples N] [--edge-samples N]
+#                       [--side PIXELS] [--samples N] [--runs N] [--cycles SAMPLES]
+# Light comes straight from lamps or over one surface. Records for P x P places of the view, then a picture of PIXELS x PIXELS.
+# Errors are RMS over the mean, against two references of N paths a pixel (64) that are made once and kept in FOLDER, their noise
+# taken out, emission left out. The defaults are those for sponza-flat at 3.6 %. Programs from PATH or build/release/bin.
+set -euo pipefail
+[[ $# -ge 2 && $1 != -* ]] || { sed -n '2,9s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+scene=$1 folder=$2
+shift 2
+places=112 accuracy=0.4 rays=256 min_radius=0.08 light_samples=8 edge_samples=23 side=1000 samples=64 runs=3 cycles=
+while (($# > 1)); do
+  case $1 in
+    --places) places=$2 ;; --accuracy) accuracy=$2 ;; --rays) rays=$2 ;; --min-radius) min_radius=$2 ;;
+    --light-samples) light_samples=$2 ;; --edge-samples) edge_samples=$2 ;; --side) side=$2 ;; --samples) samples=$2 ;;
+    --runs) runs=$2 ;; --cycles) cycles=$2 ;; *) echo "unknown: $1" >&2 && exit 2 ;;
+  esac
+  shift 2
+done
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+PATH=$PATH:$here/../../build/release/bin
+mkdir -p "$folder"
+
+now() { date +%s.%N; }
+seconds() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", b - a }'; }
+true_error() {
+  phos-compare "$1" "$folder/reference_1.exr" --second-reference "$folder/reference_2.exr" --layer beauty --ignore-emission --json |
+    awk -F'[:,]' '/"relative_converged_rmse"/ { printf "%.2f %%\n", 100 * $2; exit }'
+}
+
+for seed in 1 2; do
+  phos-reference "$scene" --bounces 2 --width "$side" --height "$side" --samples "$samples" --seed $seed --reuse --quiet \
+    -o "$folder/reference_$seed.exr"
+done
+for ((run = 0; run < runs; ++run)); do
+  start=$(now)
+  phos-irradiance "$scene" --estimate gather --gather-bounces 1 --place view --width "$places" --height "$places" \
+    --accuracy "$accuracy" --rays "$rays" --min-radius "$min_radius" --threads 1 --quiet -o "$folder/race.irradiance"
+  middle=$(now)
+  phos-splat "$scene" "$folder/race.irradiance" --width "$side" --height "$side" --accuracy 0.95 --splat cpu \
+    --direct interleaved --pixel-samples 1 --light-samples "$light_samples" --edge-samples "$edge_samples" --layers beauty \
+    --compression none --threads 1 --quiet -o "$folder/race.exr" 2>"$folder/race.log"
+  end=$(now)
+  echo "phos: $(seconds "$start" "$end") s ($(seconds "$start" "$middle") records, $(seconds "$middle" "$end") picture)," \
+    "error $(true_error "$folder/race.exr")"
+done
+[[ -n $cycles ]] || exit 0
+took=$(blender --background --python "$here/race_cycles.py" -- "$scene" "$folder/cycles.exr" "$side" "$cycles" 2>/dev/null |
+  awk '/^rendered in/ { print $3 }')
+[[ -n $took ]] || { echo "blender did not render" >&2; exit 1; }
+printf 'Cycles, %s samples: %.1f s, error %s\n' "$cycles" "$took" "$(true_error "$folder/cycles.exr")"
