@@ -28,8 +28,8 @@ inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scales
-/// first).
+/// Unit vector along v; (0,0,0) where v is zero or not finite. Safe for |v| from 1e-30 to 1e30 (scaled
+/// first where squares might be lost).
 inline Vec3 normalized_or_zero(const Vec3& v) {
   const float d2 = glm::dot(v, v);
   if (d2 > 1e-30f && d2 < 1e30f) return v / std::sqrt(d2);  // no part of it is lost

@@ -22,9 +22,10 @@ bool LampPanel::join(Patch& first, const Patch& second) {
       const float slack = first.error_m + second.error_m;
       if (glm::length(p - corner(second, b + 2)) > slack || glm::length(q - corner(second, b + 1)) > slack)
         continue;
-      if (glm::length((p - opposite) - (corner(second, b) - q)) > 4 * slack) continue;
+      const float gap = glm::length((p - opposite) - (corner(second, b) - q));
+      if (gap > 4 * slack) continue;
       first.corner = opposite, first.edge[0] = p - opposite, first.edge[1] = q - opposite;
-      first.error_m = std::max(first.error_m, second.error_m);
+      first.error_m = std::max(first.error_m, second.error_m) + gap;
       first.parallelogram = true;
       return true;
     }

@@ -84,8 +84,6 @@ class Interleaved {
   Interleaved(const RayScene& rays, const Luminaires& lights, const GBuffer& gbuffer, const RayShare& share,
               std::uint64_t seed)
       : lamps_(rays, lights),
-        rays_(rays),
-        lights_(lights),
         g_(gbuffer),
         share_(share),
         width_(static_cast<std::size_t>(gbuffer.width)),
@@ -96,11 +94,11 @@ class Interleaved {
     find_receivers(pixel_rays, subpixel);
     shared_.assign(pixels_, SharedLight());
     sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
-    for (std::size_t lamp = 0; lamp < lights_.size(); ++lamp) {
+    for (std::size_t lamp = 0; lamp < lamps_.lights.size(); ++lamp) {
       const LampForm& form = lamps_.form[lamp];
       std::fill(sight_.begin(), sight_.end(), Sight());
       brought_.assign(form.closed() ? 0 : pixels_, Brought());
-      if (!lights_[lamp].extended()) {
+      if (!lamps_.lights[lamp].extended()) {
         send(lamp, 0, 1, [](std::size_t) { return true; });
         for_each([&](std::size_t i) { shared_[i].illuminance += brought_[i].light; });
         continue;
@@ -138,7 +136,7 @@ class Interleaved {
     receiver_.resize(pixels_);
     for_each([&](std::size_t i) {
       const Ray ray = pixel_rays(static_cast<int>(i % width_), static_cast<int>(i / width_), subpixel);
-      const SurfacePoint point = rays_.surface(ray, g_.hit[i]);
+      const SurfacePoint point = lamps_.rays.surface(ray, g_.hit[i]);
       receiver_[i] = {point.normal, point.geometric_normal, point.error_m};
     });
   }
@@ -189,7 +187,7 @@ class Interleaved {
   LampPoints lamp_points(std::size_t lamp, std::size_t i) const {
     RandomStream random(seed_, Stage::direct_light, i);
     random.start_bounce(static_cast<std::uint32_t>(2 + lamp) & 0xffffu);
-    return {Stratum(i % width_, i / width_), lights_.by_u_alone(lamp), random};
+    return {Stratum(i % width_, i / width_), lamps_.lights.by_u_alone(lamp), random};
   }
 
   /// What the pixels within reach found, whatever their surface.
@@ -262,8 +260,6 @@ class Interleaved {
   }
 
   AimedLamps lamps_;
-  const RayScene& rays_;
-  const Luminaires& lights_;
   const GBuffer& g_;
   RayShare share_;
   std::size_t width_, pixels_;

@@ -41,6 +41,8 @@ AimedLamps::AimedLamps(const RayScene& the_rays, const Luminaires& the_lights)
   for (std::size_t i = 0; i < lights.size(); ++i) {
     panel.emplace_back(rays.scene(), lights[i]);
     form.emplace_back(panel.back());
+    // Not quite a parallelogram: a number that chooses among its patches would not be drawn.
+    if (panel.back().patches().size() > 1 && lights.by_u_alone(i)) panel.back() = LampPanel();
   }
 }
 

@@ -54,7 +54,7 @@ struct AimedLamps {
   AimedLamps(const RayScene& rays, const Luminaires& lights);
   const RayScene& rays;
   const Luminaires& lights;
-  std::vector<LampPanel> panel;  ///< per lamp
+  std::vector<LampPanel> panel;  ///< per lamp; empty where Luminaires chooses its points
   std::vector<LampForm> form;    ///< per lamp
 };
 
