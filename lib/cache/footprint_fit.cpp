@@ -104,7 +104,7 @@ LightNearby::LightNearby(std::span<const Hemisphere> passes, GradientMode mode, 
   share_.resize(red_.size());
 }
 
-LightNearby::Light LightNearby::at(const Vec2& step) const {
+LightNearby::Light LightNearby::at(const Vec2& step, float of_occlusion) const {
   const std::size_t n = red_.size();
   const float x = step.x, y = step.y, s2 = glm::dot(step, step);
   for (std::size_t i = 0; i < n; ++i) {
@@ -126,8 +126,9 @@ LightNearby::Light LightNearby::at(const Vec2& step) const {
     sum[0][0] += share_[i] * red_[i], sum[1][0] += share_[i] * green_[i];
     sum[2][0] += share_[i] * blue_[i], sum[3][0] += share_[i] * seen_[i];
   }
-  Light light{constant_ + step.x * occlusion_[0] + step.y * occlusion_[1],
-              constant_seen_ + step.x * occlusion_seen_[0] + step.y * occlusion_seen_[1]};
+  const Vec2 known = of_occlusion * step;
+  Light light{constant_ + known.x * occlusion_[0] + known.y * occlusion_[1],
+              constant_seen_ + known.x * occlusion_seen_[0] + known.y * occlusion_seen_[1]};
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     light.irradiance += Rgb(sum[0][lane], sum[1][lane], sum[2][lane]), light.seen += sum[3][lane];
   if (light.seen > 0) light.irradiance /= light.seen;
@@ -174,12 +175,17 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
                               std::span<const LampSample> lamps, const Vec3 (&rotation)[3],
                               const FootprintBounds& bounds) {
   const Frame& frame = nearby.frame();
-  const auto light_at = [&](const Vec2& step) {
-    Rgb light = glm::max(nearby.at(step).irradiance, Rgb(0));
+  const Rgb around_here = glm::max(nearby.at(Vec2(0)).irradiance, Rgb(0));
+  const auto known = [&](const LightNearby::Light& light) {
+    return std::fabs(light.seen - 1) <= bounds.unseen;
+  };
+  const auto light_at = [&](const Vec2& step, float of_occlusion) {
+    const LightNearby::Light around = nearby.at(step, of_occlusion);
+    Rgb light = known(around) ? glm::max(around.irradiance, Rgb(0)) : around_here;
     if (direct) light += direct(step);
     return light;
   };
-  const Rgb here = light_at(Vec2(0));
+  const Rgb here = light_at(Vec2(0), 1);
   const std::array<float, kAxes> around = radii_by_surroundings(passes, bounds);
   FittedFootprint fitted;
   std::array<float, kAxes> length;
@@ -192,13 +198,16 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
     if (k == kAxes - 1) radius = std::min(radius, kSlope * length[0] / bounds.accuracy);
     // A7: occlusion is known to first order only.
     const float change = max_component(glm::abs(u.x * nearby.occlusion(0) + u.y * nearby.occlusion(1)));
-    if (change * radius > max_component(here))
+    float of_occlusion = 1;
+    if (change * radius > max_component(here)) {
       radius = std::max(bounds.least_m, max_component(here) / change);
-    while (!(std::fabs(nearby.at(bounds.accuracy * radius * u).seen - 1) <= bounds.unseen) &&
+      of_occlusion = std::min(1.f, max_component(here) / (change * radius));
+    }
+    while (!known(nearby.at(bounds.accuracy * radius * u, of_occlusion)) &&
            radius * kShorter >= bounds.least_m)
       radius *= kShorter;
     const AxisFit fit = fit_axis(
-        here, [&](float d) { return light_at(d * u); }, bounds.accuracy * radius,
+        here, [&](float d) { return light_at(d * u, of_occlusion); }, bounds.accuracy * radius,
         bounds.accuracy * bounds.least_m, bounds.rho);
     fitted.unresolved += !fit.resolved;
     length[static_cast<std::size_t>(k)] = fit.length_m;

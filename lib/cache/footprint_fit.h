@@ -43,8 +43,9 @@ class LightNearby {
     Rgb irradiance{0};  ///< lx, may be below 0
     float seen = 1;     ///< what the hits take of the hemisphere
   };
-  /// At `step` on the tangent plane (along frame.x and frame.y, m), the normal as it is.
-  Light at(const Vec2& step) const;
+  /// At `step` on the tangent plane (along frame.x and frame.y, m), the normal as it is. `of_occlusion`:
+  /// share of what occlusion changes that counts.
+  Light at(const Vec2& step, float of_occlusion = 1) const;
   /// Change of irradiance by a turn of the normal by asin(`sine`) towards unit `axis` of the tangent plane,
   /// beyond what is linear in the sine: cosines become smaller, and what falls below the horizon, where it
   /// would count negative, is left out. Light of lamps is added by the same rule. lx

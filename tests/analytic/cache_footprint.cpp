@@ -273,6 +273,30 @@ TEST(FootprintFit, EquivalentLightsFollowTheClosedForm) {
   }
 }
 
+/// Under a plate nearer than the least axis is long, which thereby leads out from under it, where nothing is
+/// known: no more light than if all that is about shone like its brightest.
+TEST(FootprintFit, SaysNothingOfTheLightBeyondWhatIsNearerThanTheLeastAxis) {
+  for (const double near : {0.003, 0.01, 0.03}) {
+    for (const double side : {1.0, 3.0, 10.0}) {
+      for (const double aside : {-0.8, 0.0, 0.8, 1.2}) {
+        const double half = side * near, x = aside * half;
+        const Hemisphere h =
+            seen({"plate",
+                  {{2, near, {x - half, -half}, {x + half, half}, 0.01}, {2, 3, {-90, -90}, {90, 90}, 1}},
+                  {},
+                  false,
+                  {}});
+        const LightNearby nearby(std::span(&h, 1), GradientMode::hybrid, 1e-3f);
+        const FittedFootprint f =
+            fit_footprint(std::span(&h, 1), nearby, {}, {}, Gradients().rotation, {0.1f, 2, 1, 0.05f});
+        for (const AdaptiveFootprint::Axis& a : f.footprint->axes())
+          EXPECT_LT(irradiance_of(h).x + a.slope.x + a.bend.x / 2, 1.1f * kPi)
+              << near << ' ' << side << ' ' << aside;
+      }
+    }
+  }
+}
+
 /// E5: of a uniform field only what lies above the record's horizon is known, pi (1 + cos) / 2.
 TEST(FootprintFit, TurnsLikeTheSeenHalf) {
   Hemisphere h = seen({"sky", {}, {}, false, {}}, 32);
