@@ -8,10 +8,12 @@
 // subtracted. Hulls subtract it themselves. The last columns tell of the check of which most is left (by
 // chance: one check in twenty is marked). All checks are well inside of surfaces and far from shadow edges:
 // photon_border_table tells what happens there.
-//   build/tests/splat_estimator_table > estimators.csv
+//   build/tests/splat_estimator_table [TIMES] > estimators.csv
+// TIMES: so many times the seeds [1].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -148,13 +150,13 @@ RecordOptions options_of(const Method& method, const test::AnalyticScene& s) {
   return options;
 }
 
-void measure(const test::AnalyticScene& s) {
+void measure(const test::AnalyticScene& s, int times) {
   const bool closed = s.mean_irradiance_lx > 0;
   const double albedo = static_cast<double>(s.scene.material[0].kd.x);
   double brightest = 0;
   for (const test::Check& check : s.checks) brightest = std::max(brightest, check.irradiance_lx);
   std::vector<std::vector<Errors>> errors(std::size(kMethods), std::vector<Errors>(s.checks.size()));
-  for (int seed = 1; seed <= kMostSeeds; ++seed) {
+  for (int seed = 1; seed <= times * kMostSeeds; ++seed) {
     test::Lit lit = test::light_up(s.scene, std::lround(kLandings * (closed ? 1 - albedo : 1)),
                                    static_cast<std::uint64_t>(seed));
     std::vector<double> flux_lm;
@@ -162,7 +164,7 @@ void measure(const test::AnalyticScene& s) {
     EstimateInputs inputs;
     inputs.photons = std::move(lit.photons);
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
-      if (seed > kMethods[m].seeds) continue;
+      if (seed > times * kMethods[m].seeds) continue;
       const RecordOptions options = options_of(kMethods[m], s);
       const ChosenEstimator estimator(*lit.rays, inputs, options, static_cast<std::uint64_t>(seed));
       const auto worker = (*estimator).make_worker();
@@ -188,10 +190,11 @@ void measure(const test::AnalyticScene& s) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const int times = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
   set_threads(1);
   std::printf(
       "estimator,scene,checks_are,checks,seeds,bias_percent,interval_95,beyond,curvature_percent,unexplained,"
       "rmse_percent,stated_percent,worst_check,it_leaves_percent,its_interval_95,its_unexplained\n");
-  for (const test::AnalyticScene& s : test::all_point_scenes()) measure(s);
+  for (const test::AnalyticScene& s : test::all_point_scenes()) measure(s, times);
 }
