@@ -110,7 +110,6 @@ struct HitLight::Impl {
     return bounces_left != 1 && (source.indirect || source.fallback);
   }
   bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
-  void ask_ahead(std::span<const Hit> hits, std::size_t i) const;
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
   static void note(const Rgb& f, const Rgb& lux, Worker& worker);
@@ -127,16 +126,6 @@ struct HitLight::Impl {
   Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
                     RandomStream& random) const;
 };
-
-/// Vertex normals lie about in the memory of a large scene: they are asked for a few hits before their turn.
-void HitLight::Impl::ask_ahead(std::span<const Hit> hits, std::size_t i) const {
-  constexpr std::size_t kAhead = 8, kLarge = 4096;  // hits; triangles
-  if (scene.triangle.size() < kLarge || scene.normal.empty() || i + 2 * kAhead >= hits.size()) return;
-  const Hit &soon = hits[i + kAhead], &later = hits[i + 2 * kAhead];
-  if (std::isfinite(later.distance_m)) __builtin_prefetch(&scene.triangle[later.triangle]);
-  if (!std::isfinite(soon.distance_m)) return;
-  for (const std::uint32_t v : scene.triangle[soon.triangle].v) __builtin_prefetch(&scene.normal[v]);
-}
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
@@ -360,7 +349,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   h.source = {};
   h.source.common = impl_->source.common;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    impl_->ask_ahead(hits, i);
+    impl_->rays.ask_ahead(hits, i);
     h.distance_m[i] = hits[i].distance_m;
     h.radiance[i] = Rgb(0);
     h.hit_normal[i] = -h.direction[i];

@@ -355,6 +355,19 @@ bool RayScene::visible(const SurfacePoint& a, const Vec3& point, float error_m) 
   return !(distance > 0) || !occluded({origin, direction, 0, distance});
 }
 
+void RayScene::ask_ahead(std::span<const Hit> hits, std::size_t turn) const {
+  constexpr std::size_t kAhead = 8, kLarge = 4096;  // hits; triangles
+  const Scene& scene = impl_->scene;
+  if (scene.triangle.size() < kLarge || turn + 2 * kAhead >= hits.size()) return;
+  const Hit &soon = hits[turn + kAhead], &later = hits[turn + 2 * kAhead];
+  if (std::isfinite(later.distance_m)) {
+    __builtin_prefetch(&impl_->facet[later.triangle]);
+    __builtin_prefetch(&scene.triangle[later.triangle]);
+  }
+  if (!std::isfinite(soon.distance_m) || impl_->facet[soon.triangle].flat) return;
+  for (const std::uint32_t v : scene.triangle[soon.triangle].v) __builtin_prefetch(&scene.normal[v]);
+}
+
 SurfacePoint RayScene::surface(const Ray& ray, const Hit& hit) const {
   const Facet& facet = impl_->facet[hit.triangle];
   const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};

@@ -76,6 +76,9 @@ class RayScene {
 
   /// The point a hit stands for, seen against the ray.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
+  /// The facets and vertex normals of a large scene lie about in memory: before the surface() of each hit in
+  /// turn this asks for what those a few hits after it will read. Changes no result.
+  void ask_ahead(std::span<const Hit> hits, std::size_t turn) const;
   /// The Embree handle (RTCScene), for benchmarks that measure its bound.
   void* native() const;
 
