@@ -39,9 +39,11 @@ const char* what_is_wrong(const IrradianceRecord& r) {
   return nullptr;
 }
 
-bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+bool record_apart(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (!(glm::dot(n, r.normal) > 0)) return true;
-  return glm::dot(p - r.position, n + r.normal) * 0.5f < -kFrontTolerance * r.radius_m;
+  const Vec3 d = p - r.position;
+  return glm::dot(d, n + r.normal) * 0.5f < -kFrontTolerance * r.radius_m ||
+         glm::dot(d, r.normal) > over_limit_m(r.distance_m, r.radius_m);
 }
 
 namespace {

@@ -24,8 +24,8 @@ struct IrradianceRecord {
   Rgb stderr_lx{0};      ///< standard error of irradiance
   /// Part of its variance that records about it have too (0 to 1), so that it does not average out.
   float shared = kSharedByZones;
-  float distance_m = 0;  ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
-  float radius_m = 0;    ///< R of the weight; the zone of influence is accuracy * radius, at most
+  float distance_m = kInfinity;  ///< mean distance to the surrounding surfaces (FORMULAS A7, C6), unclamped
+  float radius_m = 0;            ///< R of the weight; the zone of influence is accuracy * radius, at most
   Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
   Vec3 translation_gradient[3]{Vec3(0), Vec3(0),
                                Vec3(0)};  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
@@ -108,6 +108,12 @@ class RecordColumns {
 inline constexpr float kLeastWeight = 1e-6f;
 /// How far a record may lie behind the plane between itself and the point it lights, in units of its radius.
 inline constexpr float kFrontTolerance = 0.01f;
+/// How far over a record's plane a point may lie that it lights: its mean distance to what it sees, however
+/// large its radius has been made. In a niche or behind a cornice that is little, and what lies beyond has
+/// other light.
+inline float over_limit_m(float distance_m, float radius_m) {
+  return std::max(distance_m, kFrontTolerance * radius_m);
+}
 /// An extrapolated irradiance is at most this many times the record's.
 inline constexpr float kGrowthLimit = 2;
 
@@ -121,9 +127,9 @@ inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& 
 inline float least_radius_m(const IrradianceRecord& r) {
   return r.footprint ? r.radius_m * (r.footprint->shortest_m() / r.footprint->longest_m()) : r.radius_m;
 }
-/// FORMULAS A6: is the record in front of p's surface (so that it must not light p)? Also true unless dot(n,
-/// n_i) > 0.
-bool record_in_front(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
+/// Does the record lie where it must not light p, whatever its weight? In front of p's surface (FORMULAS A6);
+/// so deep that p is over its plane by more than over_limit_m(); or where dot(n, n_i) <= 0.
+bool record_apart(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// What rises above a straight line over a surface by less than this share of its length is unevenness of the
 /// surface (facets under smooth normals), no wall.
 inline constexpr float kRoughness = 0.125f;

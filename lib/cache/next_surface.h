@@ -6,7 +6,7 @@
 namespace phos {
 
 /// Of a record's radius: how far below its place a parallel surface must lie for lookups to tell the two
-/// apart (record_in_front allows half of it).
+/// apart (record_apart allows half of it).
 inline constexpr float kNextSurface = 0.02f;
 
 /// Height of p over the next surface against its unit normal n, m; infinity where none lies within

@@ -18,12 +18,12 @@ namespace phos {
 /// One record. Radiance L(w) that arrives along w is the sum of c_i H_i(w), HSH of hsh/basis.h, w in the
 /// record's frame; light that comes straight from a lamp is not in it. Numbers of RGB stand side by side.
 struct RadianceRecord {
-  Vec3 position{0};          ///< m
-  Frame frame;               ///< z: unit normal on the side it lights; y = z x x
-  float distance_m = 0;      ///< mean distance to the surrounding surfaces, unclamped
-  float radius_m = 0;        ///< R of the weight; the zone of influence is accuracy * radius
-  float weight = 1;          ///< as IrradianceRecord::weight
-  std::vector<float> light;  ///< [order^2][3] c_i = integral of L H_i dw, cd/m2 sqrt(sr)
+  Vec3 position{0};              ///< m
+  Frame frame;                   ///< z: unit normal on the side it lights; y = z x x
+  float distance_m = kInfinity;  ///< mean distance to the surrounding surfaces, unclamped
+  float radius_m = 0;            ///< R of the weight; the zone of influence is accuracy * radius
+  float weight = 1;              ///< as IrradianceRecord::weight
+  std::vector<float> light;      ///< [order^2][3] c_i = integral of L H_i dw, cd/m2 sqrt(sr)
   /// [order^2][3] their change per metre along frame.x and frame.y; empty: not known, taken as 0.
   std::vector<float> gradient_x, gradient_y;
   /// [order][3] standard error of one coefficient of each band (root mean square over the band, which turns

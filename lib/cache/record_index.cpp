@@ -98,7 +98,7 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
       const IrradianceRecord r = records_[i];
       if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
       if (!(w > kLeastWeight)) continue;
-      if (record_in_front(r, p, n)) continue;
+      if (record_apart(r, p, n)) continue;
       if (leak_test_ && !record_in_sight(*leak_test_, r, p, n)) continue;
       if (!visit(r, w * r.weight)) return;
     }

@@ -100,7 +100,7 @@ struct RecordTree::Impl {
         if (!(w > kLeastWeight)) continue;
         const IrradianceRecord& r = records[e.record];
         if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
-        if (!(w > kLeastWeight) || record_in_front(r, p, n)) continue;
+        if (!(w > kLeastWeight) || record_apart(r, p, n)) continue;
         if (leak_test && !record_in_sight(*leak_test, r, p, n)) continue;
         if (!visit(r, w * r.weight)) return;
       }

@@ -115,7 +115,7 @@ class SurfaceCover {
 bool SurfaceCover::valid(const IrradianceRecord& record, const SurfacePoint& point) const {
   const Vec3 &p = point.position, &n = point.smooth_normal;
   const float weight = record_weight(record_error(record, p, n), accuracy_);
-  if (!(weight > kLeastWeight) || record_in_front(record, p, n)) return false;
+  if (!(weight > kLeastWeight) || record_apart(record, p, n)) return false;
   return options_.leak_test == LeakTest::none || record_in_sight(rays_, record, p, n);
 }
 

@@ -40,7 +40,7 @@ void add_footprint(SplatTile& tile, const IrradianceRecord& r, float accuracy, f
         step = p - r.position;
     if (!(glm::dot(step, step) < reach_m * reach_m)) continue;
     float w = weight_within(*r.footprint, r, accuracy, p, n);
-    if (!(w > kLeastWeight) || record_in_front(r, p, n)) continue;
+    if (!(w > kLeastWeight) || record_apart(r, p, n)) continue;
     w *= r.weight;
     const Rgb e = extrapolate(r, p, n);
     for (int c = 0; c < 3; ++c) tile.light[c][t] += w * e[c], tile.error[c][t] += w * r.stderr_lx[c];
@@ -68,7 +68,7 @@ PackedRecord pack_record(const IrradianceRecord& r) {
   PackedRecord p{};
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   p.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
-  p.front_limit_m = -kFrontTolerance * r.radius_m;
+  p.front_limit_m = -kFrontTolerance * r.radius_m, p.over_limit_m = over_limit_m(r.distance_m, r.radius_m);
   p.weight = r.weight, p.shared = r.shared;
   for (int i = 0; i < 3; ++i) {
     p.position[i] = r.position[i], p.normal[i] = r.normal[i];

@@ -24,6 +24,7 @@ void pack(const RadianceRecord& r, std::vector<Vec4>& block) {
   };
   for (std::size_t i = 0; i < r.light.size(); i += 3)
     block.insert(block.end(), {rgb(r.light, i), rgb(r.gradient_x, i), rgb(r.gradient_y, i)});
+  block[4].w = over_limit_m(r.distance_m, r.radius_m);
 }
 
 GLsizeiptr bytes(const std::vector<Vec4>& v) { return static_cast<GLsizeiptr>(v.size() * sizeof(Vec4)); }

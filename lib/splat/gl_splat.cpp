@@ -34,7 +34,7 @@ constexpr Attribute kAttributes[] = {
     {4, 4, kRecord + offsetof(PackedRecord, stderr_lx)},
     {5, 3, kRecord + offsetof(PackedRecord, turn)},
     {6, 3, kRecord + offsetof(PackedRecord, turn) + 12},
-    {7, 3, kRecord + offsetof(PackedRecord, turn) + 24},
+    {7, 4, kRecord + offsetof(PackedRecord, turn) + 24},
     {8, 3, kRecord + offsetof(PackedRecord, translation)},
     {9, 3, kRecord + offsetof(PackedRecord, translation) + 12},
     {10, 3, kRecord + offsetof(PackedRecord, translation) + 24},

@@ -28,9 +28,10 @@ struct GlossGroup {
   float per_unit;
 };
 
-/// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius.
+/// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius; over_limit_m is that of
+/// record_apart().
 struct GlossSplat {
-  float position[3], inverse_radius, normal[3], front_limit_m;
+  float position[3], inverse_radius, normal[3], front_limit_m, over_limit_m;
   float x[3], y[3];       ///< axes of its frame
   float weight, shared;   ///< its own
   float steepness_per_m;  ///< steps by more than 1/this are shortened to that; 0: no steps at all

@@ -36,7 +36,7 @@ GlossSplat pack(const RadianceRecord& r) {
     s.position[i] = r.position[i], s.normal[i] = r.frame.z[i], s.x[i] = r.frame.x[i], s.y[i] = r.frame.y[i];
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
   s.inverse_radius = std::min(1 / r.radius_m, std::numeric_limits<float>::max());
-  s.front_limit_m = -kFrontTolerance * r.radius_m;
+  s.front_limit_m = -kFrontTolerance * r.radius_m, s.over_limit_m = over_limit_m(r.distance_m, r.radius_m);
   s.weight = r.weight, s.shared = r.shared;
   s.steepness_per_m = steepness_per_m(r);
   s.light = r.light.data(), s.stderr_light = r.stderr_light.data();

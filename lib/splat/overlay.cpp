@@ -135,7 +135,7 @@ class Drawing {
     if (!gbuffer_.covered(i)) return 0;
     const float here = error_at(r, i), off = std::fabs(here - accuracy_);
     // No pixel is as wide as this; most are ruled out at once.
-    if (off > 0.5f * accuracy_ || record_in_front(r, Vec3(gbuffer_.position[i]), Vec3(gbuffer_.normal[i])))
+    if (off > 0.5f * accuracy_ || record_apart(r, Vec3(gbuffer_.position[i]), Vec3(gbuffer_.normal[i])))
       return 0;
     const float dx = change(r, i, 1, x > 0, x + 1 < width_, here);
     const float dy = change(r, i, static_cast<std::size_t>(width_), y > 0, y + 1 < height_, here);

@@ -57,12 +57,12 @@ layout(location = 3) in vec4 irradiance;  // and the record's own weight
 layout(location = 4) in vec4 error;       // and the part that records share
 layout(location = 5) in vec3 turn_r;
 layout(location = 6) in vec3 turn_g;
-layout(location = 7) in vec3 turn_b;
+layout(location = 7) in vec4 turn_b;      // and the limit of what lies over its plane
 layout(location = 8) in vec3 translation_r;
 layout(location = 9) in vec3 translation_g;
 layout(location = 10) in vec3 translation_b;
-flat out vec4 a, b, e, s;
-flat out vec3 rr, rg, rb, tr, tg, tb;
+flat out vec4 a, b, e, s, rb;
+flat out vec3 rr, rg, tr, tg, tb;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
@@ -73,8 +73,8 @@ void main() {
 )";
 
 const char* const splat_fragment = R"(#version 450 core
-flat in vec4 a, b, e, s;
-flat in vec3 rr, rg, rb, tr, tg, tb;
+flat in vec4 a, b, e, s, rb;
+flat in vec3 rr, rg, tr, tg, tb;
 uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth, 1 / unit of squares
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
@@ -88,9 +88,9 @@ void main() {
   vec3 turned = n - b.xyz;
   float eps = sqrt(dot(d, d)) * a.w + sqrt(dot(turned, turned)) * 0.70710678;
   float w = 1.0 - eps * rule.x;
-  bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w);
+  bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w) && !(dot(d, b.xyz) > rb.w);
   w = valid ? w * e.w : 0.0;
-  vec3 value = e.rgb + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
+  vec3 value = e.rgb + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb.xyz)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
   // Not max and min: what is not a number becomes 0.
   value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
   value = mix(rule.z * e.rgb, value, lessThan(value, rule.z * e.rgb));
@@ -115,7 +115,8 @@ layout(std140, binding = 0) uniform Record {
   vec4 normal;                            // and the limit of the in-front test
   vec4 axis_x;                            // and the steepness
   vec4 axis_y;                            // and the record's own weight
-  vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y
+  vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y;
+                                          // the first also holds the limit of what lies over its plane
 };
 uniform vec4 rule;                        // 1 / accuracy, least weight, first and end row of the class
 uniform vec4 unit;                        // x: 1 / that of light in squares
@@ -141,7 +142,8 @@ void main() {
   vec3 turned = n - normal.xyz;
   float eps = sqrt(dot(d, d)) * position.w + sqrt(dot(turned, turned)) * 0.70710678;
   float w = 1.0 - eps * rule.x;
-  if (!(w > rule.y && dot(n, normal.xyz) > 0.0 && !(dot(d, n + normal.xyz) * 0.5 < normal.w))) return;
+  if (!(w > rule.y && dot(n, normal.xyz) > 0.0)) return;
+  if (dot(d, n + normal.xyz) * 0.5 < normal.w || dot(d, normal.xyz) > numbers[0].w) return;
   w *= axis_y.w;
   float change = axis_x.w * sqrt(dot(d, d));
   float share = w * (change > 1.0 ? 1.0 / change : 1.0);

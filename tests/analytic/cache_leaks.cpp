@@ -70,7 +70,7 @@ TEST(Leaks, TheSameAtEverySize) {
     const Vec3 up(0, 0, 1);
     const IrradianceRecord lit = record_at(Vec3(0), up, 1000, 3 * size);
     const Vec3 behind = size * Vec3(0.1f, 0.05f, -0.01f), beside = size * Vec3(0.1f, 0.05f, 0);
-    EXPECT_FALSE(record_in_front(lit, behind, up));
+    EXPECT_FALSE(record_apart(lit, behind, up));
     EXPECT_FALSE(record_in_sight(rays, lit, behind, up));
     EXPECT_TRUE(record_in_sight(rays, lit, beside, up));
   }
@@ -101,7 +101,7 @@ double lost(const Scene& scene, float radius_m, bool smooth) {
     const IrradianceRecord r = record_at(a.p, a.n, 1, radius_m);
     for (const Place& b : places) {
       if (!(record_weight(record_error(r, b.p, b.n), 0.3f) > kLeastWeight)) continue;
-      if (record_in_front(r, b.p, b.n)) continue;
+      if (record_apart(r, b.p, b.n)) continue;
       ++pairs;
       hidden += !record_in_sight(rays, r, b.p, b.n);
     }

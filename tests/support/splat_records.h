@@ -12,7 +12,7 @@
 namespace phos::test {
 
 /// Records on what the camera sees, random but for their places: irradiance 10..110 lx, gradients that change
-/// it by up to once its value over the radius. radius_m is lo..hi.
+/// it by up to once its value over the radius. radius_m is lo..hi, distance_m less than that.
 inline std::vector<IrradianceRecord> records_in_view(const RayScene& rays, const Camera& camera,
                                                      std::size_t count, float lo_m, float hi_m,
                                                      std::uint64_t seed = 1) {
@@ -25,7 +25,6 @@ inline std::vector<IrradianceRecord> records_in_view(const RayScene& rays, const
     IrradianceRecord r;
     r.position = point.position, r.normal = point.smooth_normal;
     r.radius_m = lo_m + (hi_m - lo_m) * random.uniform();
-    r.distance_m = r.radius_m;
     const Frame frame = make_frame(r.normal);
     for (int c = 0; c < 3; ++c) {
       r.irradiance[c] = 10 + 100 * random.uniform();
@@ -34,6 +33,7 @@ inline std::vector<IrradianceRecord> records_in_view(const RayScene& rays, const
       r.rotation_gradient[c] = r.irradiance[c] * (a.x * frame.x + a.y * frame.y);
       r.translation_gradient[c] = r.irradiance[c] / r.radius_m * (b.x * frame.x + b.y * frame.y);
     }
+    r.distance_m = r.radius_m * random.uniform();
     records.push_back(r);
   }
   return records;
@@ -48,7 +48,7 @@ inline SplatBuffer splat_one_by_one(const std::vector<IrradianceRecord>& records
     glm::dvec4 light(0), error(0), spread(0);
     const Vec3 p(g.position[i]), n(g.normal[i]);
     for (const IrradianceRecord& r : records) {
-      if (!g.covered(i) || record_in_front(r, p, n)) continue;
+      if (!g.covered(i) || record_apart(r, p, n)) continue;
       float w = record_weight(record_error(r, p, n), accuracy);
       if (!(w > 1e-6f)) continue;
       w *= r.weight;

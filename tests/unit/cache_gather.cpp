@@ -273,7 +273,7 @@ TEST(Gather, RecordOnASheetStaysShort) {
   const IrradianceRecord r = g.records({0.3f, 0.1f, 0}, {0, 0, 1}, options, {}, 1)[0];
   EXPECT_GT(r.irradiance.y, 500);
   EXPECT_LE(r.radius_m, 0.051f);
-  EXPECT_TRUE(record_in_front(r, {0.3f, 0.1f, -0.001f}, {0, 0, 1}));
+  EXPECT_TRUE(record_apart(r, {0.3f, 0.1f, -0.001f}, {0, 0, 1}));
 }
 
 }  // namespace

@@ -55,12 +55,25 @@ TEST(Records, InFrontTestIsFreeOfScale) {
     IrradianceRecord r;
     r.radius_m = scale;
     const Vec3 up(0, 0, 1);
-    EXPECT_FALSE(record_in_front(r, Vec3(0.1f, 0, 0) * scale, up));
-    EXPECT_FALSE(record_in_front(r, Vec3(0.1f, 0, -0.005f) * scale, up));
-    EXPECT_TRUE(record_in_front(r, Vec3(0.1f, 0, -0.05f) * scale, up));  // the point lies under the record
-    EXPECT_FALSE(record_in_front(r, Vec3(0.1f, 0, 0.05f) * scale, up));
-    EXPECT_TRUE(record_in_front(r, Vec3(0), Vec3(0, 0, -1)));
-    EXPECT_TRUE(record_in_front(r, Vec3(0), Vec3(1, 0, 0)));
+    EXPECT_FALSE(record_apart(r, Vec3(0.1f, 0, 0) * scale, up));
+    EXPECT_FALSE(record_apart(r, Vec3(0.1f, 0, -0.005f) * scale, up));
+    EXPECT_TRUE(record_apart(r, Vec3(0.1f, 0, -0.05f) * scale, up));  // the point lies under the record
+    EXPECT_FALSE(record_apart(r, Vec3(0.1f, 0, 0.05f) * scale, up));
+    EXPECT_TRUE(record_apart(r, Vec3(0), Vec3(0, 0, -1)));
+    EXPECT_TRUE(record_apart(r, Vec3(0), Vec3(1, 0, 0)));
+  }
+}
+
+TEST(Records, LightNothingOverTheNicheTheyLieIn) {
+  for (const float scale : {1e-6f, 1.f, 1e6f}) {
+    IrradianceRecord r;
+    r.radius_m = scale, r.distance_m = 0.05f * scale;
+    const Vec3 up(0, 0, 1);
+    EXPECT_FALSE(record_apart(r, Vec3(0.3f, 0, 0.04f) * scale, up));
+    EXPECT_TRUE(record_apart(r, Vec3(0.3f, 0, 0.06f) * scale, up));
+    r.distance_m = 0;  // a place that touches what it sees: rounding still counts for nothing
+    EXPECT_FALSE(record_apart(r, Vec3(0.3f, 0, 0.005f) * scale, up));
+    EXPECT_TRUE(record_apart(r, Vec3(0.3f, 0, 0.02f) * scale, up));
   }
 }
 
@@ -84,7 +97,7 @@ Interpolated brute_force(std::span<const IrradianceRecord> records, float accura
   Interpolated sum;
   for (const IrradianceRecord& r : records) {
     const float w = record_weight(record_error(r, p, n), accuracy);
-    if (w <= 1e-6f || record_in_front(r, p, n)) continue;
+    if (w <= 1e-6f || record_apart(r, p, n)) continue;
     sum.add(r, w, p, n);
   }
   sum.finish();
