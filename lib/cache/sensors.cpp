@@ -126,8 +126,9 @@ std::string quoted(const std::string& name) {
 
 void declare_options(Options& options, SensorOptions& s) {
   options.integer("light-samples", s.light_samples, "N", "shadow rays to each area light", {1, 1e6});
-  options.choice<LeakTest>("leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
-                           "ray: a record serves a sensor only if the two can see each other");
+  options.choice<LeakTest>(
+      "leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
+      "ray: a record serves a sensor only if the two can see each other; none is faster");
   options.flag("direct-only", s.direct_only, "no indirect light");
   options.integer("rays", s.rays, "N", "rays of a record made where the caches have none", {4, 1e8});
   options.number("accuracy", s.accuracy, "A", "of those records: zone of influence = A x mean distance",

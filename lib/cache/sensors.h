@@ -41,7 +41,7 @@ struct Reading {
 
 struct SensorOptions {
   std::int64_t light_samples = 64;  ///< shadow rays to each area light
-  LeakTest leak_test = LeakTest::none;
+  LeakTest leak_test = LeakTest::ray;
   bool direct_only = false;
   // Records made where the caches have none.
   std::int64_t rays = 1024;

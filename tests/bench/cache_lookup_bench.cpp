@@ -125,7 +125,7 @@ void sense(benchmark::State& state) {
   }
   const std::vector<Container> files{Container::open(s.path)};
   const Luminaires lights(s.s.scene);
-  const SensorCaches caches(files, nullptr);
+  const SensorCaches caches(files, &s.rays);
   SensorOptions options;
   options.light_samples = state.range(0);
   for (auto _ : state) {

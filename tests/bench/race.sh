@@ -10,7 +10,7 @@ set -euo pipefail
 [[ $# -ge 2 && $1 != -* ]] || { sed -n '2,9s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 scene=$1 folder=$2
 shift 2
-places=112 accuracy=0.4 rays=256 min_radius=0.08 light_samples=8 edge_samples=23 side=1000 samples=64 runs=3 cycles=
+places=112 accuracy=0.4 rays=256 min_radius=0.1 light_samples=7 edge_samples=16 side=1000 samples=64 runs=3 cycles=
 while (($# > 1)); do
   case $1 in
     --places) places=$2 ;; --accuracy) accuracy=$2 ;; --rays) rays=$2 ;; --min-radius) min_radius=$2 ;;

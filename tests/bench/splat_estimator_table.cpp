@@ -8,8 +8,9 @@
 // subtracted. Hulls subtract it themselves. The last columns tell of the check of which most is left (by
 // chance: one check in twenty is marked). All checks are well inside of surfaces and far from shadow edges:
 // photon_border_table tells what happens there.
-//   build/tests/splat_estimator_table [TIMES] > estimators.csv
-// TIMES: so many times the seeds [1].
+//   build/tests/splat_estimator_table [TIMES [PHOTONS]] > estimators.csv
+// TIMES: so many times the seeds [1]; PHOTONS: that land in a closed room, and as many start in an open scene
+// [1e5].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,7 +27,6 @@ namespace {
 
 using namespace phos;
 
-constexpr double kLandings = 1e5;  // of photons in a closed room; as many start in an open scene
 constexpr double kRounding = 1e-6;
 
 struct Method {
@@ -150,14 +150,14 @@ RecordOptions options_of(const Method& method, const test::AnalyticScene& s) {
   return options;
 }
 
-void measure(const test::AnalyticScene& s, int times) {
+void measure(const test::AnalyticScene& s, int times, double landings) {
   const bool closed = s.mean_irradiance_lx > 0;
   const double albedo = static_cast<double>(s.scene.material[0].kd.x);
   double brightest = 0;
   for (const test::Check& check : s.checks) brightest = std::max(brightest, check.irradiance_lx);
   std::vector<std::vector<Errors>> errors(std::size(kMethods), std::vector<Errors>(s.checks.size()));
   for (int seed = 1; seed <= times * kMostSeeds; ++seed) {
-    test::Lit lit = test::light_up(s.scene, std::lround(kLandings * (closed ? 1 - albedo : 1)),
+    test::Lit lit = test::light_up(s.scene, std::lround(landings * (closed ? 1 - albedo : 1)),
                                    static_cast<std::uint64_t>(seed));
     std::vector<double> flux_lm;
     for (const test::Check& check : s.checks) flux_lm.push_back(photon_flux_lm(lit.photons, check));
@@ -192,9 +192,10 @@ void measure(const test::AnalyticScene& s, int times) {
 
 int main(int argc, char** argv) {
   const int times = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+  const double landings = argc > 2 ? std::max(1., std::atof(argv[2])) : 1e5;
   set_threads(1);
   std::printf(
       "estimator,scene,checks_are,checks,seeds,bias_percent,interval_95,beyond,curvature_percent,unexplained,"
       "rmse_percent,stated_percent,worst_check,it_leaves_percent,its_interval_95,its_unexplained\n");
-  for (const test::AnalyticScene& s : test::all_point_scenes()) measure(s, times);
+  for (const test::AnalyticScene& s : test::all_point_scenes()) measure(s, times, landings);
 }
