@@ -76,13 +76,18 @@ Vec3 translation_term(const Vec3& w, const Vec3& source_normal, float inverse_di
   return (term - glm::dot(term, normal) * normal) * inverse_distance;
 }
 
-float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal) {
+float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal,
+                     const Vec3& step_m) {
   constexpr float kNoSurface = 0.9999f;  // cosine, rounding of stored directions allowed for
-  const Vec3 across = w - glm::dot(w, normal) * normal;
-  const float across2 = glm::dot(across, across), cos_source = -glm::dot(source_normal, w);
-  const float near2 = inverse_distance * inverse_distance;
-  if (cos_source > kNoSurface) return near2 * (15 * across2 - 6);
-  return near2 * (8 * glm::dot(source_normal, across) / std::max(0.1f, cos_source) + 24 * across2 - 8);
+  constexpr float kNearest = 0.25f;      // square of the distance after the step over that before
+  const Vec3 to = w - inverse_distance * step_m, across = to - glm::dot(to, normal) * normal;
+  const float over2 = 1 / std::max(kNearest, glm::dot(to, to)), cos_source = -glm::dot(source_normal, w);
+  const float near2 = inverse_distance * inverse_distance * over2;
+  const float across2 = glm::dot(across, across) * over2;
+  if (cos_source > kNoSurface) return near2 * over2 * std::sqrt(over2) * (15 * across2 - 6);
+  const float cos_here = std::max(0.1f, cos_source), cos_there = std::max(0.1f, -glm::dot(source_normal, to));
+  return near2 * over2 * over2 * (8 * glm::dot(source_normal, across) + cos_there * (24 * across2 - 8)) /
+         cos_here;
 }
 
 Vec3 rotation_term(const Vec3& w, const Vec3& normal) {

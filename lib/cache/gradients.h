@@ -60,8 +60,11 @@ Vec3 translation_term(const Vec3& w, const Vec3& source_normal, float inverse_di
 /// Relative curvature of the same light: its Laplacian over the receiver's plane over itself, 1/m2. Of light
 /// that falls with the p-th power of the distance D and the emitter's cosine, with t for tangential parts:
 /// (2 p n_t.w_t / cos xi - 2 p + p (p + 2) w_t.w_t) / d2, p = 4 (the two cosines included); of a light
-/// without surface (source_normal = -w) p = 3 and no term of n.
-float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal);
+/// without surface (source_normal = -w) p = 3 and no term of n. With `step_m`, in the receiver's plane, the
+/// Laplacian is that of a place so far away, still over the irradiance here; the source counts as no nearer
+/// to it than half of the distance.
+float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal,
+                     const Vec3& step_m = Vec3(0));
 
 /// Relative change of the light that arrives along unit `w` as the receiver turns, per radian, for use with
 /// (normal x new normal): the mean of tan(theta) over the ring of eight in which w lies, across w (B1), so

@@ -26,7 +26,7 @@ void ZoneGatherer::limit_slab(ZonePlace& place, float radius_m) const {
   place.above_m = half_way(place.frame.z), place.below_m = half_way(-place.frame.z);
 }
 
-void ZoneGatherer::gather(const ZonePlace& place, float radius_m, std::uint32_t left_out,
+void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
                           GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
   photons_.in_sphere(place.p, radius_m * (1 + kSlab * kSlab), gathered.rows);
@@ -36,7 +36,7 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, std::uint32_t 
   std::uint32_t last_code = 0;
   float facing = glm::dot(decode_octahedral(last_code), place.frame.z);
   for (const std::uint32_t row : gathered.rows) {
-    if (row == left_out || !is_wanted(photons_, row, paths_)) continue;
+    if (row == left_out.own || row == left_out.decided || !is_wanted(photons_, row, paths_)) continue;
     const Vec3 local = place.frame.to_local(photons_.position[row] - place.p);
     if (local.z > place.above_m || local.z < -place.below_m) continue;
     // Strictly inside: a zone whose radius is that of a photon does not hold that photon (C4).

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cache/estimator.h"
 #include "cache/gradients.h"
 #include "cache/record_options.h"
 #include "photon/photon_map.h"
@@ -40,6 +41,12 @@ struct GatheredPhotons {
   std::vector<std::uint32_t> rows, codes;
 };
 
+/// Rows of photons that a zone does not count.
+struct LeftOut {
+  std::uint32_t own = kNoPhoton;      ///< that the place sits on
+  std::uint32_t decided = kNoPhoton;  ///< ZoneRadius::decided_by
+};
+
 /// Finds the photons of a zone. Const and usable from any thread.
 class ZoneGatherer {
  public:
@@ -50,7 +57,7 @@ class ZoneGatherer {
   void limit_slab(ZonePlace& place, float radius_m) const;
 
   /// Photons strictly within radius_m of the place on this surface, from this side, without `left_out`.
-  void gather(const ZonePlace& place, float radius_m, std::uint32_t left_out,
+  void gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
               GatheredPhotons& gathered) const;
 
   /// Adds the photon that the place sits on, `share` of its flux. False: it came from below, and is not added.

@@ -27,6 +27,10 @@ float kernel_spread(Kernel kernel) {
   return 1;
 }
 
+/// The mean of E over a disc of radius R exceeds that in its middle by R2/8 lap E + R4/192 lap lap E + ...
+/// The mean of lap E, R2/8 times, has 1/64 there; on the disc shrunk to sqrt(1/3) it has 1/192.
+constexpr float kBendStep = 0.4226497f;  // 1 - sqrt(1/3): so far a photon is moved towards the centroid
+
 /// More of the mean than this is not taken for curvature: the terms after it are as large.
 constexpr double kMostBend = 0.25;
 
@@ -60,12 +64,12 @@ RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const R
 RecordMaker::~RecordMaker() = default;
 
 /// The zone's estimate; a zone with a caustic in it is made smaller while it has photons to spare (C3).
-ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, std::uint32_t left_out,
+ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, const LeftOut& left_out,
                                   Scratch& s) const {
   const OnSurface probe = [&](const Vec2& offset) { return gatherer_.on_surface(place, offset); };
   const DensityOptions density{.probes = static_cast<int>(options_.probes),
                                .dark_photons = kDarkPhotons,
-                               .centre_lit = left_out != kNoPhoton};
+                               .centre_lit = left_out.own != kNoPhoton};
   const ZonePhotons& photons = s.gathered.zone;
   bool shrunk = false;
   for (;;) {
@@ -99,7 +103,7 @@ ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, std::uint32
   }
 }
 
-ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, std::uint32_t left_out,
+ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, const LeftOut& left_out,
                                     Scratch& s) const {
   gatherer_.limit_slab(place, radius_m);
   gatherer_.gather(place, radius_m, left_out, s.gathered);
@@ -156,10 +160,10 @@ double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate&
 
 /// Irradiance at p from the mean over the area, photon by photon: moved along the gradient from the area's
 /// centroid (C3), and without what the curvature of irradiance adds to the mean, its Laplacian x (mean of
-/// |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of this area. The curvature is taken away as far
-/// as it exceeds its own noise (by the factor 1 - 3 / z2, as D4), so that even light stays as it is, up to
-/// kMostBend of the mean, and unless the photons lie otherwise; what may be left of it is in the error. A
-/// kernel, for comparison, keeps it, and says so in its error.
+/// |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of this area, and right in the next order too
+/// (kBendStep). The curvature is taken away as far as it exceeds its own noise (by the factor 1 - 3 / z2, as
+/// D4), so that even light stays as it is, up to kMostBend of the mean, and unless the photons lie otherwise;
+/// what may be left of it is in the error. A kernel, for comparison, keeps it, and says so in its error.
 void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
                                  Scratch& s, IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
@@ -173,8 +177,10 @@ void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zon
   s.bend.assign(photons.size(), 0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
-    s.bend[i] = flat_m2 * curvature_term(photons.direction[i], photons.source_normal[i],
-                                         photons.inverse_distance[i], place.frame.z);
+    const Vec2 to_centroid = zone.centroid_m - photons.offset_m[i];
+    s.bend[i] =
+        flat_m2 * curvature_term(photons.direction[i], photons.source_normal[i], photons.inverse_distance[i],
+                                 place.frame.z, place.frame.to_world(Vec3(kBendStep * to_centroid, 0)));
     const DVec3 f = DVec3(photons.flux_lm[i]) * static_cast<double>(s.bend[i]);
     const double grey = static_cast<double>(luminance(Rgb(f)));
     bend += f, bend2 += f * f, noise += grey * grey;
@@ -272,9 +278,11 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   record.position = p, record.normal = at.normal;
   record.distance_m = distance;
   record.radius_m = std::min(distance, static_cast<float>(*options_.max_radius_m));
-  float narrow = surroundings_.zone_radius_m(place, s.near, distance);
-  ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, at.photon, s)
-                                                            : by_hull(place, narrow, at.photon, s);
+  const ZoneRadius chosen = surroundings_.zone_radius(place, s.near, distance);
+  const LeftOut left_out{at.photon, chosen.decided_by};
+  float narrow = chosen.radius_m;
+  ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, left_out, s)
+                                                            : by_hull(place, narrow, left_out, s);
   s.others = s.gathered.zone.size() > 0;
   count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
   s.frame = place.frame, s.zone = zone;

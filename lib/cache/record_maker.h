@@ -56,8 +56,8 @@ class RecordMaker : public Estimator {
   }
 
  private:
-  ZoneEstimate by_hull(ZonePlace& place, float& radius_m, std::uint32_t left_out, Scratch& scratch) const;
-  ZoneEstimate by_kernel(ZonePlace& place, float radius_m, std::uint32_t left_out, Scratch& scratch) const;
+  ZoneEstimate by_hull(ZonePlace& place, float& radius_m, const LeftOut& left_out, Scratch& scratch) const;
+  ZoneEstimate by_kernel(ZonePlace& place, float radius_m, const LeftOut& left_out, Scratch& scratch) const;
   void count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
                  ZoneEstimate& zone, Scratch& scratch) const;
   void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,

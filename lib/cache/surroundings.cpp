@@ -74,7 +74,7 @@ float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out,
       if (glm::dot(decode_octahedral(photons_.normal[row]), place.frame.z) < kSameFacing) continue;
       const Vec3 w = place.frame.to_local(decode_octahedral(photons_.direction[row]));
       if (!(w.z > kLeastRise)) continue;
-      near.radii.push_back(away), near.directions.push_back(w);
+      near.radii.push_back(away), near.directions.push_back(w), near.last = row;
       near.weights.push_back(luminance(photons_.flux[row])), near.distances.push_back(photons_.distance[row]);
     }
     const bool exhausted = near.rows.size() >= photons_.size() || k * 4 > kMostNearest ||
@@ -84,10 +84,12 @@ float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out,
   return mean_distance_m(near.directions, near.weights, near.distances);
 }
 
-float Surroundings::zone_radius_m(const ZonePlace& place, const NearPhotons& near, float distance_m) const {
+ZoneRadius Surroundings::zone_radius(const ZonePlace& place, const NearPhotons& near,
+                                     float distance_m) const {
   const auto most = static_cast<float>(*options_.max_radius_m);
   const float right = static_cast<float>(options_.accuracy) * std::min(distance_m, most);
   float radius = right;
+  std::uint32_t decided_by = kNoPhoton;
   if (near.radii.size() >= kLeastForDensity) {
     const std::size_t k = near.radii.size(), least = static_cast<std::size_t>(options_.min_photons);
     const float last = std::max(holding_m(near.radii, k - 1), place.rounding_m);
@@ -98,12 +100,13 @@ float Surroundings::zone_radius_m(const ZonePlace& place, const NearPhotons& nea
         k >= least && least > 0 ? holding_m(near.radii, least - 1) : holding(static_cast<double>(least));
     const float upper = holding(static_cast<double>(options_.max_photons));
     radius = std::max(std::min(radius, upper), lower);
+    if (radius != right && (radius == upper || k < least)) decided_by = near.last;
   } else {
     radius = most;
   }
   const auto least_right = static_cast<float>(options_.accuracy * *options_.min_radius_m);
-  radius = std::min({radius, kMostGrowth * std::max(right, 2 * least_right), most});
-  return std::max(radius, 64 * place.rounding_m);
+  const float bounded = std::min({radius, kMostGrowth * std::max(right, 2 * least_right), most});
+  return {std::max(bounded, 64 * place.rounding_m), bounded < radius ? kNoPhoton : decided_by};
 }
 
 }  // namespace phos

@@ -10,12 +10,23 @@ namespace phos {
 
 /// The nearest photons of a place, and the memory to find them.
 struct NearPhotons {
-  std::vector<float> radii;  ///< m from the place, sorted
+  std::vector<float> radii;        ///< m from the place, sorted
+  std::uint32_t last = kNoPhoton;  ///< row of the last of them
   std::vector<Vec3> directions;
   std::vector<float> weights, distances;
   std::vector<std::uint32_t> rows;
   std::vector<float> distance2;
-  void clear() { radii.clear(), directions.clear(), weights.clear(), distances.clear(); }
+  void clear() {
+    radii.clear(), directions.clear(), weights.clear(), distances.clear();
+    last = kNoPhoton;
+  }
+};
+
+struct ZoneRadius {
+  float radius_m;
+  /// The row of the photon whose distance decided the radius, if it may lie within. All others are as dense
+  /// there as everywhere; this one is there for certain, and must not be counted.
+  std::uint32_t decided_by = kNoPhoton;
 };
 
 /// Const and usable from any thread.
@@ -33,7 +44,7 @@ class Surroundings {
 
   /// The second query's radius: a x R, enlarged or reduced for the photons that `near`, of distance_m(),
   /// promises.
-  float zone_radius_m(const ZonePlace& place, const NearPhotons& near, float distance_m) const;
+  ZoneRadius zone_radius(const ZonePlace& place, const NearPhotons& near, float distance_m) const;
 
  private:
   float by_rays_m(const ZonePlace& place, std::uint64_t item) const;

@@ -76,6 +76,15 @@ TEST(Curvature, IsThatOfTheClosedForm) {
     const float found =
         curvature_term(w, surface ? n : -w, static_cast<float>(1 / glm::length(q)), {0, 0, 1});
     EXPECT_NEAR(found, exact, 1e-4 * std::fabs(exact)) << surface;
+    // As seen from a place beside, over the light there.
+    const Vec3 step(-0.2f, 0.25f, 0);
+    const Vec3 there(q - DVec3(step));
+    const Vec3 w_there = glm::normalize(there);
+    const float beside =
+        curvature_term(w_there, surface ? n : -w_there, 1 / glm::length(there), {0, 0, 1}, -step);
+    const auto x = static_cast<double>(step.x), y = static_cast<double>(step.y);
+    const double exact_beside = exact * lux(0, 0) / lux(x, y);
+    EXPECT_NEAR(beside, exact_beside, 1e-4 * std::fabs(exact_beside)) << surface;
   }
   EXPECT_EQ(curvature_term({0, 0, 1}, {0, 0, -1}, 0, {0, 0, 1}), 0);
 }
