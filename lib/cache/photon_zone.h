@@ -60,7 +60,8 @@ class ZoneGatherer {
   void gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
               GatheredPhotons& gathered) const;
 
-  /// Adds the photon that the place sits on, `share` of its flux. False: it came from below, and is not added.
+  /// Adds the photon that the place sits on, `share` of its flux. False: it came from below, and is not
+  /// added.
   bool add_own(const ZonePlace& place, std::uint32_t row, float share, GatheredPhotons& gathered) const;
 
   /// Is there surface of this facing at an offset on the tangent plane, in sight of the place? Sets

@@ -31,7 +31,8 @@ float Surroundings::distance_m(const ZonePlace& place, std::uint64_t item, std::
   const float by_photons = by_photons_m(place, left_out, by_rays, near);
   if (options_.distance_rays == 0) return by_photons;
   // Few photons that by chance come from afar are as dim by chance: their record would be dark and reach far.
-  const float share = 0.5f * static_cast<float>(near.radii.size()) / static_cast<float>(options_.near_photons);
+  const float share =
+      0.5f * static_cast<float>(near.radii.size()) / static_cast<float>(options_.near_photons);
   return near.radii.empty() ? by_rays : 1 / (share / by_photons + (1 - share) / by_rays);
 }
 
