@@ -160,7 +160,7 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
   // The radius asks for gradients even where the record is to have none.
   const bool without = impl_->gradient == RadianceGradient::none;
   auto record = std::make_shared<RadianceRecord>(
-      w.projector.project(w.zone.gathered.zone, used, zone.area_m2, zone.area_error, -zone.centroid_m,
+      w.projector.project(w.zone.gathered.zone, used, zone.area_m2, zone.area_error, w.zone.moved_m,
                           w.zone.frame, without ? RadianceGradient::analytic : impl_->gradient));
   // What zones know of their errors besides: paths, and curvature that is left.
   const Rgb found = irradiance_of(*record).stderr_lx;

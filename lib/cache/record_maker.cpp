@@ -31,6 +31,11 @@ float kernel_spread(Kernel kernel) {
 /// The mean of lap E, R2/8 times, has 1/64 there; on the disc shrunk to sqrt(1/3) it has 1/192.
 constexpr float kBendStep = 0.4226497f;  // 1 - sqrt(1/3): so far a photon is moved towards the centroid
 
+/// The part of a sum that is believed beyond its own noise, of that variance (as D4); below, none.
+double beyond_noise(double sum, double variance) {
+  return sum * sum > 3 * variance ? 1 - 3 * variance / (sum * sum) : 0;
+}
+
 /// More of the mean than this is not taken for curvature: the terms after it are as large.
 constexpr double kMostBend = 0.25;
 
@@ -133,7 +138,8 @@ void RecordMaker::count_own(const RecordSite& at, const ZonePlace& place, float 
 double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
                                   const Scratch& s) {
   const ZonePhotons& photons = s.gathered.zone;
-  if (!(bend * bend > 3 * noise)) return 0;
+  const double beyond = beyond_noise(bend, noise);
+  if (!(beyond > 0)) return 0;
   ZoneShape shape = disc_shape(static_cast<double>(zone_radius_m));
   double area_m2 = zone.area_m2;
   if (zone.kind == ZoneKind::hull)
@@ -146,7 +152,7 @@ double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate&
     flux += f, squares += f * f, moment_m2 += f * glm::dot(place, place);
   }
   if (!(flux > 0)) return 0;
-  const double share = std::min(1 - 3 * noise / (bend * bend), kMostBend * flux / std::fabs(bend));
+  const double share = std::min(beyond, kMostBend * flux / std::fabs(bend));
   const double even_m4 = shape.second_moments_m4[0][0] + shape.second_moments_m4[1][1];
   // Of a shape that is partly no surface, photons' places tell nothing to check it by.
   if (zone.partial || !(even_m4 > 0)) return 0;
@@ -159,21 +165,26 @@ double RecordMaker::share_of_bend(double bend, double noise, const ZoneEstimate&
 }
 
 /// Irradiance at p from the mean over the area, photon by photon: moved along the gradient from the area's
-/// centroid (C3), and without what the curvature of irradiance adds to the mean, its Laplacian x (mean of
-/// |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of this area, and right in the next order too
-/// (kBendStep). The curvature is taken away as far as it exceeds its own noise (by the factor 1 - 3 / z2, as
-/// D4), so that even light stays as it is, up to kMostBend of the mean, and unless the photons lie otherwise;
-/// what may be left of it is in the error. A kernel, for comparison, keeps it, and says so in its error.
+/// centroid (C3; photons from a wall nearby tell little of it), and without what the curvature of irradiance
+/// adds to the mean, its Laplacian x (mean of |x - centroid|^2 - |p - centroid|^2) / 4 - as for a disc of
+/// this area, and right in the next order too (kBendStep). Each is taken away as far as it exceeds its own
+/// noise, so that even light stays as it is, the curvature up to kMostBend of the mean, and unless the
+/// photons lie otherwise; what may be left of it is in the error. A kernel, for comparison, keeps it, and
+/// says so in its error.
 void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
                                  Scratch& s, IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
   const Vec3 step = place.frame.to_world(Vec3(-zone.centroid_m, 0));
+  const auto change = [&](std::size_t i) {
+    return static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step));
+  };
+  const auto grey = [](const DVec3& light) { return static_cast<double>(luminance(Rgb(light))); };
   const bool kernel = zone.kind == ZoneKind::kernel;
   const float flat_m2 = static_cast<float>(zone.area_m2 / (8 * std::numbers::pi)) *
                             (kernel ? kernel_spread(options_.kernel) : 1) -
                         glm::dot(zone.centroid_m, zone.centroid_m) / 4;
-  DVec3 bend(0), bend2(0);
-  double noise = 0;
+  DVec3 bend(0), bend2(0), move(0), move2(0);
+  double bend_noise = 0, move_noise = 0;
   s.bend.assign(photons.size(), 0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
@@ -181,29 +192,31 @@ void RecordMaker::move_to_centre(const ZonePlace& place, const ZoneEstimate& zon
     s.bend[i] =
         flat_m2 * curvature_term(photons.direction[i], photons.source_normal[i], photons.inverse_distance[i],
                                  place.frame.z, place.frame.to_world(Vec3(kBendStep * to_centroid, 0)));
-    const DVec3 f = DVec3(photons.flux_lm[i]) * static_cast<double>(s.bend[i]);
-    const double grey = static_cast<double>(luminance(Rgb(f)));
-    bend += f, bend2 += f * f, noise += grey * grey;
+    const DVec3 bent = DVec3(photons.flux_lm[i]) * static_cast<double>(s.bend[i]);
+    bend += bent, bend2 += bent * bent, bend_noise += grey(bent) * grey(bent);
+    const DVec3 moved = DVec3(photons.flux_lm[i]) * change(i);
+    move += moved, move2 += moved * moved, move_noise += grey(moved) * grey(moved);
   }
-  const double grey = static_cast<double>(luminance(Rgb(bend)));
   if (kernel) {
     s.bend.assign(photons.size(), 0);
     const DVec3 left = glm::max(bend * bend - bend2, DVec3(0)) / (zone.area_m2 * zone.area_m2);
     record.stderr_lx = Rgb(glm::sqrt(DVec3(zone.stderr_lx) * DVec3(zone.stderr_lx) + left));
     return;
   }
-  const double share = share_of_bend(grey, noise, zone, zone_radius_m, s);
+  const double bend_share = share_of_bend(grey(bend), bend_noise, zone, zone_radius_m, s),
+               move_share = beyond_noise(grey(move), move_noise);
+  s.moved_m = -static_cast<float>(move_share) * zone.centroid_m;
   DVec3 sum(0), squares(0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
-    s.bend[i] *= static_cast<float>(share);
-    const double change =
-        static_cast<double>(glm::dot(photon_translation_term(photons, i, place.frame.z), step));
-    const DVec3 f = DVec3(photons.flux_lm[i]) * ((1 + change) * (1 - static_cast<double>(s.bend[i])));
+    s.bend[i] *= static_cast<float>(bend_share);
+    const DVec3 f =
+        DVec3(photons.flux_lm[i]) * ((1 + move_share * change(i)) * (1 - static_cast<double>(s.bend[i])));
     sum += f, squares += f * f;
   }
   const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
-  const DVec3 left = (1 - share) * (1 - share) * glm::max(bend * bend - bend2, DVec3(0));
+  const DVec3 left = (1 - bend_share) * (1 - bend_share) * glm::max(bend * bend - bend2, DVec3(0)) +
+                     (1 - move_share) * (1 - move_share) * glm::max(move * move - move2, DVec3(0));
   const DVec3 variance = (squares + left) / (zone.area_m2 * zone.area_m2) + geometric * geometric;
   record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
   record.stderr_lx = Rgb(glm::sqrt(variance));
@@ -285,7 +298,7 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
                                                             : by_hull(place, narrow, left_out, s);
   s.others = s.gathered.zone.size() > 0;
   count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
-  s.frame = place.frame, s.zone = zone;
+  s.frame = place.frame, s.zone = zone, s.moved_m = Vec2(0);
   // It serves no point whose photons it has not seen: their light may be another's.
   const float seen = narrow / static_cast<float>(options_.accuracy);
   if (s.gathered.zone.size() > 0) record.radius_m = std::min(record.radius_m, seen);

@@ -42,6 +42,7 @@ class RecordMaker : public Estimator {
     DensityScratch density;
     Frame frame;              ///< of the last make()
     ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
+    Vec2 moved_m{0};          ///< likewise: how far its light was moved along its gradient
     std::vector<float> bend;  ///< likewise: the part of each photon's flux that was taken away for curvature
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }

@@ -53,8 +53,8 @@ TEST(StudyRuns, MeasuresEverySetting) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (const char* kind : {"picture_", "lux_"}) {
       const auto of = [&](const char* name) { return number(i, (std::string(kind) + name).c_str()); };
-      EXPECT_GT(of("error"), 0) << kind << i;
-      EXPECT_GT(of("error_hi"), 0.001) << kind << i;  // a few sensors may be right by chance
+      EXPECT_GE(of("error"), 0) << kind << i;  // a few sensors may be right by chance
+      EXPECT_GT(of("error_hi"), 0.001) << kind << i;
       EXPECT_LT(of("error"), 1) << kind << i;
       EXPECT_LE(of("error_lo"), of("error"));
       EXPECT_GE(of("error_hi"), of("error"));
