@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/record_maker.h"
 #include "core/parallel.h"
 #include "splat/make_estimator.h"
 #include "support/records.h"
@@ -104,29 +105,15 @@ void print_row(const char* method, const std::string& scene, const std::vector<E
   std::fflush(stdout);
 }
 
-/// Flux of the nearest photon that landed on this side, lm; 0 where none did.
-double photon_flux_lm(const PhotonMap& photons, const test::Check& check) {
-  std::vector<std::uint32_t> rows;
-  std::vector<float> distance2_m2;
-  photons.nearest(check.position, 100, rows, distance2_m2);
-  for (const std::uint32_t i : rows)
-    if (glm::dot(decode_octahedral(photons.normal[i]), check.normal) > 0.9f)
-      return static_cast<double>(photons.flux[i].y);
-  return 0;
-}
-
-/// Mean of the closed form over the disc of a record from photons, weighted by the kernel, less its value at
-/// the check, lx. Of k photons of flux F in a disc of radius R, E = k F / (pi R2) and its variance is w k F2
-/// / (pi R2)2, w the mean square of the kernel's weight, so that R2 = w F E / (pi variance).
-double curvature_lx(const test::AnalyticScene& s, const test::Check& check, const IrradianceRecord& r,
-                    Kernel kernel, double flux_lm) {
-  const auto e = static_cast<double>(r.irradiance.y), error = static_cast<double>(r.stderr_lx.y);
-  if (!(e > 0)) return 0;
+/// Mean of the closed form over the disc that a kernel's record was made from, weighted by the kernel, less
+/// its value at the check, lx. 0 for other records.
+double curvature_lx(const test::AnalyticScene& s, const test::Check& check, const Estimator::Worker& worker,
+                    Kernel kernel) {
+  const auto* made = dynamic_cast<const RecordMaker::Scratch*>(&worker);
+  if (!made || made->zone.kind != ZoneKind::kernel) return 0;
   constexpr int kRings = 20, kSpokes = 16;  // of equal area
   const auto ring = [](int i) { return std::sqrt((i + 0.5) / kRings); };
-  double w = 0;
-  for (int i = 0; i < kRings; ++i) w += std::pow(kernel_weight(kernel, ring(i)), 2) / kRings;
-  const double radius_m = std::sqrt(w * flux_lm * e / std::numbers::pi) / error;
+  const double radius_m = std::sqrt(made->zone.area_m2 / std::numbers::pi);
   const Frame frame = make_frame(check.normal);
   double sum = 0;
   for (int i = 0; i < kRings; ++i) {
@@ -159,8 +146,6 @@ void measure(const test::AnalyticScene& s, int times, double landings) {
   for (int seed = 1; seed <= times * kMostSeeds; ++seed) {
     test::Lit lit = test::light_up(s.scene, std::lround(landings * (closed ? 1 - albedo : 1)),
                                    static_cast<std::uint64_t>(seed));
-    std::vector<double> flux_lm;
-    for (const test::Check& check : s.checks) flux_lm.push_back(photon_flux_lm(lit.photons, check));
     EstimateInputs inputs;
     inputs.photons = std::move(lit.photons);
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
@@ -176,9 +161,7 @@ void measure(const test::AnalyticScene& s, int times, double landings) {
         const double unit = e.dark ? brightest : check.irradiance_lx;
         e.error.push_back((static_cast<double>(r.irradiance.y) - check.irradiance_lx) / unit);
         e.stated.push_back(static_cast<double>(r.stderr_lx.y) / unit);
-        e.curvature.push_back(kMethods[m].estimate == Estimate::kernel
-                                  ? curvature_lx(s, check, r, kMethods[m].kernel, flux_lm[c]) / unit
-                                  : 0);
+        e.curvature.push_back(curvature_lx(s, check, *worker, kMethods[m].kernel) / unit);
       }
     }
   }
