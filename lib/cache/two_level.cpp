@@ -10,7 +10,7 @@ namespace {
 
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
 /// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
-constexpr double kReadBeyond = 1.5;
+constexpr double kReadBeyond = 1.2;
 
 }  // namespace
 
