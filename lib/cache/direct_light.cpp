@@ -25,26 +25,38 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out) {
   out.clear();
+  std::vector<Ray> way;
+  std::vector<std::uint8_t> blocked;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const int n = lights[i].extended() ? std::max(samples, 1) : 1;
     // Drawn for every light, so that one light's samples do not depend on what another's do.
     const float shift = random.uniform();
     const Vec2 shift2 = random.uniform2();
+    const bool area = lights[i].kind == Light::Kind::area;
+    Luminaires::View view(lights, i, receiver.position);
+    const std::size_t first = out.size();
+    way.clear();
     for (int k = 0; k < n; ++k) {
       Illumination light;
       const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
-      if (!lights.illuminate(i, receiver.position, std::min(u_triangle, kBelowOne), r2_point(k, shift2),
-                             light))
-        continue;
+      if (!view.illuminate(std::min(u_triangle, kBelowOne), r2_point(k, shift2), light)) continue;
       const float cosine = glm::dot(receiver.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
       const Rgb irradiance =
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
-      if (!(max_component(irradiance) > 0) || !in_sight(rays, receiver, light)) continue;
-      const bool area = lights[i].kind == Light::Kind::area;
+      if (!(max_component(irradiance) > 0)) continue;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
                      static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
+      way.push_back(shadow_ray(receiver, light));
     }
+    blocked.resize(way.size());
+    rays.occluded(way, blocked);
+    std::size_t kept = first;
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      const bool free = !(way[k].t_max_m > 0) || blocked[k] == 0;
+      if (free) out[kept++] = out[first + k];
+    }
+    out.resize(kept);
   }
 }
 

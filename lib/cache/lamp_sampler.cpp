@@ -172,14 +172,4 @@ void LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& 
   light.certain = !(light.ray.t_max_m > 0);
 }
 
-Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {
-  const Vec3 origin = point.leave(light.direction);
-  if (!std::isfinite(light.distance_m)) return {origin, light.direction};
-  const Vec3 way = light.position - origin;
-  const float distance = std::sqrt(glm::dot(way, way));
-  if (!(distance > 0)) return {origin, light.direction, 0, 0};
-  // Ends short of the lamp by its rounding and by that of the origin.
-  return {origin, way / distance, 0, distance - std::max(light.error_m, point.error_m)};
-}
-
 }  // namespace phos

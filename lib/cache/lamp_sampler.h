@@ -74,8 +74,4 @@ class LampSampler {
   std::uint32_t samples_ = 1;
 };
 
-/// The ray that must be free for a light's sample to reach a point. t_max_m is not above 0 where the two are
-/// too close to each other for anything to stand between: do not ask then.
-Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
-
 }  // namespace phos

@@ -16,15 +16,19 @@ double root(double x) { return std::sqrt(std::max(0.0, x)); }
 }  // namespace
 
 SphericalTriangle::SphericalTriangle(const Vec3 corner[3], const Vec3& from) {
-  for (int i = 0; i < 3; ++i) to_[i] = DVec3(corner[i]) - DVec3(from);
-  a_ = normalized_or_zero(to_[0]), b_ = normalized_or_zero(to_[1]), c_ = normalized_or_zero(to_[2]);
-  const double volume = std::fabs(glm::dot(a_, glm::cross(b_, c_)));
+  DVec3 to[3];
+  for (int i = 0; i < 3; ++i) to[i] = DVec3(corner[i]) - DVec3(from);
+  a_ = normalized_or_zero(to[0]), b_ = normalized_or_zero(to[1]);
+  const DVec3 c = normalized_or_zero(to[2]);
+  const double volume = std::fabs(glm::dot(a_, glm::cross(b_, c)));
   if (!(volume > 0)) return;
-  solid_angle_sr_ = 2 * std::atan2(volume, 1 + glm::dot(a_, b_) + glm::dot(b_, c_) + glm::dot(c_, a_));
+  solid_angle_sr_ = 2 * std::atan2(volume, 1 + glm::dot(a_, b_) + glm::dot(b_, c) + glm::dot(c, a_));
   // The angle at a is that between the planes through it; the sine of it has the volume as its numerator.
-  const double cosine = glm::dot(glm::cross(a_, b_), glm::cross(a_, c_));
+  const double cosine = glm::dot(glm::cross(a_, b_), glm::cross(a_, c));
   const double length = std::hypot(cosine, volume);
-  cos_alpha_ = cosine / length, sin_alpha_ = volume / length;
+  cos_alpha_ = cosine / length, sin_alpha_ = volume / length, cos_ab_ = glm::dot(a_, b_);
+  from_a_to_c_ = normalized_or_zero(c - glm::dot(c, a_) * a_);
+  for (int i = 0; i < 3; ++i) side_[i] = glm::cross(to[(i + 1) % 3], to[(i + 2) % 3]);
 }
 
 Vec2 SphericalTriangle::sample(const Vec2& u) const {
@@ -32,17 +36,16 @@ Vec2 SphericalTriangle::sample(const Vec2& u) const {
   const double area = static_cast<double>(u.x) * solid_angle_sr_;
   const double s = std::sin(area) * cos_alpha_ - std::cos(area) * sin_alpha_;
   const double t = std::cos(area) * cos_alpha_ + std::sin(area) * sin_alpha_;
-  const double p = t - cos_alpha_, q = s + sin_alpha_ * glm::dot(a_, b_);
+  const double p = t - cos_alpha_, q = s + sin_alpha_ * cos_ab_;
   const double along = (q * t - p * s) * cos_alpha_ - q, all = (q * s + p * t) * sin_alpha_;
   const double cosine = all != 0 ? std::clamp(along / all, -1.0, 1.0) : 1;
-  const DVec3 c1 = cosine * a_ + root(1 - cosine * cosine) * normalized_or_zero(c_ - glm::dot(c_, a_) * a_);
+  const DVec3 c1 = cosine * a_ + root(1 - cosine * cosine) * from_a_to_c_;
   // From b towards c'.
   const double drop = static_cast<double>(u.y) * (1 - glm::dot(c1, b_));
   const DVec3 d = (1 - drop) * b_ + root(drop * (2 - drop)) * normalized_or_zero(c1 - glm::dot(c1, b_) * b_);
   // Where that line meets the triangle: volumes of the direction with each two corners.
-  const double w0 = std::fabs(glm::dot(d, glm::cross(to_[1], to_[2])));
-  const double w1 = std::fabs(glm::dot(d, glm::cross(to_[2], to_[0])));
-  const double w2 = std::fabs(glm::dot(d, glm::cross(to_[0], to_[1])));
+  const double w0 = std::fabs(glm::dot(d, side_[0])), w1 = std::fabs(glm::dot(d, side_[1])),
+               w2 = std::fabs(glm::dot(d, side_[2]));
   const double sum = w0 + w1 + w2;
   const auto x = static_cast<float>(w1 / sum);
   return {x, std::min(static_cast<float>(w2 / sum), 1 - x)};

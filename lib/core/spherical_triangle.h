@@ -22,9 +22,10 @@ class SphericalTriangle {
   Vec2 sample(const Vec2& u) const;
 
  private:
-  DVec3 to_[3];  // the corners, seen from the point, m
-  DVec3 a_, b_, c_;
-  double cos_alpha_ = 1, sin_alpha_ = 0, solid_angle_sr_ = 0;
+  DVec3 a_, b_;           // directions of the first two corners
+  DVec3 from_a_to_c_{0};  // tangent of that arc at a
+  DVec3 side_[3];         // normals of the planes through the point and the edge opposite a corner, m2
+  double cos_ab_ = 1, cos_alpha_ = 1, sin_alpha_ = 0, solid_angle_sr_ = 0;
 };
 
 /// A triangle, or a parallelogram as two that turn about a corner, so that even points of the square are even

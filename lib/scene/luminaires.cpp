@@ -24,9 +24,14 @@ bool shines_evenly(const Scene& scene, const Instance& instance) {
   return instance.fitting < 0 && !scene.material[instance.material].emissive.used();
 }
 
+Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {
+  if (std::isfinite(light.distance_m)) return ray_between(point, light.position, light.error_m);
+  return {point.leave(light.direction), light.direction};
+}
+
 bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
-  if (std::isfinite(light.distance_m)) return rays.visible(from, light.position, light.error_m);
-  return !rays.occluded({from.leave(light.direction), light.direction});
+  const Ray ray = shadow_ray(from, light);
+  return !(ray.t_max_m > 0) || !rays.occluded(ray);
 }
 
 Rgb background_luminance(const Scene& scene, const Vec3& direction) {
@@ -272,9 +277,9 @@ bool set_way(const Vec3& from, const Vec3& to, Illumination& light) {
 
 }  // namespace
 
-bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
-                            Illumination& result) const {
-  const Light& light = scene_->light[i];
+bool Luminaires::View::illuminate(float u_triangle, const Vec2& u, Illumination& result) {
+  const Scene& scene = *lights_.scene_;
+  const Light& light = scene.light[i_];
   result = Illumination();
   if (light.kind == Light::Kind::directional) {
     result.direction = -light.direction;
@@ -282,39 +287,40 @@ bool Luminaires::illuminate(std::size_t i, const Vec3& from, float u_triangle, c
     return true;
   }
   if (light.kind == Light::Kind::environment) {
-    const Environment::Sample sample = portals_ ? portals_->sample(from, u) : scene_->environment->sample(u);
+    const std::optional<PortalLight>& portals = lights_.portals_;
+    const Environment::Sample sample = portals ? portals->sample(from_, u) : scene.environment->sample(u);
     result.direction = sample.direction;
     result.value = sample.luminance;
     result.density = sample.density;
     return result.density > 0;
   }
-  if (light.kind == Light::Kind::area) return illuminate_from_area(i, from, u_triangle, u, result);
-  if (!set_way(from, light.position, result)) return false;
-  const float share = intensity_share(*scene_, light, DVec3(from) - DVec3(light.position));
+  if (light.kind == Light::Kind::area) return illuminate_from_area(u_triangle, u, result);
+  if (!set_way(from_, light.position, result)) return false;
+  const float share = intensity_share(scene, light, DVec3(from_) - DVec3(light.position));
   result.value = light.intensity * (share / (result.distance_m * result.distance_m));
   return share > 0 && is_finite(result.value);
 }
 
-bool Luminaires::illuminate_from_area(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
-                                      Illumination& result) const {
-  const Light& light = scene_->light[i];
-  if (shape_[i].cdf.empty()) return false;
-  const Shape& shape = shape_[i];
+bool Luminaires::View::illuminate_from_area(float u_triangle, const Vec2& u, Illumination& result) {
+  const Scene& scene = *lights_.scene_;
+  const Light& light = scene.light[i_];
+  const Shape& shape = lights_.shape_[i_];
+  if (shape.cdf.empty()) return false;
   const std::size_t facet = shape.parallelogram ? 0 : choose_facet(shape, u_triangle);
-  const auto near = see_near(shape, facet, from);
+  if (looked_at_ != facet) looked_at_ = facet, near_ = see_near(shape, facet, from_);
   const EmissionPoint point =
-      point_of(light, shape, near ? choose(shape, facet, *near, u) : choose(shape, u_triangle, u));
-  if (!set_way(from, point.position, result)) return false;
+      lights_.point_of(light, shape, near_ ? choose(shape, facet, *near_, u) : choose(shape, u_triangle, u));
+  if (!set_way(from_, point.position, result)) return false;
   const float cosine = -glm::dot(result.direction, point.normal);
-  const float cos_light = scene_->material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
+  const float cos_light = scene.material_of(point.triangle).double_sided ? std::fabs(cosine) : cosine;
   if (!(cos_light > 0)) return false;
   result.value = light.fitting < 0
                      ? point.luminance
-                     : scene_->fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
+                     : scene.fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
   result.normal = cosine > 0 ? point.normal : -point.normal;
   result.error_m = point.error_m;
-  result.density = near ? static_cast<float>(near->density)
-                        : point.density * result.distance_m * result.distance_m / cos_light;
+  result.density = near_ ? static_cast<float>(near_->density)
+                         : point.density * result.distance_m * result.distance_m / cos_light;
   return result.density > 0 && std::isfinite(result.density);
 }
 

@@ -52,10 +52,19 @@ struct EmissionPoint {
   float density = 0;  ///< per m2 (of one side)
 };
 
+/// The ray that must be free for a light's sample to reach a point; t_max_m as of ray_between().
+Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
+
 /// Is there nothing between a point and a sample of a light?
 bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light);
 
 class Luminaires {
+  /// What of a light is sampled from a place near it: a facet or the parallelogram.
+  struct Near {
+    SphericalPatch patch;
+    double density = 0;  // per sr
+  };
+
  public:
   explicit Luminaires(const Scene& scene);
   std::size_t size() const { return scene_->light.size(); }
@@ -68,7 +77,27 @@ class Luminaires {
   /// are strata of the light. Environment: as Environment::sample() chooses, or
   /// through the portals that are seen from there (PortalLight), by `u` alone too.
   bool illuminate(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
-                  Illumination& result) const;
+                  Illumination& result) const {
+    return View(*this, i, from).illuminate(u_triangle, u, result);
+  }
+
+  /// Light `i` as seen from one place, for several samples of it: what of it is near is looked at once. For
+  /// one thread; holds a reference.
+  class View {
+   public:
+    View(const Luminaires& lights, std::size_t i, const Vec3& from) : lights_(lights), i_(i), from_(from) {}
+    bool illuminate(float u_triangle, const Vec2& u, Illumination& result);
+
+   private:
+    bool illuminate_from_area(float u_triangle, const Vec2& u, Illumination& result);
+
+    const Luminaires& lights_;
+    std::size_t i_;
+    Vec3 from_;
+    std::optional<std::size_t> looked_at_;  // facet
+    std::optional<Near> near_;              // of it; none where it is far
+  };
+
   /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on
   /// it.
   bool by_u_alone(std::size_t i) const { return shape_[i].cdf.empty() || shape_[i].parallelogram; }
@@ -117,11 +146,6 @@ class Luminaires {
     std::uint32_t triangle;  // of the light's, from 0
     Vec2 weights;            // of the second and third vertex
   };
-  /// What of a light is sampled from a place near it: a facet or the parallelogram.
-  struct Near {
-    SphericalPatch patch;
-    double density = 0;  // per sr
-  };
   Shape make_shape(const Light& light) const;
   void find_parallelogram(const Instance& instance, Shape& shape) const;
   static std::size_t choose_facet(const Shape& shape, float u_triangle);
@@ -129,8 +153,6 @@ class Luminaires {
   static Spot choose(const Shape& shape, std::size_t facet, const Near& near, const Vec2& u);
   /// Facet k, or the parallelogram that it belongs to; nothing where it is far.
   static std::optional<Near> see_near(const Shape& shape, std::size_t k, const Vec3& from);
-  bool illuminate_from_area(std::size_t i, const Vec3& from, float u_triangle, const Vec2& u,
-                            Illumination& result) const;
   EmissionPoint point_of(const Light& light, const Shape& shape, const Spot& spot) const;
 
   const Scene* scene_;

@@ -306,6 +306,10 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> block
   RTCIntersectContext context = side_by_side();
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
+    if (count == 1) {
+      blocked[first] = occluded(rays[first]);
+      break;
+    }
     alignas(64) int valid[kPacket] = {};
     alignas(64) RTCRay16 packet;
     pack(rays.subspan(first, count), impl_->units_per_m, valid, packet);
@@ -346,13 +350,14 @@ bool RayScene::visible(const SurfacePoint& a, const SurfacePoint& b) const {
 }
 
 bool RayScene::visible(const SurfacePoint& a, const Vec3& point, float error_m) const {
-  const Vec3 way = point - a.position;
-  const Vec3 origin = a.leave(way);
-  const Vec3 direction = normalized_or_zero(point - origin);
-  if (direction == Vec3(0)) return true;
-  // Shortened along the ray, by the light's slack and by the rounding of the origin.
-  const float distance = glm::dot(point - origin, direction) - std::max(error_m, a.error_m);
-  return !(distance > 0) || !occluded({origin, direction, 0, distance});
+  const Ray ray = ray_between(a, point, error_m);
+  return !(ray.t_max_m > 0) || !occluded(ray);
+}
+
+Ray ray_between(const SurfacePoint& from, const Vec3& to, float error_m) {
+  const Vec3 origin = from.leave(to - from.position), way = to - origin;
+  const Vec3 direction = normalized_or_zero(way);
+  return {origin, direction, 0, glm::dot(way, direction) - std::max(error_m, from.error_m)};
 }
 
 void RayScene::ask_ahead(std::span<const Hit> hits, std::size_t turn) const {

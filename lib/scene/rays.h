@@ -71,7 +71,7 @@ class RayScene {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
   /// Can a and b see each other? Both ends are kept clear of their own surfaces by their error_m.
   bool visible(const SurfacePoint& a, const SurfacePoint& b) const;
-  /// From a surface point towards a point in space (a light's sample) with `error_m` slack at the far end.
+  /// The same of a point in space: is ray_between() free?
   bool visible(const SurfacePoint& a, const Vec3& point, float error_m) const;
 
   /// The point a hit stands for, seen against the ray.
@@ -86,6 +86,11 @@ class RayScene {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The ray that must be free for a point in space (a light's sample), known to `error_m`, to be seen from a
+/// surface point: it ends short of it by that or by the surface's own rounding. t_max_m is not above 0 where
+/// the two are too close to each other for anything to stand between: do not ask then.
+Ray ray_between(const SurfacePoint& from, const Vec3& to, float error_m);
 
 /// intersect + surface.
 bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point);
