@@ -129,9 +129,9 @@ struct HitLight::Impl {
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
-    Interpolated cached;  // its error is not asked for: that of the source as a whole is known
-    source.indirect->add(point.position, point.smooth_normal, cached);
-    if (cached.weight > 0) return cached.irradiance / cached.weight;
+    float weight;  // their error is not asked for: that of the source as a whole is known
+    const Rgb cached = source.indirect->irradiance(point.position, point.smooth_normal, weight);
+    if (weight > 0) return cached;
     if (source.far) {
       const Interpolated beyond = source.far->interpolate(point.position, point.smooth_normal);
       ++worker.beyond_reach;

@@ -75,19 +75,6 @@ bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3
   return clear_between(rays, raised(rays, from, n, more_m), raised(rays, to, r.normal, more_m));
 }
 
-Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
-  const Vec3 step = p - r.position;
-  if (r.footprint) return glm::max(r.irradiance + r.footprint->change(step, n), Rgb(0));
-  const Vec3 turn = glm::cross(r.normal, n);
-  Rgb e;
-  for (int c = 0; c < 3; ++c) {
-    const float value =
-        r.irradiance[c] + glm::dot(turn, r.rotation_gradient[c]) + glm::dot(step, r.translation_gradient[c]);
-    e[c] = std::min(std::max(value, 0.f), kGrowthLimit * r.irradiance[c]);
-  }
-  return e;
-}
-
 bool any_footprint(std::span<const IrradianceRecord> records) {
   return std::any_of(records.begin(), records.end(),
                      [](const IrradianceRecord& r) { return r.footprint != nullptr; });

@@ -140,7 +140,18 @@ inline constexpr float kRoughness = 0.125f;
 bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// A5: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]; or E_i + change() of its
 /// footprint, which has been tested, at least 0. lx
-Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
+inline Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+  const Vec3 step = p - r.position;
+  if (r.footprint) return glm::max(r.irradiance + r.footprint->change(step, n), Rgb(0));
+  const Vec3 turn = glm::cross(r.normal, n);
+  Rgb e;
+  for (int c = 0; c < 3; ++c) {
+    const float value =
+        r.irradiance[c] + glm::dot(turn, r.rotation_gradient[c]) + glm::dot(step, r.translation_gradient[c]);
+    e[c] = std::min(std::max(value, 0.f), kGrowthLimit * r.irradiance[c]);
+  }
+  return e;
+}
 
 /// Weight of FORMULAS A4 "lin": 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and
 /// lookup.
@@ -204,6 +215,9 @@ class RecordTree {
   std::span<const IrradianceRecord> records() const;
   /// Is any record valid at p, n? (A3 with w_min = 0.)
   bool covered(const Vec3& p, const Vec3& n) const;
+  /// The irradiance of interpolate() alone, lx: in two thirds of the time. `weight` becomes the sum of
+  /// weights; 0: a miss.
+  Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
   /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;

@@ -5,38 +5,26 @@
 #include <cstddef>
 #include <vector>
 
+#include "cache/light_products.h"
 #include "core/vector.h"
 #include "hsh/basis.h"
+#include "hsh/slopes.h"
 
 namespace phos {
 
-/// Directions that carry light, in the frame of a record, as many as are summed at once: the tables of order
-/// 10 fit the nearest caches. Those that are not set carry nothing.
-struct LightBlock {
-  static constexpr std::size_t kSize = 64;
-  using Row = std::array<float, kSize>;
-  /// By colour.
-  using RgbRows = std::array<Row, 3>;
-
-  LightBlock() { z.fill(1); }
-
-  Row x{}, y{}, z{};
-  RgbRows value{};              ///< light that a harmonic weighs
-  RgbRows per_m{};              ///< the same over the distance of what it comes from
-  std::array<Row, 2> normal{};  ///< tangential part of the normal there over its cosine with the direction
-
-  void set_direction(std::size_t k, const Vec3& w) { x[k] = w.x, y[k] = w.y, z[k] = w.z; }
-  static void set(RgbRows& rows, std::size_t k, const Rgb& light) {
-    for (std::size_t c = 0; c < 3; ++c) rows[c][k] = light[static_cast<int>(c)];
-  }
+/// Light that arrives from one direction, in the frame of a record.
+struct DirectedLight {
+  Vec3 direction{0, 0, 1};  ///< unit
+  Rgb value{0};             ///< light that a harmonic weighs
+  Rgb per_m{0};             ///< the same over the distance of what it comes from
+  Vec2 normal{0};           ///< tangential part of the normal there over its cosine with the direction
 };
 
-/// Light that comes into sight at edges of what hides it, by direction, per metre of movement along x and y.
-struct LightEdges {
-  LightEdges() { z.fill(1); }
-  LightBlock::Row x{}, y{}, z{};
-  LightBlock::RgbRows along[2]{};
-  std::size_t size = 0;
+/// How slopes are found.
+enum class SlopesBy {
+  none,
+  terms,        ///< of each term: value / r ((n_a / cos + power w_a) H - G_a), G the surface gradient of H
+  differences,  ///< between places displaced to either side, what the light comes from kept
 };
 
 /// As the place moves, light falls with this power of the distance, besides the cosine of what it comes from.
@@ -45,27 +33,44 @@ enum class Falloff {
   projected = 4,  ///< and x the cosine of the place's own surface, which falls too
 };
 
-/// Sums over blocks, in double; for one thread.
+/// Sums of harmonics, in double over blocks of directions in float; for one thread. start(), add what there
+/// is, finish().
 class LightSums {
  public:
   explicit LightSums(int order);
-  void clear();
+  void start(SlopesBy slopes, Falloff falloff);
+  void add(const DirectedLight& light);
+  /// Light that comes into sight at an edge of what hides it, per metre of movement along x and y.
+  void add_edge(const Vec3& direction, const Rgb& along_x, const Rgb& along_y);
+  void finish();
 
-  void add_values(const LightBlock& block);
-  /// And the slopes of each term: value / r ((n_a / cos + power w_a) H - G_a), G the surface gradient of H.
-  void add_with_slopes(const LightBlock& block, Falloff falloff);
-  /// The same by differences between places displaced to either side, what the light comes from kept.
-  void add_with_differences(const LightBlock& block, Falloff falloff);
-  void add_edges(const LightEdges& edges);
-
-  std::vector<double> light, slope[2];  ///< [order^2][3]; per metre along x and y
+  std::vector<double> light, slope[2];  ///< [order^2][3], once finished; per metre along x and y, or 0
 
  private:
-  void evaluate(const LightBlock::Row& x, const LightBlock::Row& y, const LightBlock::Row& z);
+  /// Directions that wait for their sums; those that are not set weigh nothing.
+  template <std::size_t kWeights>
+  struct Block {
+    std::array<float, kLightBlock> x, y, z;
+    alignas(32) std::array<std::array<float, kWeights>, kLightBlock> weight;
+    std::size_t size = 0;
+    std::vector<double> sums;  // [count][kWeights]
+    void clear();
+    void start(std::size_t count);
+    /// Returns where its weights go.
+    std::array<float, kWeights>& next(const Vec3& direction);
+  };
+  template <std::size_t kWeights>
+  void flush(const HarmonicBasis<float>& basis, Block<kWeights>& block);
+  void add_differences(const DirectedLight& light);
 
-  HarmonicBasis<float> basis_;
-  std::size_t count_;
-  std::vector<float> h_, hx_, hy_;  // [count][block]
+  HarmonicBasis<float> basis_, slope_basis_;  // the latter of one band more
+  HshSlopes slopes_of_;
+  std::vector<float> harmonics_;  // [count][kLightBlock]
+  SlopesBy slopes_ = SlopesBy::none;
+  float power_ = 0;
+  Block<8> values_;   // light alone
+  Block<8> edges_;    // slopes along x and y
+  Block<16> sloped_;  // light, what slopes along x and y have of H, and what p and q of HshSlopes weigh
 };
 
 }  // namespace phos

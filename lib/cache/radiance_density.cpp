@@ -68,37 +68,23 @@ RadianceRecord PhotonProjector::project(const ZonePhotons& photons, std::span<co
                                         double area_m2, double area_error, const Vec2& step_m,
                                         const Frame& frame, RadianceGradient mode) {
   LightSums& sums = impl_->sums;
-  sums.clear();
+  // A step asks for slopes even where the record is to have none.
   const bool sloped = mode != RadianceGradient::none || step_m != Vec2(0);
+  sums.start(sloped && mode == RadianceGradient::none ? SlopesBy::terms : slopes_by(mode),
+             Falloff::projected);
   DVec3 variance(0);
-  LightBlock block;
-  std::size_t filled = 0;
-  const auto flush = [&] {
-    if (filled == 0) return;
-    if (mode == RadianceGradient::numeric) {
-      sums.add_with_differences(block, Falloff::projected);
-    } else if (sloped) {
-      sums.add_with_slopes(block, Falloff::projected);
-    } else {
-      sums.add_values(block);
-    }
-    block = {}, filled = 0;
-  };
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!used[i]) continue;
     const Vec3 w = frame.to_local(photons.direction[i]), n = frame.to_local(photons.source_normal[i]);
     const Rgb light(DVec3(photons.flux_lm[i]) / area_m2);
     const float cosine = std::max(kLeastCosine, -glm::dot(n, w)), near = photons.inverse_distance[i];
     const Vec2 normal = Vec2(n) / cosine;
-    block.set_direction(filled, w);
-    LightBlock::set(block.value, filled, light), LightBlock::set(block.per_m, filled, near * light);
-    block.normal[0][filled] = normal.x, block.normal[1][filled] = normal.y;
+    sums.add({w, light, near * light, normal});
     const DVec3 moved =
         DVec3(light) * (1 + static_cast<double>(near * glm::dot(normal + 4.f * Vec2(w), step_m)));
     variance += moved * moved;
-    if (++filled == LightBlock::kSize) flush();
   }
-  flush();
+  sums.finish();
   for (std::vector<double>* of : {&sums.light, &sums.slope[0], &sums.slope[1]}) impl_->fit.solve(*of);
   impl_->move(step_m);
   RadianceRecord record;

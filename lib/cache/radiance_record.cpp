@@ -17,20 +17,12 @@ namespace {
 /// Least cosine of an emitter in a gradient, which it divides.
 constexpr float kLeastCosine = 0.05f;
 
-/// Rays of a block in the frame of the hemisphere.
-LightBlock block_of(const Hemisphere& h, std::size_t first, float least_m) {
-  LightBlock block;
-  for (std::size_t k = 0; k < LightBlock::kSize && first + k < h.size(); ++k) {
-    const std::size_t i = first + k;
-    const Vec3 w = h.frame.to_local(h.direction[i]), n = h.frame.to_local(h.hit_normal[i]);
-    const Rgb light = h.solid_sr(i) * h.radiance[i];
-    const float cosine = std::max(kLeastCosine, -glm::dot(n, w));
-    block.set_direction(k, w);
-    LightBlock::set(block.value, k, light);
-    LightBlock::set(block.per_m, k, light / std::max(h.distance_m[i], least_m));
-    block.normal[0][k] = n.x / cosine, block.normal[1][k] = n.y / cosine;
-  }
-  return block;
+/// A ray, in the frame of the hemisphere.
+DirectedLight light_along(const Hemisphere& h, std::size_t i, float least_m) {
+  const Vec3 w = h.frame.to_local(h.direction[i]), n = h.frame.to_local(h.hit_normal[i]);
+  const Rgb light = h.solid_sr(i) * h.radiance[i];
+  const float cosine = std::max(kLeastCosine, -glm::dot(n, w));
+  return {w, light, light / std::max(h.distance_m[i], least_m), Vec2(n) / cosine};
 }
 
 std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
@@ -56,7 +48,6 @@ struct RadianceProjector::Impl {
   /// move with the far is short of the difference, as solid angle: length of the edge across the movement x
   /// difference of 1/r.
   void occlusion(const Hemisphere& seen, float least_m) {
-    LightEdges edges;
     const auto edge = [&](std::size_t before, std::size_t cell, const Vec3& w, float length,
                           const Vec2& across) {
       if (!one_hides_other(seen, before, cell, least_m)) return;
@@ -64,12 +55,7 @@ struct RadianceProjector::Impl {
                   b = 1 / std::max(seen.distance_m[cell], least_m);
       const Rgb far = a >= b ? seen.radiance[cell] : -seen.radiance[before];
       const Rgb shown = length * std::fabs(a - b) * far;
-      edges.x[edges.size] = w.x, edges.y[edges.size] = w.y, edges.z[edges.size] = w.z;
-      LightBlock::set(edges.along[0], edges.size, across.x * shown);
-      LightBlock::set(edges.along[1], edges.size, across.y * shown);
-      if (++edges.size < LightBlock::kSize) return;
-      sums.add_edges(edges);
-      edges = {};
+      sums.add_edge(w, across.x * shown, across.y * shown);
     };
     const auto slice_count = static_cast<float>(seen.slices);
     const auto cosine = [&](float ring) { return 1 - ring / static_cast<float>(seen.rings); };
@@ -89,7 +75,6 @@ struct RadianceProjector::Impl {
         edge(seen.at(j, k - 1), seen.at(j, k), Vec3(sine(middle) * side, middle), arc, {-side.y, side.x});
       }
     }
-    sums.add_edges(edges);
   }
 };
 
@@ -98,26 +83,21 @@ RadianceProjector::RadianceProjector(int order) {
 }
 RadianceProjector::~RadianceProjector() = default;
 
+SlopesBy slopes_by(RadianceGradient gradient) {
+  return gradient == RadianceGradient::none      ? SlopesBy::none
+         : gradient == RadianceGradient::numeric ? SlopesBy::differences
+                                                 : SlopesBy::terms;
+}
+
 RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient mode, float least_m) {
   least_m = std::max(least_m, std::numeric_limits<float>::min());
   LightSums& sums = impl_->sums;
-  sums.clear();
-  for (std::size_t first = 0; first < h.size(); first += LightBlock::kSize) {
-    const LightBlock block = block_of(h, first, least_m);
-    switch (mode) {
-      case RadianceGradient::analytic:
-      case RadianceGradient::hybrid:
-        sums.add_with_slopes(block, Falloff::solid);
-        break;
-      case RadianceGradient::numeric:
-        sums.add_with_differences(block, Falloff::solid);
-        break;
-      case RadianceGradient::none:
-        sums.add_values(block);
-    }
-  }
+  sums.start(slopes_by(mode), Falloff::solid);
+  for (std::size_t i = 0; i < h.size(); ++i)
+    if (h.radiance[i] != Rgb(0)) sums.add(light_along(h, i, least_m));
   if (mode == RadianceGradient::hybrid && h.stratified() && h.measure == Measure::solid)
     impl_->occlusion(h, least_m);
+  sums.finish();
   RadianceRecord record;
   record.frame = h.frame;
   record.distance_m = harmonic_mean_m(h);

@@ -5,6 +5,7 @@
 
 #include "cache/estimator.h"
 #include "cache/hemisphere.h"
+#include "cache/light_sums.h"
 #include "cache/radiance_cache.h"
 #include "cache/record_options.h"
 
@@ -19,6 +20,9 @@ enum class RadianceGradient {
   numeric,   ///< differences between displaced places, the hits kept: the same as analytic to about 1e-4
   none,
 };
+
+/// What that asks of sums of light.
+SlopesBy slopes_by(RadianceGradient gradient);
 
 /// Turns hemispheres into coefficients; holds the basis and memory, for one thread.
 class RadianceProjector {

@@ -29,7 +29,7 @@ enum class Footprint {
   circle_min,       ///< the same by the least distance (their MDIC)
   circle_harmonic,  ///< by the harmonic mean, and shrunk where records about it say otherwise (HMDIC:
                     ///< adaptive caching, Krivanek et al. 2006)
-  adaptive,  ///< eight axes, each as long as surroundings and light allow (ARIC)
+  adaptive,         ///< eight axes, each as long as surroundings and light allow (ARIC)
 };
 enum class RadiusRule { harmonic, least };  ///< A7: harmonic mean, or least distance of the rays
 enum class LeakTest {
