@@ -215,7 +215,7 @@ class RecordTree {
   std::span<const IrradianceRecord> records() const;
   /// Is any record valid at p, n? (A3 with w_min = 0.)
   bool covered(const Vec3& p, const Vec3& n) const;
-  /// The irradiance of interpolate() alone, lx: in two thirds of the time. `weight` becomes the sum of
+  /// The irradiance of interpolate() alone, lx, without what its errors cost. `weight` becomes the sum of
   /// weights; 0: a miss.
   Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
   /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().

@@ -2,7 +2,6 @@
 // that its zone of influence touches, so that a query walks one path from the root.
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "cache/irradiance_cache.h"
 #include "cache/record_index.h"
@@ -13,24 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-/// Where four records lie and how far they reach, for one instruction each; nobody reaches less than nowhere.
-struct Four {
-  static constexpr std::size_t kSize = 4;
-  using Lanes __attribute__((vector_size(kSize * sizeof(float)))) = float;
-  Lanes x{}, y{}, z{}, reach2_m2{-1, -1, -1, -1};
-
-  /// May any of them serve p? Then near[k] is not 0 for those that may: as the first test of weight_at().
-  bool any_near(const Vec3& p, std::array<std::int32_t, kSize>& near) const {
-    const Lanes dx = p.x - x, dy = p.y - y, dz = p.z - z;
-    const auto in_reach = dx * dx + dy * dy + dz * dz < reach2_m2;
-    std::memcpy(near.data(), &in_reach, sizeof in_reach);
-    std::uint64_t both[2];
-    std::memcpy(both, &in_reach, sizeof in_reach);
-    return (both[0] | both[1]) != 0;
-  }
-};
-
-/// What else a lookup needs of a record before it is known to be valid.
+/// What a lookup needs of a record before it is known to be valid, side by side.
 struct Entry {
   Vec3 position;
   float radius_m;
@@ -41,30 +23,7 @@ struct Entry {
 struct Cell {
   std::array<std::uint32_t, 8> child;
   std::vector<Entry> entries;
-  std::vector<Four> fours;  // of the entries, in order
   Cell() { child.fill(kNone); }
-
-  void add(const Entry& entry, float accuracy) {
-    entries.push_back(entry);
-    if (entries.size() > Four::kSize * fours.size()) fours.emplace_back();
-    set(entries.size() - 1, accuracy);
-  }
-  void shrink(std::uint32_t record, float radius_m, float accuracy) {
-    const auto own = [&](const Entry& e) { return e.record == record; };
-    const auto entry = std::find_if(entries.begin(), entries.end(), own);
-    entry->radius_m = radius_m;
-    set(static_cast<std::size_t>(entry - entries.begin()), accuracy);
-  }
-
- private:
-  void set(std::size_t i, float accuracy) {
-    const Entry& e = entries[i];
-    Four& four = fours[i / Four::kSize];
-    const std::size_t k = i % Four::kSize;
-    const float reach_m = accuracy * e.radius_m;
-    four.x[k] = e.position.x, four.y[k] = e.position.y, four.z[k] = e.position.z;
-    four.reach2_m2[k] = reach_m * reach_m;
-  }
 };
 
 }  // namespace
@@ -117,7 +76,7 @@ struct RecordTree::Impl {
   void hang(std::uint32_t index) {
     const IrradianceRecord& r = records[index];
     hung_radius_m.push_back(r.radius_m);
-    each_cell_of(index, [&](Cell& c) { c.add({r.position, r.radius_m, r.normal, index}, accuracy); });
+    each_cell_of(index, [&](Cell& c) { c.entries.push_back({r.position, r.radius_m, r.normal, index}); });
   }
 
   /// Shrunken records crowd the large cells that they once needed; they are hung anew once they are many.
@@ -135,16 +94,8 @@ struct RecordTree::Impl {
     DVec3 cell_lo = lo;
     double side = side_m;
     const DVec3 point(p);
-    std::array<std::int32_t, Four::kSize> near;
     while (cell != kNone) {
-      const std::vector<Four>& fours = cells[cell].fours;
-      for (std::size_t i = 0; i < Four::kSize * fours.size(); ++i) {
-        if (i % Four::kSize == 0 && !fours[i / Four::kSize].any_near(p, near)) {
-          i += Four::kSize - 1;
-          continue;
-        }
-        if (near[i % Four::kSize] == 0) continue;
-        const Entry& e = cells[cell].entries[i];
+      for (const Entry& e : cells[cell].entries) {
         float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
         if (!(w > kLeastWeight)) continue;
         const IrradianceRecord& r = records[e.record];
@@ -190,8 +141,10 @@ void RecordTree::insert(const IrradianceRecord& r) {
 void RecordTree::shrink(std::size_t record, float radius_m) {
   PHOS_CHECK(record < impl_->records.size() && radius_m > 0 && radius_m <= impl_->records[record].radius_m,
              "record ", record, " radius ", radius_m);
-  const auto index = static_cast<std::uint32_t>(record);
-  impl_->each_cell_of(index, [&](Cell& c) { c.shrink(index, radius_m, impl_->accuracy); });
+  impl_->each_cell_of(static_cast<std::uint32_t>(record), [&](Cell& c) {
+    const auto own = [&](const Entry& e) { return e.record == record; };
+    std::find_if(c.entries.begin(), c.entries.end(), own)->radius_m = radius_m;
+  });
   const float hung_m = impl_->hung_radius_m[record];
   const bool was_misplaced = impl_->records[record].radius_m < hung_m / 2;
   impl_->records[record].radius_m = radius_m;
