@@ -18,11 +18,12 @@ RadianceRecord cut(const RadianceRecord& r, int order) {
 }  // namespace
 
 GlossCache::GlossCache(const Bounds& bounds, double accuracy, GlossTables tables, const RayScene* leak_test)
-    : tables_(std::move(tables)) {
+    : tables_(std::move(tables)), accuracy_(accuracy) {
   for (const int order : tables_.orders()) trees_.emplace_back(bounds, accuracy, order, leak_test);
 }
 
 void GlossCache::insert(RadianceRecord record) {
+  settle_slopes(record, accuracy_);
   const int order = record.order();
   for (RadianceTree& tree : trees_)
     if (tree.order() == order) return tree.insert(std::move(record));

@@ -16,6 +16,7 @@ namespace phos {
 class GlossCache {
  public:
   GlossCache(const Bounds& bounds, double accuracy, GlossTables tables, const RayScene* leak_test = nullptr);
+  /// Its slopes are those that pay at the cache's accuracy (settle_slopes).
   void insert(RadianceRecord record);
   /// Of records in all trees; one that serves no material is not kept.
   std::size_t size() const;
@@ -35,6 +36,7 @@ class GlossCache {
 
  private:
   GlossTables tables_;
+  double accuracy_;
   std::vector<RadianceTree> trees_;  // of tables_.orders()
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cache/radiance_columns.h"
 #include "cache/record_check.h"
@@ -96,6 +97,19 @@ int RadianceCache::order() const {
   int most = 0;
   for (const RadianceRecord& r : records) most = std::max(most, r.order());
   return most;
+}
+
+void settle_slopes(RadianceRecord& r, double accuracy) {
+  if (r.gradient_x.empty()) return;
+  const double reach_m = accuracy * static_cast<double>(r.radius_m);
+  const double turn = std::sqrt(0.3) * reach_m /
+                      static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  for (std::size_t l = 1; l < static_cast<std::size_t>(r.order()); ++l) {
+    const double spread = static_cast<double>(l) * turn;
+    const auto kept = static_cast<float>(std::exp(-spread * spread / 2));
+    for (std::size_t i = 3 * l * l; i < 3 * (l + 1) * (l + 1); ++i)
+      r.gradient_x[i] *= kept, r.gradient_y[i] *= kept;
+  }
 }
 
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,

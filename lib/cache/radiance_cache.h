@@ -62,6 +62,13 @@ IrradianceCache irradiance_of(const RadianceCache& cache);
 /// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
 inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.75); }
 
+/// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy R / D.
+/// On a step s, surroundings at the mean distance D turn by s / D, and harmonics of band l by l times that:
+/// they change like a sine, of which this is the best linear part where steps are spread normally; sqrt(0.3)
+/// of its reach is the rms step of those that a record serves (its weight counted). Full slopes overshoot in
+/// the higher bands, and bring in more noise than change.
+void settle_slopes(RadianceRecord& record, double accuracy);
+
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
 /// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
 /// none), stderr f32[n,3,N] by band, shared f32[n] (unless kSharedByZones for all), distance and radius

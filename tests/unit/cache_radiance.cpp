@@ -378,5 +378,67 @@ TEST(RadianceEstimator, OrdersAndGradientsAreIndependent) {
   EXPECT_EQ(without.radius_m, high.radius_m) << "the radius asks for gradients all the same";
 }
 
+/// What a spot of light at (0.6, 0.2, 0.8) m sends to p of the plane z = 0: nearly a lobe of 15 degrees.
+std::vector<float> from_spot(const Vec3& p) {
+  const Vec3 towards = glm::normalize(Vec3(0.6f, 0.2f, 0.8f) - p);
+  return test::projected([&](const Vec3& w) { return Rgb(std::exp(30 * (glm::dot(w, towards) - 1))); }, kFlat,
+                         10);
+}
+
+/// A record that knows its slopes exactly, read as far as records are: with the slopes in full, with none,
+/// and with what settle_slopes() keeps. Of the squared error of all coefficients at places that it serves,
+/// counted by its weight, the last is by far the least.
+TEST(RadianceRecord, SettledSlopesErrLessThanFullOnesAndThanNone) {
+  constexpr double kAccuracy = 0.75;
+  constexpr float kStep = 1e-3f;
+  RadianceRecord record = radiance_record([](const Vec3&) { return Rgb(0); }, Vec3(0), kFlat, 10);
+  record.radius_m = record.distance_m = glm::length(Vec3(0.6f, 0.2f, 0.8f));
+  record.light = from_spot(Vec3(0));
+  for (const int axis : {0, 1}) {
+    Vec3 step(0);
+    step[axis] = kStep;
+    const std::vector<float> after = from_spot(step), before = from_spot(-step);
+    std::vector<float>& slope = axis == 0 ? record.gradient_x : record.gradient_y;
+    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = (after[i] - before[i]) / (2 * kStep);
+  }
+  RadianceRecord settled = record, none = record;
+  settle_slopes(settled, kAccuracy);
+  none.gradient_x.assign(300, 0), none.gradient_y.assign(300, 0);
+  const auto error = [&](const RadianceRecord& r, const Vec2& step, const std::vector<float>& truth) {
+    double sum = 0;
+    for (std::size_t i = 0; i < truth.size(); i += 3)
+      sum += std::pow(
+          static_cast<double>(r.light[i] + step.x * r.gradient_x[i] + step.y * r.gradient_y[i] - truth[i]),
+          2);
+    return sum;
+  };
+  double of_full = 0, of_none = 0, of_settled = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Vec2 u = (Vec2(static_cast<float>(k % 10), static_cast<float>(k / 10)) + 0.5f) / 5.f - 1.f;
+    const double weight = 1 - static_cast<double>(glm::length(u));
+    if (weight <= 0) continue;
+    const Vec2 step = static_cast<float>(kAccuracy) * record.radius_m * u;
+    const std::vector<float> truth = from_spot(Vec3(step, 0));
+    of_full += weight * error(record, step, truth), of_none += weight * error(none, step, truth);
+    of_settled += weight * error(settled, step, truth);
+  }
+  EXPECT_LT(of_settled, 0.8 * of_none);
+  EXPECT_LT(of_settled, 0.8 * of_full);
+}
+
+TEST(RadianceRecord, SettledSlopesAreTheSlopesWhereTheLightIsFarOrTheReachSmall) {
+  RadianceRecord far = radiance_record(sky, Vec3(0), kFlat, 4), near = far;
+  for (std::vector<float>* g : {&far.gradient_x, &far.gradient_y, &near.gradient_x, &near.gradient_y})
+    std::fill(g->begin(), g->end(), 2.f);
+  RadianceRecord little = near;
+  far.distance_m = kInfinity, near.distance_m = 0;
+  settle_slopes(far, 0.75), settle_slopes(near, 0.75), settle_slopes(little, 1e-4);
+  EXPECT_EQ(std::vector<float>(48, 2), far.gradient_x);
+  EXPECT_LT(farthest(little.gradient_y, std::vector<float>(48, 2)), 1e-6f);
+  // Nothing but the first band, which does not turn.
+  EXPECT_EQ(2, near.gradient_x[2]);
+  EXPECT_EQ(std::vector<float>(45), std::vector<float>(near.gradient_x.begin() + 3, near.gradient_x.end()));
+}
+
 }  // namespace
 }  // namespace phos
