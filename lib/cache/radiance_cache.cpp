@@ -101,9 +101,9 @@ int RadianceCache::order() const {
 
 void settle_slopes(RadianceRecord& r, double accuracy) {
   if (r.gradient_x.empty()) return;
-  const double reach_m = accuracy * static_cast<double>(r.radius_m);
-  const double turn = std::sqrt(0.3) * reach_m /
-                      static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  const double raised = static_cast<double>(r.radius_m) /
+                        static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  const double turn = std::sqrt(0.3) * accuracy * std::max(1.0, raised);
   for (std::size_t l = 1; l < static_cast<std::size_t>(r.order()); ++l) {
     const double spread = static_cast<double>(l) * turn;
     const auto kept = static_cast<float>(std::exp(-spread * spread / 2));

@@ -60,13 +60,14 @@ struct RadianceCache {
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
 /// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
-inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.75); }
+inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.6); }
 
-/// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy R / D.
-/// On a step s, surroundings at the mean distance D turn by s / D, and harmonics of band l by l times that:
-/// they change like a sine, of which this is the best linear part where steps are spread normally; sqrt(0.3)
-/// of its reach is the rms step of those that a record serves (its weight counted). Full slopes overshoot in
-/// the higher bands, and bring in more noise than change.
+/// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy x
+/// max(1, R / D). A record's radius R is where its light is about another one (at most the mean distance D,
+/// but where it has been raised): on a step s, what it sees turns by about s / R, and harmonics of band l by
+/// l times that. They change like a sine, of which this is the best linear part where steps are spread
+/// normally; sqrt(0.3) of its reach is the rms step of those that a record serves (its weight counted). Full
+/// slopes overshoot in the higher bands, and bring in more noise than change.
 void settle_slopes(RadianceRecord& record, double accuracy);
 
 /// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,

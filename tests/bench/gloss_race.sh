@@ -11,7 +11,7 @@ set -euo pipefail
 [[ $# -ge 2 && $1 != -* ]] || { sed -n '2,9s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 scene=$1 folder=$2
 shift 2
-lobes=as-is material=back-glossy width=850 rays=4000 accuracy=0.3 read=0.75 traced=256 samples=64 photons=400000 threads=0 runs=1
+lobes=as-is material=back-glossy width=850 rays=4000 accuracy=0.3 read=0.6 traced=256 samples=64 photons=400000 threads=0 runs=1
 while (($# > 1)); do
   case $1 in
     --lobes) lobes=$2 ;; --material) material=$2 ;; --width) width=$2 ;; --rays) rays=$2 ;; --accuracy) accuracy=$2 ;;
