@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
 #include "hsh/basis.h"
 
 namespace phos {

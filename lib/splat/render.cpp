@@ -103,7 +103,7 @@ void declare_options(Options& options, RenderOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "how far a record reaches: error allowed between records (smaller: fewer, closer records "
                  "are blended; more noise, more misses); if not given, 2.5 times what the cache was placed "
-                 "with, but no more than 0.5 (radiance records: 0.75)",
+                 "with, but no more than 0.5 (radiance records: 0.6)",
                  kPositive);
   options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
                           "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
