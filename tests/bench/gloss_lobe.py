@@ -9,11 +9,14 @@ with open(scene, "rb") as file:
     data = file.read()
 length = struct.unpack("<I", data[12:16])[0]
 document = json.loads(data[20 : 20 + length])
-kind, value = lobe.split(":")
-model = {
-    "phong": {"brdf": "phong", "kd": [0.05] * 3, "ks": [0.65] * 3, "exponent": float(value)},
-    "ggx": {"brdf": "conductor", "f0": [0.65] * 3, "alpha": float(value)},
-}[kind]
+try:
+    kind, value = lobe.split(":")
+    model = {
+        "phong": {"brdf": "phong", "kd": [0.05] * 3, "ks": [0.65] * 3, "exponent": float(value)},
+        "ggx": {"brdf": "conductor", "f0": [0.65] * 3, "alpha": float(value)},
+    }[kind]
+except (KeyError, ValueError):
+    sys.exit(f"{lobe}: no lobe; give phong:EXPONENT or ggx:ALPHA")
 chosen = [m for m in document["materials"] if m.get("name") == name]
 if not chosen:
     sys.exit(f"{scene}: no material {name}")

@@ -20,16 +20,17 @@ while (($# > 1)); do
   esac
   shift 2
 done
+[[ -f $scene ]] || { echo "gloss_race.sh: $scene: no such file" >&2; exit 3; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 PATH=$PATH:$here/../../build/release/bin
 mkdir -p "$folder"
 common=(--threads "$threads" --quiet)
 
 calculate() { awk "BEGIN { printf \"$1\", $2 }"; }
-timed() { # prints seconds
+timed() { # prints seconds; what a program says is shown if it fails
   local start
   start=$(date +%s.%N)
-  "$@" 2>/dev/null
+  "$@" 2>"$folder/race.log" || { cat "$folder/race.log" >&2; exit 1; }
   calculate %.3f "$(date +%s.%N) - $start"
 }
 draw() { phos-splat "$base.glb" "$base.irradiance" "$@" --width "$width" --splat cpu --light-samples 1 --layers glossy "${common[@]}"; }
