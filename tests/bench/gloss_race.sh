@@ -59,8 +59,13 @@ for lobe in $lobes; do
     traced_s=$(timed draw --gloss traced --gloss-samples "$traced" -o "$base-traced.exr")
     error=$(true_error "$base-cached.exr") traced_error=$(true_error "$base-traced.exr")
     draw_s=$(calculate %.2f "$cached_s - $none_s") rays_s=$(calculate %.2f "$traced_s - $none_s")
-    equal_s=$(calculate %.2f "$rays_s * ($traced_error / $error) ^ 2")
+    # Errors of 0 are below what the references can tell.
+    equal_s=- ratio=-
+    if [[ $error != 0.00 && $traced_error != 0.00 ]]; then
+      equal_s=$(calculate %.2f "$rays_s * ($traced_error / $error) ^ 2")
+      ratio=$(calculate %.1f "$equal_s / ($records_s + $draw_s)")
+    fi
     row "$lobe" "$(sed -n 's/^  "records": *\([0-9]*\),*$/\1/p' "$base.json")" "$(calculate %.2f "$records_s")" "$draw_s" "$error" \
-      "$rays_s" "$traced_error" "$equal_s" "$(calculate %.1f "$equal_s / ($records_s + $draw_s)")" "$auto"
+      "$rays_s" "$traced_error" "$equal_s" "$ratio" "$auto"
   done
 done
