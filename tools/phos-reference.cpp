@@ -97,6 +97,8 @@ int main(int argc, char** argv) {
                "result goes to -o or stdout");
   options.example("phos-reference room.glb --error 0.01 --samples 4096 -o room.exr",
                   "until the noise is 1 %");
+  options.example("phos-reference room.glb --samples 256 --adaptive -o room.exr",
+                  "most samples where most noise is: for scenes with small bright spots");
   options.example("phos-reference room.glb --bounces 1 -o direct.exr", "direct light only");
   options.example("phos-reference room.glb --points desk.csv --samples 65536",
                   "lux at sensor points, to stdout");
@@ -106,6 +108,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (points_path.empty() && tool.output().empty())
       throw Error(ExitCode::usage, "-o", "a picture needs an output file: -o room.exr (or give --points)");
+    if (!points_path.empty() && reference.adaptive)
+      throw Error(ExitCode::usage, "--adaptive",
+                  "shares samples out among pixels; each of --points has its own");
     tool.add_input("scene", scene_files(scene_path, scene_options));
     if (!points_path.empty()) tool.add_input("points", points_path);
     reference.seed = tool.seed();

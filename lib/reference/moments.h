@@ -21,6 +21,8 @@ class Moments {
     const auto n = static_cast<double>(count_);
     return std::sqrt(std::max(0.0, (squares_ / n - mean() * mean()) / (n - 1)));
   }
+  /// Of a sample; 0 for fewer than two.
+  double variance() const { return standard_error() * standard_error() * static_cast<double>(count_); }
 
  private:
   std::uint64_t count_ = 0;

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "reference/moments.h"
+#include "reference/sample_shares.h"
 #include "scene/bsdf.h"
 
 namespace phos {
@@ -13,6 +14,8 @@ namespace phos {
 namespace {
 
 constexpr std::int64_t kFirstPass = 16;
+constexpr std::int64_t kProbingShare =
+    4;  ///< adaptive: one in so many samples tells where the rest should go
 constexpr std::size_t kSamplesPerChunk = 4096;
 // Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
 constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
@@ -29,7 +32,7 @@ struct Channels {
 
 /// What a pixel's samples add up to.
 struct Pixel {
-  std::uint32_t count = 0;
+  std::uint32_t taken = 0, count = 0;  // count: that were finite
   Channels total, indirect;
   DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
   Moments scattered, illuminance;
@@ -45,14 +48,15 @@ class Renderer {
         options_(options),
         pixels_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)) {}
 
-  void pass(std::int64_t begin, std::int64_t end);
+  /// As many more samples of every pixel; or, if they are to be shared out, on the mean.
+  void pass(std::int64_t more, bool shared_out);
   double error() const;
   std::uint64_t rejected() const { return rejected_; }
   Image image() const;
 
  private:
   Ray ray(std::size_t pixel, const Vec2& subpixel) const;
-  std::uint64_t sample(std::size_t pixel, std::int64_t s);
+  std::uint64_t sample(std::size_t pixel);
   bool sample_illuminance(const Ray& ray, std::uint64_t item, float& lux) const;
   void add_light(Image& image) const;
   void add_surfaces(Image& image) const;
@@ -83,8 +87,9 @@ bool Renderer::sample_illuminance(const Ray& ray, std::uint64_t item, float& lux
   return std::isfinite(lux);
 }
 
-/// Returns how many samples were not finite (0 or 1).
-std::uint64_t Renderer::sample(std::size_t pixel, std::int64_t s) {
+/// The pixel's next. Returns how many samples were not finite (0 or 1).
+std::uint64_t Renderer::sample(std::size_t pixel) {
+  const std::uint32_t s = pixels_[pixel].taken++;
   const std::uint64_t item = (static_cast<std::uint64_t>(pixel) << 32) | static_cast<std::uint64_t>(s);
   RandomStream random(options_.seed, Stage::reference, item);
   random.start_bounce(0xffff);  // the lens comes before bounce 0, which the path starts itself
@@ -105,17 +110,26 @@ std::uint64_t Renderer::sample(std::size_t pixel, std::int64_t s) {
   return 0;
 }
 
-void Renderer::pass(std::int64_t begin, std::int64_t end) {
-  const auto samples = static_cast<std::size_t>(end - begin);
-  const std::size_t chunk = std::max<std::size_t>(1, kSamplesPerChunk / samples);
-  Progress progress("reference", pixels_.size() * samples, "samples");
+void Renderer::pass(std::int64_t more, bool shared_out) {
+  const auto mean = static_cast<std::size_t>(more);
+  std::vector<std::uint32_t> share;
+  if (shared_out) {
+    std::vector<double> variance;
+    for (const Pixel& p : pixels_) variance.push_back(p.scattered.variance());
+    share = sample_shares(variance, static_cast<std::size_t>(options_.width), more);
+  }
+  const std::size_t chunk = std::max<std::size_t>(1, kSamplesPerChunk / mean);
+  Progress progress("reference", pixels_.size() * mean, "samples");
   rejected_ = parallel_reduce(
       pixels_.size(), chunk, rejected_,
       [&](std::size_t first, std::size_t last) {
-        std::uint64_t rejected = 0;
-        for (std::size_t pixel = first; pixel < last; ++pixel)
-          for (std::int64_t s = begin; s < end; ++s) rejected += sample(pixel, s);
-        progress.advance((last - first) * samples);
+        std::uint64_t rejected = 0, taken = 0;
+        for (std::size_t pixel = first; pixel < last; ++pixel) {
+          const std::uint32_t count = shared_out ? share[pixel] : static_cast<std::uint32_t>(more);
+          for (std::uint32_t s = 0; s < count; ++s) rejected += sample(pixel);
+          taken += count;
+        }
+        progress.advance(taken);
         return rejected;
       },
       [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
@@ -209,15 +223,17 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
   ReferencePicture result;
   while (result.samples < options.samples) {
     std::int64_t next = options.samples;
-    if (options.error && result.samples == 0) next = std::min(next, kFirstPass);
-    if (options.error && result.samples > 0) {
+    if (result.samples == 0) {
+      if (options.adaptive) next = std::min(next, std::max(kFirstPass, next / kProbingShare / 4 * 4));
+      if (options.error) next = std::min(next, kFirstPass);
+    } else if (options.error) {
       // The error falls with the root of the number; a little beyond, and no more than fourfold on a noisy
       // estimate.
       const double ratio = result.error / std::max(*options.error, 1e-9);
       const double wanted = static_cast<double>(result.samples) * std::clamp(1.02 * ratio * ratio, 1.1, 4.0);
       next = std::min(next, 4 * ((static_cast<std::int64_t>(wanted) + 3) / 4));
     }
-    renderer.pass(result.samples, next);
+    renderer.pass(next - result.samples, options.adaptive && result.samples > 0);
     result.samples = next;
     result.error = renderer.error();
     if (options.error && result.error <= *options.error) break;

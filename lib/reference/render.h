@@ -20,6 +20,7 @@ struct ReferenceOptions {
                height = 0;    ///< 0 = from the other and the camera's aspect (both 0: 512 on the longer side)
   std::int64_t samples = 64;  ///< a pixel (or a point); at most, where `error` is given
   std::optional<double> error;  ///< stop once ReferencePicture::error is at most this
+  bool adaptive = false;        ///< shares samples out by noise: `samples` are the mean (sample_shares.h)
   bool illuminance = false;     ///< also the illuminance.Y layer (one more path a sample)
   std::uint64_t seed = 0;
   PathOptions path;
@@ -36,7 +37,7 @@ struct ReferencePicture {
   /// surface, where asked for; and through the centre of each pixel albedo (diffuse reflectance), normal,
   /// position (m) and Z (distance to the eye, m; 0 where nothing is seen).
   Image image;
-  std::int64_t samples = 0;  ///< a pixel, taken
+  std::int64_t samples = 0;  ///< a pixel, taken; the mean where they are adaptive
   /// RMS over pixels of the standard error of the luminance, over the mean luminance: the relative RMSE that
   /// the picture has against its converged self. Of scattered light: emission is left out of both, as at the
   /// edges of a lamp nothing but the lamp's outline is sampled. 0 for one sample and for a black picture.

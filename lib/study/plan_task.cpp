@@ -124,7 +124,7 @@ Command points_command(const PlanTask& task, const std::string& scene, const std
 Command reference_picture_command(const PlanTask& task, std::int64_t samples, const std::string& out) {
   Words words = of_scene(task, task.scene);
   add(words, view(task));
-  add(words, {"--samples", std::to_string(samples)});
+  add(words, {"--samples", std::to_string(samples), "--adaptive"});
   return {"phos-reference", words, out};
 }
 

@@ -30,7 +30,7 @@ row scene asked settings 'predicted' measured pred_s real_s n last last_s true
 for scene in "${scenes[@]}"; do
   name=$(basename "${scene%.*}")
   for seed in 901 902; do
-    phos-reference "$scene" --width "$width" --samples "$samples" --seed $seed --threads "$threads" --reuse --quiet \
+    phos-reference "$scene" --width "$width" --samples "$samples" --adaptive --seed $seed --threads "$threads" --reuse --quiet \
       -o "$folder/ref_${name}_${seed#90}.exr"
   done
   for error in $errors; do

@@ -32,6 +32,9 @@ TEST(ReferenceTool, RefusesBadCommandLines) {
   expect_refused("reference", {kBox, "-o", out, "--error", "0"}, 2, "error");
   expect_refused("reference", {kBox, "-o", out, "--no-such-option"}, 2, "no-such-option");
   expect_refused("reference", {kBox, "-o", out, "--camera", "nobody", "--samples", "1"}, 2, "left-view");
+  const std::string points = scratch("reference-usage") + "/p.csv";
+  spill(points, "0.5,0.001,0.5,0,1,0\n");
+  expect_refused("reference", {kBox, "--points", points, "--adaptive"}, 2, "--adaptive");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -64,6 +67,16 @@ TEST(ReferenceTool, SameBytesOnAnyNumberOfThreads) {
   for (const auto& [name, values] : image.channels())
     for (const float v : values) ASSERT_TRUE(std::isfinite(v)) << name;
   EXPECT_NE(image.attributes.at("phos.command").find("--samples 4"), std::string::npos);
+}
+
+TEST(ReferenceTool, SharesSamplesOutAlikeOnAnyNumberOfThreads) {
+  const std::string folder = scratch("reference-adaptive");
+  for (const char* threads : {"1", "3"})
+    ASSERT_EQ(run_tool({"reference", kBox, "--width", "40", "--samples", "40", "--adaptive", "--threads",
+                        threads, "-o", folder + "/" + threads + ".exr"})
+                  .code,
+              0);
+  EXPECT_EQ(slurp(folder + "/1.exr"), slurp(folder + "/3.exr"));
 }
 
 TEST(ReferenceTool, ReusesWhatIsThere) {
