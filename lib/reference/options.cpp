@@ -19,7 +19,7 @@ void declare_options(Options& options, ReferenceOptions& r) {
                  "(0.01: 1 %); with --points, once each point's standard error is this part of its value",
                  kPositive);
   options.flag("adaptive", r.adaptive,
-               "--samples are a mean: a quarter of them (16 at least) tell how noisy each pixel's neighbours "
+               "--samples are a mean: a quarter of them tell how noisy each pixel's neighbours "
                "are, and the noisier, the more of the rest it gets; still unbiased, and with a tenth of the "
                "noise where a few bright pixels have most of it");
   options.integer("bounces", r.path.bounces, "N",

@@ -14,8 +14,8 @@ namespace phos {
 namespace {
 
 constexpr std::int64_t kFirstPass = 16;
-constexpr std::int64_t kProbingShare =
-    4;  ///< adaptive: one in so many samples tells where the rest should go
+/// Adaptive: one in so many samples, and so many at least, tell where the rest should go.
+constexpr std::int64_t kProbingShare = 4, kLeastProbes = 4;
 constexpr std::size_t kSamplesPerChunk = 4096;
 // Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
 constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
@@ -224,7 +224,7 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
   while (result.samples < options.samples) {
     std::int64_t next = options.samples;
     if (result.samples == 0) {
-      if (options.adaptive) next = std::min(next, std::max(kFirstPass, next / kProbingShare / 4 * 4));
+      if (options.adaptive) next = std::min(next, std::max(kLeastProbes, next / kProbingShare / 4 * 4));
       if (options.error) next = std::min(next, kFirstPass);
     } else if (options.error) {
       // The error falls with the root of the number; a little beyond, and no more than fourfold on a noisy

@@ -112,11 +112,13 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
                      percent(next->error()), "), ", duration(round.seconds), " (predicted ",
                      duration(next->seconds.value), ")"));
     next.reset();
-    const bool told = !goal.error || round.resolution() <= *goal.error;
     const bool small = goal.error ? round.error() <= *goal.error : report.pipeline_s <= *goal.seconds;
-    report.met = told && small;
-    if (small && !told) why = "whether it is met cannot be told; raise --reference-seconds";
-    if (small || !goal.error) break;
+    const bool fine = !goal.error || round.resolution() <= *goal.error;
+    report.met = small && fine;
+    // Coarse references tell at most that an error is large.
+    const bool told = fine || round.error() > round.resolution();
+    if (!told || (small && !fine)) why = "whether it is met cannot be told; raise --reference-seconds";
+    if (!told || small || !goal.error) break;
     next = next_try(task, pilot, *goal.error, round);
     if (!next) {
       why = "no settings are left that would be better";

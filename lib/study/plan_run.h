@@ -20,7 +20,7 @@ struct PlanRunOptions {
   int rounds = 5;  ///< at most
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
-inline constexpr double kReferenceSeconds = 10;
+inline constexpr double kReferenceSeconds = 60;
 
 struct PlanRound {
   Prediction predicted;
