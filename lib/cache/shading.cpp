@@ -10,9 +10,10 @@ namespace {
 
 /// Below this share of the eye's light a specular branch is dropped, and counted.
 constexpr float kLeastThroughput = 1e-4f;
-/// A glossy surface seen by a glossy ray sends on one ray, to this many reflections; beyond, its gloss is
-/// counted as lost.
+/// A glossy surface seen by way of others sends on one ray, after this many reflections or refractions with
+/// this probability only (Russian roulette).
 constexpr int kGlossDepth = 3;
+constexpr float kGlossSurvival = 0.5f;
 
 /// Power heuristic weight of a light sample against `gloss_rays` rays of the gloss lobe: even points on a
 /// lamp do better than their variance tells, and few rays of a broad lobe that hit it or not should not spoil
@@ -190,15 +191,14 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   const bool glossy = bsdf.has_gloss();
   const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
   if (known) light += known->radiance;
-  const bool send_on = glossy && !known && depth < kGlossDepth;
+  const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
-    light += direct(point, bsdf, wo, 1, send_on ? 1 : 0, random).radiance;
-  if (send_on) {
+    light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance;
+  const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
+  if (by_rays && (survival == 1 || random.uniform() < survival)) {
     const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);
-    light += arriving.radiance;
-    if (options_.reflect_direct) light += arriving.from_lamps;
-  } else if (glossy && !known) {
-    log.counters.count("glossy paths cut");
+    light += arriving.radiance / survival;
+    if (options_.reflect_direct) light += arriving.from_lamps / survival;
   }
   return light + specular(point, bsdf, wo, depth, throughput, random, log);
 }

@@ -28,7 +28,6 @@ constexpr Event kEvents[] = {
     {"BRDF with an albedo above 1", kAny, "directions", ""},
     {"gathered paths cut", kAny, "rays", ""},
     {"specular paths cut", kAny, "samples", ""},
-    {"glossy paths cut", kAny, "samples", ""},
     {"gathered irradiance below zero", kAny, "records", ""},
     {"gathered places without a record", kAny, "rays", ""},
     {"gathered places beyond the reach of records", kAny, "rays", ""},

@@ -217,6 +217,33 @@ TEST(Mirror, EndlessReflectionsEndAtTheDepth) {
   EXPECT_EQ(log.counters["specular paths cut"], 1u);
 }
 
+/// However many mirrors and panes it is seen by way of, a sharp lobe shows the lamps that it points to,
+/// without rare samples of great weight.
+TEST(Gloss, IsSeenAsWellByWayOfOthers) {
+  Material sharp = make_material(Model::phong, Rgb(0), Rgb(0.6f));
+  sharp.exponent = 20000;
+  const Scene scene = lit_sheet(sharp);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const RecordTree no_records(scene.bounds, 0.2);
+  const Shading shading(rays, lights, no_records, {});
+  const Vec3 wo = towards(0.8f, 0.4f);
+  const SurfacePoint point = sheet_seen_from(rays, wo);
+  const double expected = 0.8 * 0.6 * double(kLuminance);  // modified Phong: the cosine stays
+  for (const int depth : {0, 2, 3, 10}) {
+    constexpr int kDraws = 4000;
+    double sum = 0, greatest = 0;
+    ShadingLog log;
+    for (int k = 0; k < kDraws; ++k) {
+      RandomStream random(1, Stage::test, static_cast<std::uint64_t>(k));
+      const double light = double(shading.outgoing(point, wo, depth, Rgb(1), random, log).y);
+      sum += light, greatest = std::max(greatest, light);
+    }
+    EXPECT_NEAR(sum / kDraws, expected, 0.08 * expected) << depth;
+    EXPECT_LT(greatest, 2.5 * expected) << depth;
+  }
+}
+
 /// A pane of thin glass lets 1 - 2F/(1+F) through and sends the rest back.
 TEST(Glass, APaneSplitsTheLight) {
   Scene scene;
