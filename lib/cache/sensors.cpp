@@ -1,6 +1,8 @@
 #include "cache/sensors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "cache/direct_light.h"
 #include "cache/gather.h"
@@ -28,7 +30,15 @@ struct Direct {
   Rgb components_lx{0};
 };
 
-/// Direct light at every sensor, and where sensors are.
+/// At sensor i.
+Direct direct_at(const SurfacePoint& at, std::size_t i, std::int64_t samples, const RayScene& rays,
+                 const Luminaires& lights, std::uint64_t seed) {
+  RandomStream random(seed, Stage::direct_light, i);
+  const DirectIrradiance e = direct_irradiance(rays, lights, at, static_cast<int>(samples), random);
+  return {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
+}
+
+/// Direct light at every sensor (if rays are to be sent), and where sensors are.
 std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
                                 const SensorOptions& options, SensorReport& report) {
   const std::size_t n = sensors.points.size();
@@ -44,10 +54,8 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
         for (std::size_t i = begin; i < end; ++i) {
           const auto& [p, normal] = sensors.points[i];
           const SurfacePoint at = receiver(rays.scene(), p, normal);
-          RandomStream random(options.seed, Stage::direct_light, i);
-          const DirectIrradiance e =
-              direct_irradiance(rays, lights, at, static_cast<int>(options.light_samples), random);
-          direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
+          if (options.light_samples > 0)
+            direct[i] = direct_at(at, i, options.light_samples, rays, lights, options.seed);
           part.inside += inside_solid(rays, at);
           part.outside += beyond(rays.scene().bounds, p);
         }
@@ -65,8 +73,11 @@ Reading together(const Direct& direct, const Rgb& indirect, float stderr_lx) {
           indirect_lx, direct.components_lx + indirect};
 }
 
-/// Of a whole that holds the direct light: what is left is indirect, or noise.
-Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct& direct) {
+/// Of a whole that holds the direct light: what is left is indirect, or noise. Null: that is not known.
+Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* direct_or_null) {
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  if (!direct_or_null) return {whole_lx, stderr_lx, kUnknown, kUnknown, whole};
+  const Direct& direct = *direct_or_null;
   return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f), whole};
 }
 
@@ -125,7 +136,11 @@ std::string quoted(const std::string& name) {
 }  // namespace
 
 void declare_options(Options& options, SensorOptions& s) {
-  options.integer("light-samples", s.light_samples, "N", "shadow rays to each area light", {1, 1e6});
+  options.integer(
+      "light-samples", s.light_samples, "N",
+      "shadow rays to each area light; 0, for caches that hold all light: none, and direct_lx and "
+      "indirect_lx stay empty",
+      {0, 1e6});
   options.choice<LeakTest>(
       "leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
       "ray: a record serves a sensor only if the two can see each other; none is faster");
@@ -196,6 +211,8 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
                                 const SensorCaches& caches, const SensorOptions& options,
                                 SensorReport& report) {
   const std::size_t n = sensors.points.size();
+  PHOS_CHECK(options.light_samples > 0 || caches.holds_direct(),
+             "no light but of caches that lack direct light");
   const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
   std::vector<Reading> readings(n);
   if (options.direct_only) {
@@ -208,21 +225,26 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
     const Interpolated e = caches.interpolate(p, normal);
     covered[i] = e.weight > 0;
     const float error = luminance(e.stderr_lx);
-    readings[i] = caches.holds_direct() ? apart(luminance(e.irradiance), e.irradiance, error, direct[i])
+    readings[i] = caches.holds_direct() ? apart(luminance(e.irradiance), e.irradiance, error,
+                                                options.light_samples > 0 ? &direct[i] : nullptr)
                                         : together(direct[i], e.irradiance, error);
   });
+  std::vector<std::size_t> uncovered;
   std::vector<SurfaceSample> open;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!covered[i]) open.push_back(sensors.points[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
   report.uncovered = open.size();
   if (open.empty()) return readings;
   const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, options, report);
-  for (std::size_t i = 0, k = 0; i < n; ++i) {
-    if (covered[i]) continue;
-    readings[i] = together(direct[i], fresh[k].components_lx, fresh[k].stderr_lx);
-    ++k;
-  }
+  parallel_for(uncovered.size(), kChunk, [&](std::size_t k) {
+    const std::size_t i = uncovered[k];
+    const auto& [p, normal] = sensors.points[i];
+    const Direct own = options.light_samples > 0
+                           ? direct[i]
+                           : direct_at(receiver(rays.scene(), p, normal), i, SensorOptions().light_samples,
+                                       rays, lights, options.seed);
+    readings[i] = together(own, fresh[k].components_lx, fresh[k].stderr_lx);
+  });
   return readings;
 }
 
@@ -236,7 +258,7 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Whole whole = estimate(i);
     readings[i] = apart(static_cast<float>(whole.illuminance_lx), whole.components_lx,
-                        static_cast<float>(whole.stderr_lx), direct[i]);
+                        static_cast<float>(whole.stderr_lx), &direct[i]);
     progress.advance();
   }
   return readings;
@@ -262,7 +284,7 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
       for (int c = 0; c < 3; ++c) out += ',', out += world_text(sensors.origin_m[c], p[c]);
       for (const float v :
            {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})
-        out += ',', out += shortest(v);
+        out += ',', out += std::isnan(v) ? std::string() : shortest(v);
       if (open_lx)
         for (const float lx : {r.illuminance_lx, r.stderr_lx})
           out += ',', out += shortest(static_cast<float>(100 * static_cast<double>(lx) / *open_lx));

@@ -35,12 +35,13 @@ Sensors parse_sensors(std::string_view text, const std::string& where, const DVe
 
 struct Reading {
   float illuminance_lx = 0, stderr_lx = 0;
-  float direct_lx = 0, indirect_lx = 0;
-  Rgb components_lx{0};  ///< whose luminance() is illuminance_lx, to rounding
+  float direct_lx = 0, indirect_lx = 0;  ///< their parts; not a number where they are not told apart
+  Rgb components_lx{0};                  ///< whose luminance() is illuminance_lx, to rounding
 };
 
 struct SensorOptions {
-  std::int64_t light_samples = 64;  ///< shadow rays to each area light
+  /// Shadow rays to each area light. 0: none; caches that hold all light tell the whole, but not its parts.
+  std::int64_t light_samples = 64;
   LeakTest leak_test = LeakTest::ray;
   bool direct_only = false;
   // Records made where the caches have none.
@@ -89,7 +90,8 @@ class SensorCaches {
   bool holds_direct_ = false;
 };
 
-/// Reads every sensor. Same numbers for any number of threads.
+/// Reads every sensor. Same numbers for any number of threads. Without shadow rays caches must hold all
+/// light; sensors that they do not cover get 64 rays to each area light.
 std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
                                 const SensorCaches& caches, const SensorOptions& options,
                                 SensorReport& report);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,16 +33,16 @@ class EdgeLight {
     std::vector<float> whole;      // per lamp: sum of projected solid angles
     std::vector<std::uint32_t> shift;
   };
-  /// Light of them all; nothing where `about`, that of the pixel about them (null: none), is right: then no
-  /// more rays are sent. The variance is a sample's, such that the sum of as many that are independent has
-  /// that of the sum of these, which share theirs.
-  std::optional<SharedLight> light(const EdgeSamples& samples, const SharedLight* about,
-                                   Scratch& scratch) const;
+  /// Light of them all; that of `about`, the pixel about them (null: none), where that is right: then no more
+  /// rays are sent. The variance is a sample's, such that the sum of as many that are independent has that of
+  /// the sum of these, which share theirs. It is not zero where all rays agree, for they may have missed
+  /// something.
+  SharedLight light(const EdgeSamples& samples, const SharedLight* about, Scratch& scratch) const;
 
  private:
   void send(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& scratch) const;
-  void add_whole(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& scratch) const;
-  SharedLight sum(std::size_t places, const Scratch& scratch) const;
+  void find_whole(const EdgeSamples& samples, std::size_t places, Scratch& scratch) const;
+  SharedLight sum(const Scratch& scratch) const;
 
   AimedLamps lamps_;
   int rays_each_;

@@ -75,9 +75,8 @@ void EdgeShader::find_light(const Samples& samples, Sorted& sorted) const {
     if (!diffuse_[static_cast<std::size_t>(surface.seen.material)]) continue;
     surface.direct = &surface.light;
     if (cached_direct_) continue;
-    const auto light = edge_light_.light({samples.pixel, k, samples.ray, samples.hit, surface.sample},
-                                         about ? &picture_.shared[*about] : nullptr, scratch);
-    surface.light = light ? *light : picture_.shared[*about];
+    surface.light = edge_light_.light({samples.pixel, k, samples.ray, samples.hit, surface.sample},
+                                      about ? &picture_.shared[*about] : nullptr, scratch);
   }
 }
 

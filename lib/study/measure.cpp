@@ -84,14 +84,17 @@ class Pixels {
   NoiseFree sums(const std::vector<char>& mask) const {
     const std::string error = stderr_of(layer_);
     const NoiseFrom noise = from();
-    const bool own = stated();
-    std::vector<std::span<const float>> result, first, second, said, spread;
+    const bool own = stated(),
+               known = has(reference_, error, components_) && (!second_ || has(*second_, error, components_));
+    std::vector<std::span<const float>> result, first, second, said, spread, second_spread;
     for (const std::string& c : components_) {
       result.push_back(image_.channel(channel_of(layer_, c)));
       first.push_back(reference_.channel(channel_of(layer_, c)));
       second.push_back(second_ ? second_->channel(channel_of(layer_, c)) : first.back());
       if (own) said.push_back(image_.channel(channel_of(error, c)));
-      if (noise == NoiseFrom::stated) spread.push_back(reference_.channel(channel_of(error, c)));
+      if (!known) continue;
+      spread.push_back(reference_.channel(channel_of(error, c)));
+      if (second_) second_spread.push_back(second_->channel(channel_of(error, c)));
     }
     NoiseFree sums(noise, own);
     std::vector<NoiseFree::Value> place(components_.size());
@@ -99,8 +102,11 @@ class Pixels {
       if (!mask[i]) continue;
       for (std::size_t c = 0; c < place.size(); ++c) {
         const double half = 0.5 * (double{first[c][i]} - second[c][i]);
-        const double s = noise == NoiseFrom::stated ? double{spread[c][i]} : half;
-        place[c] = {result[c][i], second[c][i] + half, s * s, own ? double{said[c][i]} : 0};
+        const double s = known ? double{spread[c][i]} : half;
+        const double t = known && second_ ? double{second_spread[c][i]} : s;
+        const double of_mean = second_ && known ? (s * s + t * t) / 4 : s * s;
+        place[c] = {result[c][i], second[c][i] + half, noise == NoiseFrom::stated ? s * s : half * half,
+                    own ? double{said[c][i]} : 0, of_mean};
       }
       sums.add(place);
     }

@@ -37,7 +37,9 @@ struct MeasuredError {
 
   // What the result says of itself. Absent without a layer or column of standard errors.
   std::optional<double> stated;  ///< its standard error, RMS over places / magnitude
-  std::optional<double> inside;  ///< share of values within 2 standard errors (its own and the reference's)
+  /// Share of values within 2 standard errors, its own and the reference's in quadrature: the latter as it
+  /// states it (half the difference of two is one draw, which is too small in half of all places).
+  std::optional<double> inside;
 };
 
 struct MeasureOptions {

@@ -23,10 +23,10 @@ void NoiseFree::add(std::span<const Value> place) {
     squares += d * d, variance += std::isfinite(v.variance) ? v.variance : 0;
   }
   for (const Value& v : place) {
-    const double d = v.result - v.reference, spread = std::isfinite(v.variance) ? v.variance : 0;
+    const double d = v.result - v.reference, spread2 = std::isfinite(v.spread2) ? v.spread2 : 0;
     const double own = std::isfinite(v.stated) ? v.stated * v.stated : 0;
     magnitude_ += std::fabs(v.reference), stated_squares_ += own;
-    if (d * d <= 4 * (own + spread)) ++inside_;
+    if (d * d <= 4 * (own + spread2)) ++inside_;
   }
   const auto n = static_cast<double>(place.size());
   squares_ += squares, variance_ += variance;

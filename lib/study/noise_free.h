@@ -22,6 +22,7 @@ class NoiseFree {
     double result = 0, reference = 0;
     double variance = 0;  ///< of the reference
     double stated = 0;    ///< standard error of the result, as it says
+    double spread2 = 0;   ///< variance of the reference as best known here, for what lies within two errors
   };
   NoiseFree(NoiseFrom from, bool stated) : from_(from), stated_(stated) {}
   /// The components of a place. A place with a value that is not finite is passed over.

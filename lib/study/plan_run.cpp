@@ -9,7 +9,7 @@
 namespace phos {
 namespace {
 
-constexpr double kTighter = 0.85;  ///< of the error aimed at, where the same settings would be tried again
+constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
 
 /// What was measured, where the references could tell it, goes into the models.
 void learn(Pilot& pilot, const PlanRound& round) {
@@ -27,11 +27,14 @@ void learn(Pilot& pilot, const PlanRound& round) {
   }
 }
 
-/// Other settings than those of the last round, for the error that is asked for.
+/// Other settings than those of the last round, for the error that is asked for; after each further miss for
+/// less, as every round costs a whole pipeline.
 std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
-                                   const PlanRound& last) {
+                                   std::span<const PlanRound> rounds) {
   const std::vector<PlanPoint> front = front_of(task, pilot);
-  for (double aim = error; aim > 0.2 * error; aim *= kTighter) {
+  const PlanRound& last = rounds.back();
+  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size() - 1));
+  for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
     const std::optional<Prediction> p = cheapest(task, pilot, front, aim);
     if (p && p->knobs != last.predicted.knobs && p->error() < last.error()) return p;
   }
@@ -119,7 +122,7 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
     const bool told = fine || round.error() > round.resolution();
     if (!told || (small && !fine)) why = "whether it is met cannot be told; raise --reference-seconds";
     if (!told || small || !goal.error) break;
-    next = next_try(task, pilot, *goal.error, round);
+    next = next_try(task, pilot, *goal.error, report.rounds);
     if (!next) {
       why = "no settings are left that would be better";
     } else if (goal.seconds && report.pipeline_s + next->seconds.value > *goal.seconds) {

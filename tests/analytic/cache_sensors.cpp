@@ -105,6 +105,22 @@ TEST(SensorsAnalytic, CachesOfAllLightAreNotLitTwice) {
     EXPECT_LE(r.stderr_lx, 0.0101f * whole);
     EXPECT_GE(r.stderr_lx, 0.01f * std::sqrt(kSharedByZones) * whole);
   }
+  // Without shadow rays the whole is the same, and its parts are not told apart.
+  options.light_samples = 0;
+  const Read quick = read_sensors_of(s.scene, sensors_at(s.checks), {file}, options);
+  for (std::size_t i = 0; i < quick.readings.size(); ++i) {
+    EXPECT_EQ(quick.readings[i].illuminance_lx, read.readings[i].illuminance_lx);
+    EXPECT_EQ(quick.readings[i].stderr_lx, read.readings[i].stderr_lx);
+    EXPECT_TRUE(std::isnan(quick.readings[i].direct_lx) && std::isnan(quick.readings[i].indirect_lx));
+  }
+  EXPECT_EQ(quick.report.inside, read.report.inside);
+  const std::string row = sensor_csv(sensors_at(s.checks), quick.readings).at(1);
+  EXPECT_EQ(row.substr(row.find('\n') - 2, 2), ",,") << row;
+  // What the cache does not cover is measured all the same.
+  std::vector<Check> none;
+  const Container empty = even_cache("empty", s.scene, none, whole, 1, "all");
+  for (const Reading& r : read_sensors_of(s.scene, sensors_at(s.checks), {empty}, options).readings)
+    EXPECT_NEAR(r.illuminance_lx, whole, 0.1f * whole);
   const Container other = even_cache("indirect", s.scene, s.checks, 1, 1, "indirect");
   EXPECT_THROW(SensorCaches(std::vector<Container>{file, other}, nullptr), Error);
 }

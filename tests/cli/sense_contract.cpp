@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "file/csv.h"
 #include "support/refused.h"
 
 namespace {
@@ -69,6 +70,8 @@ TEST(SenseTool, RefusesBadCommandLines) {
   expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--mesh", "nobody"}, 2, "nobody");
   expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "1", "--samples", "9"}, 2,
                  "samples");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "0.1", "--light-samples", "0"},
+                 2, "light-samples");
 }
 
 TEST(SenseTool, RefusesBadInput) {
@@ -120,6 +123,31 @@ TEST(SenseTool, NamesAndOrderAreKept) {
   const std::string csv = slurp(folder + "/out.csv");
   EXPECT_TRUE(csv.starts_with(kHeader + "\"b, 1\",0.2,0.3,0.25,0,1,0,")) << csv;
   EXPECT_NE(csv.find("\na,0.3,0.3,0.25,0,1,0,"), std::string::npos) << csv;
+}
+
+TEST(SenseTool, ACacheOfAllLightNeedsNoShadowRays) {
+  const std::string folder = scratch("sense-whole"), photons = folder + "/p", all = folder + "/all",
+                    indirect = folder + "/indirect";
+  ASSERT_EQ(run_tool({"photons", kBox, "--photons", "20000", "-o", photons}).code, 0);
+  for (const auto& [paths, cache] : {std::pair{"all", all}, std::pair{"indirect", indirect}})
+    ASSERT_EQ(run_tool({"irradiance", kBox, photons, "--paths", paths, "-o", cache}).code, 0);
+  const std::vector<std::string> floor{"--grid", "0.1", "--mesh", "floor", "--light-samples", "0"};
+  std::vector<std::string> words{"sense", kBox, all};
+  words.insert(words.end(), floor.begin(), floor.end());
+  const auto run = run_tool(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const CsvTable table = parse_csv(run.out, "table");
+  ASSERT_GT(table.rows.size(), 10u);
+  const std::size_t whole = table.column("E_lx", "table"), direct = table.column("direct_lx", "table");
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_GE(table.number(i, whole), 0);
+    covered += table.rows[i][direct].empty();
+  }
+  EXPECT_GT(covered, table.rows.size() / 2);
+  words = {kBox, indirect};
+  words.insert(words.end(), floor.begin(), floor.end());
+  expect_refused("sense", words, 2, "--direct cached");
 }
 
 TEST(SenseTool, AWorkplaneFromACacheIsWithinErrorOfPathTracing) {

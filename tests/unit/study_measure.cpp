@@ -116,6 +116,26 @@ TEST(StudyMeasure, BelievesStandardErrors) {
   EXPECT_DOUBLE_EQ(e.inside.value(), 0.5);
 }
 
+/// 95 % of normal errors, if references say how noisy they are; their difference alone, one draw at each
+/// place, is too small in half of all places, and tells less.
+TEST(StudyMeasure, WhatLiesWithinIsToldByWhatReferencesState) {
+  constexpr int kSide = 100;
+  constexpr double kOwn = 0.05, kNoise = 0.1;
+  std::vector<float> values[3];
+  for (int i = 0; i < kSide * kSide; ++i)
+    for (int k = 0; k < 3; ++k)
+      values[k].push_back(static_cast<float>(1 + (k == 0 ? kOwn : kNoise) * normal(3, i, k)));
+  Image image = grey(kSide, values[0]), a = grey(kSide, values[1]), b = grey(kSide, values[2]);
+  image.set_rgb("stderr", std::vector<Rgb>(kSide * kSide, Rgb(static_cast<float>(kOwn))));
+  const double by_difference = measure_picture(image, a, &b).inside.value();
+  for (Image* reference : {&a, &b})
+    reference->set_rgb("stderr", std::vector<Rgb>(kSide * kSide, Rgb(static_cast<float>(kNoise))));
+  const MeasuredError e = measure_picture(image, a, &b);
+  EXPECT_NEAR(e.inside.value(), 0.9545, 0.01);
+  EXPECT_LT(by_difference, 0.91);
+  EXPECT_NEAR(e.relative_rmse, kOwn, 4 * e.rmse_stderr.value());  // the rest goes by the difference
+}
+
 TEST(StudyMeasure, LampsAreLeftOut) {
   Image reference = grey(2, {1, 1, 1, 100});
   reference.set_rgb("emission", std::vector<Rgb>{Rgb(0), Rgb(0), Rgb(0), Rgb(99)});
