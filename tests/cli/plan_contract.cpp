@@ -163,6 +163,18 @@ TEST(PlanTool, ARunIsMeasuredAndJudged) {
               0.03 * measured + 1e-4);
 }
 
+/// References that tell nothing of what is asked for: one round, and the reason.
+TEST(PlanTool, ARunEndsWhereNothingCanBeTold) {
+  const std::string folder = scratch("plan-untold");
+  const auto run =
+      run_tool(plan_of({"--error", "4%", "--run", "-o", folder + "/out", "--reference-seconds", "0.01"}));
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.err.find("cannot be told; raise --reference-seconds"), std::string::npos) << run.err;
+  const Json j = parse_json(slurp(folder + "/out/plan.json"), "plan.json");
+  EXPECT_FALSE(j.find("run")->find("met")->as_bool());
+  EXPECT_EQ(j.find("run")->find("rounds")->as_array().size(), 1u);
+}
+
 TEST(PlanTool, LuxOnAWorkplane) {
   const std::string folder = scratch("plan-lux");
   std::vector<std::string> words{"plan",   kBox,   "--error",     "15%", "--quantity", "lux",
