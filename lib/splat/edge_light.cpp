@@ -13,6 +13,9 @@ namespace {
 /// on it is not.
 constexpr std::size_t kTests = 8;
 constexpr float kUneven = 0.05f;
+/// Where a lamp's light differs more than that, relative, between two samples, it is the mean of so many.
+constexpr float kSteep = 0.03f;
+constexpr std::size_t kWhole = 32;
 constexpr std::uint32_t kShifts = 3;  // of a lamp's points
 /// Variance of the share that even points see of a lamp, over that of independent ones: 0.11 was measured for
 /// straight shadow edges; more is left for others.
@@ -24,6 +27,22 @@ constexpr float kEven = 0.25f;
 float variance_of_share(const Finding& found) {
   const float n = found.rays, share = (n * found.share() + 0.5f) / (n + 1);
   return kEven * share * (1 - share) / (n + 2);
+}
+
+/// `count` of the samples, taken evenly from all of them.
+std::vector<std::uint32_t> some_of(const EdgeSamples& samples, std::size_t count) {
+  std::vector<std::uint32_t> some;
+  for (std::size_t k = 0; k < count; ++k) some.push_back(samples.sample[k * samples.sample.size() / count]);
+  return some;
+}
+
+/// The first, and the one on the other side of the pixel's centre (further_offset()); if that shows another
+/// surface, nothing.
+std::vector<std::uint32_t> mirrored(const EdgeSamples& samples) {
+  const std::uint32_t first = samples.sample[0],
+                      other = first + static_cast<std::uint32_t>((samples.ray.size() + 1) / 2);
+  if (!std::binary_search(samples.sample.begin(), samples.sample.end(), other)) return {};
+  return {first, other};
 }
 
 }  // namespace
@@ -52,19 +71,26 @@ void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t 
   lamp_rays.send();
 }
 
-/// The lamps whole, on the mean of the first `places`; where none of a lamp is seen, at the first.
-void EdgeLight::find_whole(const EdgeSamples& samples, std::size_t places, Scratch& s) const {
+/// The lamps whole, on the mean of some samples; where none of a lamp is seen, at the first. Returns by how
+/// much the light of one that is seen differs among them from the first, relative.
+float EdgeLight::find_whole(const EdgeSamples& samples, std::span<const std::uint32_t> some,
+                            Scratch& s) const {
   std::fill(s.whole.begin(), s.whole.end(), 0.f);
-  for (std::size_t place = 0; place < places; ++place) {
-    const std::uint32_t i = samples.sample[place];
-    const SurfacePoint p = lamps_.rays.surface(samples.ray[i], samples.hit[i]);
+  s.first = s.whole;
+  float differs = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const SurfacePoint p = lamps_.rays.surface(samples.ray[some[k]], samples.hit[some[k]]);
     for (std::size_t lamp = 0; lamp < lamps_.form.size(); ++lamp) {
       const Sight& sight = s.sight[lamp];
-      if (!lamps_.form[lamp].closed() || !(sight.sent > 0) || (place > 0 && !(sight.seen > 0))) continue;
-      const float count = sight.seen > 0 ? static_cast<float>(places) : 1.f;
-      s.whole[lamp] += lamps_.form[lamp].projected_solid_angle(p.position, p.normal) / count;
+      if (!lamps_.form[lamp].closed() || !(sight.sent > 0) || (k > 0 && !(sight.seen > 0))) continue;
+      const float whole = lamps_.form[lamp].projected_solid_angle(p.position, p.normal);
+      s.whole[lamp] += sight.seen > 0 ? whole / static_cast<float>(some.size()) : whole;
+      if (k == 0) s.first[lamp] = whole;
+      if (const float larger = std::max(s.first[lamp], whole); larger > 0)
+        differs = std::max(differs, std::fabs(whole - s.first[lamp]) / larger);
     }
   }
+  return differs;
 }
 
 SharedLight EdgeLight::sum(const Scratch& s) const {
@@ -90,20 +116,18 @@ SharedLight EdgeLight::light(const EdgeSamples& samples, const SharedLight* abou
 
   const std::size_t places = samples.sample.size(), tests = std::min(places, kTests);
   send(samples, 0, tests, s);
-  SharedLight light;
   bool right = false;
   if (about && about->variance == DVec3(0)) {
-    find_whole(samples, 1, s);
-    light = sum(s);
-    const float expected = luminance(about->illuminance), found = luminance(light.illuminance);
+    find_whole(samples, samples.sample.first(1), s);
+    const float expected = luminance(about->illuminance), found = luminance(sum(s).illuminance);
     right = std::fabs(found - expected) <= kUneven * std::max(found, expected);
-    if (right) light.illuminance = about->illuminance;
   }
-  if (!right) {
-    send(samples, tests, places, s);
-    find_whole(samples, tests, s);
-    light = sum(s);
-  }
+  if (!right) send(samples, tests, places, s);
+  // Even where the pixel about them is right: light may change much from one side of it to the other.
+  const std::vector<std::uint32_t> two = mirrored(samples);
+  if (two.empty() || find_whole(samples, two, s) > kSteep)
+    find_whole(samples, some_of(samples, std::min(places, kWhole)), s);
+  SharedLight light = sum(s);
   light.variance *= static_cast<double>(places);
   return light;
 }

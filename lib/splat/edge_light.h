@@ -15,7 +15,7 @@ struct EdgeSamples {
   std::uint32_t number = 0;  ///< of the surface within the pixel
   std::span<const Ray> ray;  ///< of all samples of the pixel
   std::span<const Hit> hit;
-  std::span<const std::uint32_t> sample;  ///< those that show the surface; at least one
+  std::span<const std::uint32_t> sample;  ///< those that show the surface, in order; at least one
 };
 
 /// They share their shadow rays: of a lamp with a closed form (LampForm) the share of it that they see, of
@@ -28,20 +28,20 @@ class EdgeLight {
   EdgeLight(const RayScene& rays, const Luminaires& lights, int rays_each, std::uint64_t seed);
 
   struct Scratch {
-    std::vector<Sight> sight;      // per lamp
-    std::vector<Brought> brought;  // per lamp
-    std::vector<float> whole;      // per lamp: sum of projected solid angles
+    std::vector<Sight> sight;         // per lamp
+    std::vector<Brought> brought;     // per lamp
+    std::vector<float> whole, first;  // per lamp: projected solid angle, mean and of one sample
     std::vector<std::uint32_t> shift;
   };
-  /// Light of them all; that of `about`, the pixel about them (null: none), where that is right: then no more
-  /// rays are sent. The variance is a sample's, such that the sum of as many that are independent has that of
-  /// the sum of these, which share theirs. It is not zero where all rays agree, for they may have missed
-  /// something.
+  /// Light of them all. Where `about`, that of the pixel about them (null: none), is what the first of them
+  /// find, no more rays are sent. The variance is a sample's, such that the sum of as many that are
+  /// independent has that of the sum of these, which share theirs. It is not zero where all rays agree, for
+  /// they may have missed something.
   SharedLight light(const EdgeSamples& samples, const SharedLight* about, Scratch& scratch) const;
 
  private:
   void send(const EdgeSamples& samples, std::size_t begin, std::size_t end, Scratch& scratch) const;
-  void find_whole(const EdgeSamples& samples, std::size_t places, Scratch& scratch) const;
+  float find_whole(const EdgeSamples& samples, std::span<const std::uint32_t> some, Scratch& scratch) const;
   SharedLight sum(const Scratch& scratch) const;
 
   AimedLamps lamps_;

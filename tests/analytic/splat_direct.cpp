@@ -297,7 +297,8 @@ TEST(Interleaved, BlursLessWithMoreRaysAndInTheEndNotAtAll) {
   }
 }
 
-/// Neighbours that are right are believed; those that know nothing of a shadow, or are in doubt, are not.
+/// Whatever the pixel about them says, samples find half a lamp where half of it is to be seen, and all of
+/// one.
 TEST(EdgeLight, NeighboursArePutToTheTest) {
   for (const bool roofed : {false, true}) {
     const Scene scene = lit_floor(roofed);
@@ -307,17 +308,37 @@ TEST(EdgeLight, NeighboursArePutToTheTest) {
     const EdgeLight edge(rays, lights, 1, 1);
     EdgeLight::Scratch scratch;
     const PixelSamples pixel(rays, scene.camera[0], kMiddle, 24);
-    const SharedLight whole{Rgb(1.01f * lux), DVec3(0)}, in_doubt{Rgb(1.01f * lux), DVec3(1)}, dark;
-    // What is believed is taken as it is.
-    const auto believed = [&](const SharedLight* about) {
-      return edge.light(pixel.samples(), about, scratch).illuminance == about->illuminance;
-    };
-    EXPECT_EQ(believed(&whole), !roofed);
-    EXPECT_FALSE(believed(&in_doubt));
-    EXPECT_FALSE(believed(&dark));
-    EXPECT_NEAR(edge.light(pixel.samples(), nullptr, scratch).illuminance.y, roofed ? lux / 2 : lux,
-                0.1f * lux);
+    const SharedLight whole{Rgb(lux), DVec3(0)}, in_doubt{Rgb(lux), DVec3(1)}, dark;
+    for (const SharedLight* about : {&whole, &in_doubt, &dark, static_cast<const SharedLight*>(nullptr)})
+      EXPECT_NEAR(edge.light(pixel.samples(), about, scratch).illuminance.y, roofed ? lux / 2 : lux,
+                  0.1f * lux);
   }
+}
+
+/// Beside a lamp light changes much within a pixel: what one sample finds, and the pixel about agrees with,
+/// is not what all of them find.
+TEST(EdgeLight, SteepLightIsTheMeanOfThePixel) {
+  const AnalyticScene s = rectangle_light_perpendicular();
+  const RayScene rays(s.scene);
+  const Luminaires lights(s.scene);
+  const EdgeLight edge(rays, lights, 1, 1);
+  EdgeLight::Scratch scratch;
+  int steep = 0;
+  for (std::size_t i = 0; i < std::size_t{kSide} * kSide; ++i) {
+    const PixelSamples pixel(rays, s.scene.camera[0], i, 64);
+    if (!pixel.on_one_triangle()) continue;
+    double mean = 0;
+    const auto at = [&](std::size_t k) {
+      const SurfacePoint p = rays.surface(pixel.ray[k], pixel.hit[k]);
+      return s.irradiance_lx(p.position, p.normal);
+    };
+    for (std::size_t k = 0; k < 64; ++k) mean += at(k) / 64;
+    if (!(mean > 0) || std::fabs(at(0) - mean) < 0.03 * mean) continue;
+    ++steep;
+    const SharedLight about{Rgb(static_cast<float>(at(0))), DVec3(0)};
+    EXPECT_NEAR(edge.light(pixel.samples(), &about, scratch).illuminance.y, mean, 0.025 * mean) << i;
+  }
+  EXPECT_GT(steep, 10);
 }
 
 /// Rays that all agree may all have missed something: a beam so thin that the samples of a pixel see none, or
