@@ -44,7 +44,7 @@ void check_usage(const Options& options, const Inputs& inputs, const SensorOptio
   for (const char* name : {"samples", "error"})
     if (!exact && options.given(name)) throw Error(ExitCode::usage, name, "belongs to --exact; leave it out");
   if ((exact || sense.direct_only) && sense.light_samples == 0)
-    throw Error(ExitCode::usage, "light-samples", "of 0 leaves direct light to a cache; give 1 or more");
+    throw Error(ExitCode::usage, "--light-samples", "of 0 leaves direct light to a cache; give 1 or more");
   if (inputs.caches.empty() && !exact && !sense.direct_only) {
     throw Error(
         ExitCode::usage, "",
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
       const SensorCaches caches =
           sensor_caches_at(files, scene, sense.leak_test == LeakTest::ray ? &rays : nullptr);
       if (sense.light_samples == 0 && !caches.holds_direct())
-        throw Error(ExitCode::usage, "light-samples",
+        throw Error(ExitCode::usage, "--light-samples",
                     text("of 0 leaves direct light to the cache, and ", inputs.caches[0],
                          " holds indirect light alone; make it with --direct cached"));
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)

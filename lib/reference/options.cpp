@@ -19,9 +19,9 @@ void declare_options(Options& options, ReferenceOptions& r) {
                  "(0.01: 1 %); with --points, once each point's standard error is this part of its value",
                  kPositive);
   options.flag("adaptive", r.adaptive,
-               "--samples are a mean: a quarter of them tell how noisy each pixel's neighbours "
-               "are, and the noisier, the more of the rest it gets; still unbiased, and with a tenth of the "
-               "noise where a few bright pixels have most of it");
+               "--samples are a mean: a quarter of them tell how noisy each pixel's neighbours are, and the "
+               "noisier, the more of the rest it gets; still unbiased, and far less noisy where a few bright "
+               "pixels have most of the noise");
   options.integer("bounces", r.path.bounces, "N",
                   "scatterings between light and eye, the visible surface's (or the sensor's) included: 0 "
                   "emission only, 1 "

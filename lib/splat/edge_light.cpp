@@ -21,9 +21,9 @@ constexpr std::uint32_t kShifts = 3;  // of a lamp's points
 /// straight shadow edges; more is left for others.
 constexpr float kEven = 0.25f;
 
-/// Of the share of a lamp that `found` saw. Rays that all arrive, or none of which does, do not tell that
-/// nothing else is to be seen: the variance of a share that is as likely to be any, after them (Jeffreys
-/// 1946).
+/// Of the share of a lamp that `found` saw. That all rays arrive, or none does, does not tell that nothing
+/// else is to be seen: the variance of the share as the rays leave it to be, before them by Jeffreys' prior
+/// (1946).
 float variance_of_share(const Finding& found) {
   const float n = found.rays, share = (n * found.share() + 0.5f) / (n + 1);
   return kEven * share * (1 - share) / (n + 2);
