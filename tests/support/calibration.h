@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/radiance_cache.h"
 #include "cache/radiance_density.h"
 #include "cache/radiance_gather.h"
 #include "cache/sensors.h"
@@ -275,7 +276,9 @@ class CalibratedScene {
       const PlacementReport report =
           place_records(cache, *estimator, *lit.rays, rays ? options : by_hull, {},
                         photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);
-      RadianceTree tree(known_.scene.bounds, reading_accuracy(options.accuracy, 0.75), kOrder);
+      RadianceCache as_read;
+      as_read.accuracy = options.accuracy;
+      RadianceTree tree(known_.scene.bounds, reading_accuracy(as_read), kOrder);
       for (const RadianceRecord& r : report.radiance) tree.insert(r);
       RadianceTree::Worker memory;
       std::vector<float> lobe(3 * kOrder * kOrder, 0);
