@@ -14,8 +14,10 @@ inline constexpr float kSharedByZones = 0.2f;
 /// Noise of a record's value where it is carried to by its gradient, which has noise of its own, over that at
 /// the record.
 inline constexpr double kCarriedNoise = 1.5;
-/// Of the variance among records that noise does not account for: what it says of their mean.
-inline constexpr double kCommonDisagreement = 0.25;
+/// Of the variance among records that noise does not account for: what it says of their mean, where records
+/// know their own light exactly, and where they are of photons, whose gradients have noise too that averages
+/// out.
+inline constexpr double kCommonDisagreement = 0.3, kCommonOfPhotons = 0.12;
 
 /// Sums over the records valid at a place, of weight w, besides those of w and w E.
 struct BlendSums {
@@ -36,8 +38,8 @@ struct BlendSums {
 /// q = sum of w^2 / W^2 (1 over the number of records, if all weigh alike; Kish 1965). Where records disagree
 /// by more than noise - the weighted variance of E exceeds kCarriedNoise (1 - rho) s^2 (1 - q) - they are
 /// carried on too far, or light is not as even as their zones are large. Such errors have partly a sign in
-/// common: kCommonDisagreement of the excess is added, as measured in scenes of known light. A record alone
-/// has nobody to disagree with.
+/// common: of the excess kCommonDisagreement to kCommonOfPhotons is added, as measured in scenes of known
+/// light. A record alone has nobody to disagree with.
 inline Rgb blended_error(const BlendSums& sums, float weight, const Rgb& value, const Rgb& error,
                          double mean) {
   if (!(weight > 0)) return Rgb(0);
@@ -51,7 +53,9 @@ inline Rgb blended_error(const BlendSums& sums, float weight, const Rgb& value, 
     const double relative = static_cast<double>(luminance(error)) / light;
     const double scatter = sums.value2 / w / (mean * mean) - 1;
     const double noise = kCarriedNoise * (1 - rho) * relative * relative * (1 - q);
-    variance += kCommonDisagreement * std::max(0.0, scatter - noise) * e * e;
+    const double by_photons = std::min(1.0, rho / static_cast<double>(kSharedByZones));
+    const double common = kCommonDisagreement + by_photons * (kCommonOfPhotons - kCommonDisagreement);
+    variance += common * std::max(0.0, scatter - noise) * e * e;
   }
   return Rgb(glm::sqrt(variance));
 }

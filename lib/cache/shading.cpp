@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "core/sequence_error.h"
 
 namespace phos {
 
@@ -72,6 +73,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
                             bool environment) const {
   DirectLight sum;
   const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
+  std::vector<DVec3> parts;  // what each sample adds to the mean: all, where there is more than one
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const bool extended = lights_[i].extended();
     const float u0 = sequence.uniform();
@@ -80,7 +82,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
     if (!environment && lights_[i].kind == Light::Kind::environment) continue;
     const int n = extended ? samples.count : 1;
     Rgb mean(0);
-    DVec3 all(0), square(0);  // beyond the range of floats where light is within
+    if (n > 1) parts.assign(static_cast<std::size_t>(n), DVec3(0));
     for (int s = 0; s < n; ++s) {
       Illumination light;
       const int k = samples.first + s;
@@ -103,12 +105,12 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       }
       const Rgb value = f * arriving;
       mean += value;
-      all += DVec3(value), square += DVec3(value) * DVec3(value);
+      if (n > 1) parts[static_cast<std::size_t>(s)] = DVec3(value) / static_cast<double>(n);
     }
-    const auto count = static_cast<float>(n);
-    mean /= count;
-    sum.radiance += mean;
-    if (n > 1) sum.variance += variance_of_mean(all, square, n);
+    sum.radiance += mean / static_cast<float>(n);
+    if (n > 1)
+      sum.variance +=
+          sequence_variance(parts, lights_.by_u_alone(i), {PointOrder::Kind::sobol, samples.first});
   }
   return sum;
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+
+#include "core/sampling.h"
 
 namespace phos {
 namespace {
@@ -50,24 +53,76 @@ DVec3 independent(std::span<const DVec3> parts) {
   return glm::max(n * squares - sum * sum, DVec3(0)) / (n - 1);
 }
 
+/// Sums over pairs of neighbours.
+struct Differences {
+  DVec3 squares{0}, sizes{0};  // means over sets of pairs
+  double sets = 0;
+
+  /// Those of each point and partner(k), in [0, n).
+  template <typename Partner>
+  void add(std::span<const DVec3> parts, const Partner& partner) {
+    DVec3 square(0), size(0);
+    double pairs = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const std::size_t other = partner(k);
+      if (other <= k || other >= parts.size()) continue;
+      const DVec3 change = parts[k] - parts[other];
+      square += change * change, size += glm::abs(change), pairs += 1;
+    }
+    if (pairs > 0) squares += square / pairs, sizes += size / pairs, sets += 1;
+  }
+};
+
+/// Digits by which the indices of neighbours among 2^bits points differ: the two that move a point least, of
+/// 8 points the one.
+constexpr std::size_t kLeastSobol = 8;
+struct Digits {
+  std::size_t mask[2] = {0, 0};
+};
+Digits nearest_digits(int bits) {
+  const int n = 1 << bits;
+  std::array<std::pair<float, int>, 2> nearest{{{2.f, 0}, {2.f, 0}}};
+  for (int k = 1; k < n; ++k) {
+    const Vec2 p = sobol_point(k, 0, 0);
+    const std::pair<float, int> found{std::max(p.x, p.y), k};
+    if (found < nearest[1]) nearest[1] = found;
+    if (nearest[1] < nearest[0]) std::swap(nearest[0], nearest[1]);
+  }
+  const auto mask = [&](int i) {
+    return static_cast<std::size_t>(nearest[static_cast<std::size_t>(i)].second);
+  };
+  return {{mask(0), n > static_cast<int>(kLeastSobol) ? mask(1) : 0}};
+}
+/// Of the greatest power of two that is not above n, or 4096.
+const Digits& neighbour_digits(std::size_t n) {
+  constexpr std::size_t kMost = 12;
+  static const auto table = [] {
+    std::array<Digits, kMost + 1> all;
+    for (std::size_t bits = 3; bits <= kMost; ++bits) all[bits] = nearest_digits(static_cast<int>(bits));
+    return all;
+  }();
+  return table[std::min<std::size_t>(std::bit_width(n) - 1, kMost)];
+}
+
 }  // namespace
 
-DVec3 sequence_variance(std::span<const DVec3> parts, bool in_plane) {
+DVec3 sequence_variance(std::span<const DVec3> parts, bool in_plane, const PointOrder& order) {
   const std::size_t n = parts.size();
   if (n < 2) return DVec3(0);
-  if (n < 4) return independent(parts);
-  const std::span<const std::size_t> lags =
-      in_plane ? neighbours(n) : std::span<const std::size_t>(kPadovan).first(1);
-  DVec3 squares(0), sizes(0);  // means over neighbours
-  for (const std::size_t lag : lags) {
-    DVec3 square(0), size(0);
-    for (std::size_t k = 0; k + lag < n; ++k) {
-      const DVec3 change = parts[k] - parts[k + lag];
-      square += change * change, size += glm::abs(change);
-    }
-    const double pairs = static_cast<double>(n - lag) * static_cast<double>(lags.size());
-    squares += square / pairs, sizes += size / pairs;
+  const bool sobol = order.kind == PointOrder::Kind::sobol;
+  if (n < (sobol ? kLeastSobol : 4)) return independent(parts);
+  Differences found;
+  if (!in_plane) {
+    found.add(parts, [](std::size_t k) { return k + 1; });
+  } else if (sobol) {
+    const auto first = static_cast<std::size_t>(order.first);
+    for (const std::size_t mask : neighbour_digits(n).mask)
+      if (mask != 0) found.add(parts, [&](std::size_t k) { return ((first + k) ^ mask) - first; });
+  } else {
+    for (const std::size_t lag : neighbours(n)) found.add(parts, [&](std::size_t k) { return k + lag; });
   }
+  if (found.sets == 0) return independent(parts);
+  const DVec3 squares = found.squares / found.sets, sizes = found.sizes / found.sets;
   const DVec3 all = independent(parts), near = static_cast<double>(n) / 2 * squares;
   DVec3 variance(0);
   for (int c = 0; c < 3; ++c)

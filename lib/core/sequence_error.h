@@ -7,17 +7,23 @@
 
 namespace phos {
 
-/// Variance of the sum of `parts`, part k of what point k of r2_point() from a random start has found. Such
-/// points err far less than independent ones do, by what the integrand changes between one point and those
-/// next to it on the square: half the mean square of these differences, x a gain of 0.12 where it is smooth
-/// to 0.45 where edges are (a few differences are all), as measured for rectangles, near and far, whole, cut
-/// by straight edges, and by 4 to 256 points. Where neighbours differ as much as any two samples do, the
-/// points gain nothing.
+/// Which points the samples are: of r2_point(), or of sobol_point() and from which index on.
+struct PointOrder {
+  enum class Kind { r2, sobol } kind = Kind::r2;
+  int first = 0;
+};
+
+/// Variance of the sum of `parts`, part k of what point k from a random start has found. Such points err far
+/// less than independent ones do, by what the integrand changes between one point and those next to it on the
+/// square: half the mean square of these differences, x a gain of 0.12 where it is smooth to 0.45 where edges
+/// are (a few differences are all), as measured for rectangles, near and far, whole, cut by straight edges,
+/// and by 4 to 256 points. Where neighbours differ as much as any two samples do, the points gain nothing.
 ///
-/// Neighbours are as many points apart as a number of Padovan's sequence tells (1, 2, 3, 4, 5, 7, 9, 12, 16,
-/// ...), for R2 steps by powers of its ratio. `in_plane`: the two coordinates alone decide what a point
-/// finds; else (a lamp of many parts, taken in turn as k grows) points next to each other in order are
-/// compared. Fewer than 4 samples are taken as independent; one: 0. Each channel by itself.
-DVec3 sequence_variance(std::span<const DVec3> parts, bool in_plane);
+/// Neighbours in R2 are as many points apart as a number of Padovan's sequence tells (1, 2, 3, 4, 5, 7, 9,
+/// 12, 16, ...), for it steps by powers of its ratio; in Sobol' points, those whose indices differ by the
+/// digits of the point that is nearest to the first. `in_plane`: the two coordinates alone decide what a
+/// point finds; else (a lamp of many parts, taken in turn as k grows) points next to each other in order are
+/// compared. Fewer than 4 samples (Sobol': 8) are taken as independent; one: 0. Each channel by itself.
+DVec3 sequence_variance(std::span<const DVec3> parts, bool in_plane, const PointOrder& order = {});
 
 }  // namespace phos

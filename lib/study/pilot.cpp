@@ -148,7 +148,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   for (auto& [name, p] : pilot.time.part)
     p.fit(runs.times(name.substr(0, name.find(','))), options.seed + 11);
   if (task.image) {
-    pilot.image_error = image_error_model(task);
+    pilot.image_error = image_error_model(task, runs.detail());
     fit_errors(*pilot.image_error, image, options.seed + 20, "direct light and gloss");
     pilot.image_resolution = resolution_of(image.indirect_bias);
     pilot.image_reference.places = static_cast<double>(task.width * task.height);

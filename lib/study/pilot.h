@@ -62,7 +62,8 @@ inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
 
 /// Terms of the models.
-PlanModel image_error_model(const PlanTask& task);
+/// `detail`: power with which what lies within pixels shrinks as there are more of them (detail_power()).
+PlanModel image_error_model(const PlanTask& task, double detail);
 PlanModel lux_error_model();
 PlanModel time_model(const PlanTask& task);
 

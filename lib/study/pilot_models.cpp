@@ -26,7 +26,7 @@ double ReferenceCost::samples(double resolution) const {
   return 2 * variance / (resolution * resolution) / std::sqrt(std::max(places, 1.0));
 }
 
-PlanModel image_error_model(const PlanTask& task) {
+PlanModel image_error_model(const PlanTask& task, double detail) {
   std::vector<Monomial> seen = {
       {"noise of shadow rays", {{K::light_rays, -1}}},
       {"noise of shadow rays, fast part", {{K::light_rays, -2}}},
@@ -37,8 +37,8 @@ PlanModel image_error_model(const PlanTask& task) {
   }
   if (task.specular) seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
-      // Finer pixels show more of a texture: on Sponza the mean square fell so slowly, of 80 to 400 a side.
-      textures{"textures and shadows within pixels", {{K::pixel_samples, -1}, {K::pixels, -0.125}}},
+      // Finer pixels show more of a texture.
+      textures{"textures and shadows within pixels", {{K::pixel_samples, -1}, {K::pixels, -detail}}},
       blur{"shadows that pixels share", {{K::light_rays, -1}, {K::pixels, -0.5}}};
   return {{{"direct light and gloss, noise", sum_of(seen)},
            {"direct light and gloss, bias", sum_of({edges, textures, blur})},

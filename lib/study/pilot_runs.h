@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/command.h"
+#include "study/picture_detail.h"
 #include "study/pilot.h"
 #include "study/plan_separate.h"
 #include "study/scratch_folder.h"
@@ -45,6 +46,8 @@ class PilotRuns {
   /// What was measured of a part of the time model.
   const std::vector<Observation>& times(const std::string& part) { return times_[part]; }
   std::size_t sensors() const { return sensors_; }
+  /// Of the references' pictures.
+  double detail() const { return detail_power(reference_[0], reference_[1]); }
 
  private:
   /// Every program is run here.

@@ -98,6 +98,7 @@ Prediction within(const PlanTask& task, const Pilot& pilot, const std::vector<Pl
 
 double Prediction::error() const { return largest(*this, &Interval::value); }
 double Prediction::error_high() const { return largest(*this, &Interval::high); }
+double Prediction::error_to_meet() const { return error() + kSurety * (error_high() - error()); }
 double Prediction::error_low() const { return largest(*this, &Interval::low); }
 
 std::string percent(double share) {
@@ -141,8 +142,8 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
                                    const std::vector<PlanPoint>& front, double error, bool* wide) {
   if (wide) *wide = false;
   std::optional<Prediction> found =
-      first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_high() <= error; });
-  // Sure to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
+      first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_to_meet() <= error; });
+  // Likely to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
   constexpr double kDearest = 3;
   const auto any = [](const Prediction&) { return true; };
   std::optional<Prediction> guess = first_that(task, pilot, front, kMargin * error, any);

@@ -25,6 +25,9 @@ struct Prediction {
   /// The larger of the errors, best guess.
   double error() const;
   double error_high() const;
+  /// What has to be within the error that is asked for: kSurety of the way from the best guess to the top of
+  /// its interval.
+  double error_to_meet() const;
   double error_low() const;
 };
 
@@ -39,14 +42,15 @@ struct Plan {
 std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot);
 Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs);
 
-/// With an error asked for: the cheapest settings of which all but one draw in twenty of the pilot's
-/// measurements say that they meet it. Where there are none, or only at a price that its doubt alone would
-/// make one pay, because the pilot cannot tell so little: the cheapest that meet kMargin of it by the best
-/// guess, or, if that is not out of the question, by the guess without what no setting mends; and a warning.
-/// With seconds: the least error whose time, likewise, is within them. Throws Error(usage) where no settings
-/// reach the error or keep the time, naming what can be had.
+/// With an error asked for: the cheapest settings whose error_to_meet() is within it: one in six or so would
+/// miss it, and to be surer than that costs more than the second round that mends it. Where there are none,
+/// or only at a price that its doubt alone would make one pay, because the pilot cannot tell so little: the
+/// cheapest that meet kMargin of it by the best guess, or, if that is not out of the question, by the guess
+/// without what no setting mends; and a warning. With seconds: the least error whose time, likewise, is
+/// within them. Throws Error(usage) where no settings reach the error or keep the time, naming what can be
+/// had.
 Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal);
-inline constexpr double kMargin = 0.8;
+inline constexpr double kMargin = 0.8, kSurety = 0.6;
 
 /// The same for an error alone; nothing if it is out of reach. `wide`: set where kMargin had to do.
 std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,

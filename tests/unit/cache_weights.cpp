@@ -36,7 +36,7 @@ float error_of_both() {
   const double scatter = (100 + 0.25 * 2500) / 1.25 - mean * mean;
   return static_cast<float>(
       std::sqrt(error * error * (1 - own + own * q) +
-                kCommonDisagreement * (scatter - kCarriedNoise * own * error * error * (1 - q))));
+                kCommonOfPhotons * (scatter - kCarriedNoise * own * error * error * (1 - q))));
 }
 
 TEST(RecordWeights, BlendExactly) {

@@ -113,14 +113,14 @@ TEST(StudyPlan, MeetsTheErrorAtTheLeastCost) {
   double before = 0;
   for (const double asked : {0.2, 0.1, 0.05, 0.02}) {
     const Plan plan = make_plan(picture(), pilot, {asked, {}});
-    EXPECT_LE(plan.chosen.error_high(), asked);
+    EXPECT_LE(plan.chosen.error_to_meet(), asked);
     EXPECT_GT(plan.chosen.error(), 0.4 * asked) << "dearer than need be";
     EXPECT_GE(plan.chosen.seconds.value, before);
     before = plan.chosen.seconds.value;
     EXPECT_TRUE(plan.warnings.empty());
     for (const PlanPoint& p : front_of(picture(), pilot)) {
       const Prediction q = predict(picture(), pilot, p.knobs);
-      EXPECT_TRUE(q.error_high() > asked || q.seconds.value >= plan.chosen.seconds.value);
+      EXPECT_TRUE(q.error_to_meet() > asked || q.seconds.value >= plan.chosen.seconds.value);
     }
   }
 }

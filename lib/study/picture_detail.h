@@ -1,0 +1,17 @@
+// How fast what lies within pixels shrinks as they do.
+#pragma once
+
+#include "image/image.h"
+
+namespace phos {
+
+/// Power h of the mean square of what differs within pixels, as N^-h of the number N of pixels: 1 for smooth
+/// light, 1/2 for lone edges, of which each pixel row shows as many whatever its height, next to nothing for
+/// textures and mouldings that go on below a pixel. Taken from how much the pixels of blocks of 2 x 2 and of
+/// 4 x 4 differ in a pair of pictures of one view (from products of the two, so that their noise is not in
+/// it), lamps left out: if the mean square within a square of side b goes as b^2h, the second is 2^2h + 1
+/// times the first. From kLeastDetailPower (nothing is known, or detail is everywhere) to 1.
+double detail_power(const Image& a, const Image& b);
+inline constexpr double kLeastDetailPower = 0.125;
+
+}  // namespace phos
