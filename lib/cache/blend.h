@@ -17,7 +17,7 @@ inline constexpr double kCarriedNoise = 1.5;
 /// Of the variance among records that noise does not account for: what it says of their mean, where records
 /// know their own light exactly, and where they are of photons, whose gradients have noise too that averages
 /// out.
-inline constexpr double kCommonDisagreement = 0.3, kCommonOfPhotons = 0.12;
+inline constexpr double kCommonDisagreement = 0.3, kCommonOfPhotons = 0.17;
 
 /// Sums over the records valid at a place, of weight w, besides those of w and w E.
 struct BlendSums {

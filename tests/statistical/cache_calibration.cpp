@@ -45,7 +45,7 @@ void expect_calibrated(const CalibratedScene& scene, std::uint64_t seeds) {
     if (!has(estimator, "kernel")) all.add(c);
     ::testing::Test::RecordProperty(estimator, std::to_string(c.share()));
   }
-  EXPECT_GE(all.share(), scene.name() == "Sponza" ? 0.86 : 0.88) << scene.name();  // see limits_of()
+  EXPECT_GE(all.share(), 0.88) << scene.name();
   EXPECT_LE(all.share(), 0.995) << scene.name();
 }
 

@@ -24,7 +24,7 @@ TEST_P(EveryScene, TwoStandardErrorsHoldThePixels) {
     EXPECT_GE(c.share(), common ? 0.7 : 0.86)
         << picture.name() << ", " << what << ": true over stated " << c.ratio();
     EXPECT_LE(c.share(), 0.997) << picture.name() << ", " << what;
-    EXPECT_LT(c.ratio(), common ? 1.6 : 1.4) << picture.name() << ", " << what;
+    EXPECT_LT(c.ratio(), common ? 1.42 : 1.4) << picture.name() << ", " << what;
     EXPECT_LT(std::fabs(c.bias()), 0.5) << picture.name() << ", " << what;
   }
 }
