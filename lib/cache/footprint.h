@@ -42,7 +42,10 @@ class AdaptiveFootprint {
   AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes);
 
   const Vec3& x() const { return x_; }
+  const Vec3& y() const { return y_; }
   const Axes& axes() const { return axes_; }
+  /// 1 / length of each axis.
+  const std::array<float, kAxes>& inverse_m() const { return inverse_m_; }
   float longest_m() const { return longest_m_; }
   float shortest_m() const { return shortest_m_; }
   /// Of a disc as large as the longest axis, about: the mean square of the axes' lengths over that.

@@ -32,24 +32,6 @@ void load(SplatTile& tile, const GBuffer& g, const TileWindow& window) {
   }
 }
 
-/// A record with a footprint, which the kernel knows nothing of.
-void add_footprint(SplatTile& tile, const IrradianceRecord& r, float accuracy, float per_unit) {
-  const float reach_m = accuracy * r.radius_m;
-  for (int t = 0; t < kTilePixels; ++t) {
-    const Vec3 p(tile.px[t], tile.py[t], tile.pz[t]), n(tile.nx[t], tile.ny[t], tile.nz[t]),
-        step = p - r.position;
-    if (!(glm::dot(step, step) < reach_m * reach_m)) continue;
-    float w = weight_within(*r.footprint, r, accuracy, p, n);
-    if (!(w > kLeastWeight) || record_apart(r, p, n)) continue;
-    w *= r.weight;
-    const Rgb e = extrapolate(r, p, n);
-    for (int c = 0; c < 3; ++c) tile.light[c][t] += w * e[c], tile.error[c][t] += w * r.stderr_lx[c];
-    tile.light[3][t] += w, tile.error[3][t] += w > 0 ? 1.f : 0.f;
-    const float value = luminance(e) * per_unit;
-    tile.spread[0][t] += w * w, tile.spread[1][t] += w * r.shared, tile.spread[2][t] += w * value * value;
-  }
-}
-
 void store(const SplatTile& tile, SplatBuffer& buffer, const TileWindow& window) {
   for (int y = 0; y < window.rows; ++y) {
     for (int x = 0; x < window.columns; ++x) {
@@ -82,13 +64,31 @@ PackedRecord pack_record(const IrradianceRecord& r) {
   return p;
 }
 
-SplatKernel* best_splat_kernel() {
+PackedFootprint pack_footprint(const IrradianceRecord& r) {
+  const AdaptiveFootprint& f = *r.footprint;
+  static_assert(PackedFootprint::kAxes == AdaptiveFootprint::kAxes);
+  PackedFootprint p{};
+  for (int i = 0; i < 3; ++i) p.x[i] = f.x()[i], p.y[i] = f.y()[i];
+  p.inverse_shortest = std::min(1 / f.shortest_m(), std::numeric_limits<float>::max());
+  p.per_radius = f.longest_m() / r.radius_m;
+  for (int k = 0; k < PackedFootprint::kAxes; ++k) {
+    const AdaptiveFootprint::Axis& axis = f.axes()[static_cast<std::size_t>(k)];
+    p.inverse[k] = f.inverse_m()[static_cast<std::size_t>(k)];
+    for (int c = 0; c < 3; ++c) {
+      p.slope[c][k] = axis.slope[c], p.half_bend[c][k] = 0.5f * axis.bend[c];
+      p.turn_slope[c][k] = axis.turn_slope[c], p.half_turn_bend[c][k] = 0.5f * axis.turn_bend[c];
+    }
+  }
+  return p;
+}
+
+SplatKernels best_splat_kernels() {
 #ifdef PHOS_SPLAT_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
-    return splat_tile_avx2;
+    return {splat_tile_avx2, splat_footprint_avx2};
   }
 #endif
-  return splat_tile_plain;
+  return {splat_tile_plain, splat_footprint_plain};
 }
 
 Interpolated SplatBuffer::at(std::size_t i) const {
@@ -130,39 +130,43 @@ SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accur
     if (drawable(records[i])) packed[i] = pack_record(records[i]);
   });
 
-  SplatKernel* const kernel = best_splat_kernel();
+  const SplatKernels kernels = best_splat_kernels();
+  const SplatRule rule{1 / a, kLeastWeight, 1 / buffer.unit_lx};
   // One row of tiles at a time. Each tile adds its records in their order, whoever draws it.
   parallel_for(static_cast<std::size_t>(grid.rows()), 1, [&](std::size_t tile_row) {
     const int row = static_cast<int>(tile_row), y0 = row * kTileSide;
-    std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(grid.columns()));
+    std::vector<std::vector<TileRecord>> lists(static_cast<std::size_t>(grid.columns()));
     for (std::size_t i = 0; i < records.size(); ++i) {
       const PixelRect& rect = bounds[i];
       if (rect.empty() || rect.y1 <= y0 || rect.y0 >= y0 + kTileSide) continue;
+      const TileRecord reached{static_cast<std::uint32_t>(i),
+                               static_cast<std::uint16_t>(std::max(rect.y0 - y0, 0) * kTileSide),
+                               static_cast<std::uint16_t>(std::min(rect.y1 - y0, kTileSide) * kTileSide)};
       for (int column = rect.x0 / kTileSide; column * kTileSide < rect.x1; ++column) {
         if (grid.touches(records[i], a, column, row)) {
-          lists[static_cast<std::size_t>(column)].push_back(static_cast<std::uint32_t>(i));
+          lists[static_cast<std::size_t>(column)].push_back(reached);
         }
       }
     }
     SplatTile tile;
     for (int column = 0; column < grid.columns(); ++column) {
-      const std::vector<std::uint32_t>& list = lists[static_cast<std::size_t>(column)];
+      const std::vector<TileRecord>& list = lists[static_cast<std::size_t>(column)];
       if (list.empty()) continue;
       const int x0 = column * kTileSide;
       const TileWindow window{x0, y0, std::min(kTileSide, gbuffer.width - x0),
                               std::min(kTileSide, gbuffer.height - y0), gbuffer.width};
       load(tile, gbuffer, window);
       // Runs of records of one kind, in their order.
-      const auto shaped = [&](std::size_t k) { return records[list[k]].footprint != nullptr; };
+      const auto shaped = [&](std::size_t k) { return records[list[k].record].footprint != nullptr; };
       for (std::size_t first = 0, last = 0; first < list.size(); first = last) {
         while (last < list.size() && shaped(last) == shaped(first)) ++last;
         if (!shaped(first)) {
-          kernel(tile, packed.data(), list.data() + first, last - first, 1 / a, kLeastWeight,
-                 1 / buffer.unit_lx);
+          kernels.discs(tile, packed.data(), list.data() + first, last - first, rule);
           continue;
         }
         for (std::size_t k = first; k < last; ++k)
-          add_footprint(tile, records[list[k]], a, 1 / buffer.unit_lx);
+          kernels.footprint(tile, packed[list[k].record], pack_footprint(records[list[k].record]),
+                            list[k].first, list[k].last, rule);
       }
       store(tile, buffer, window);
     }

@@ -1,5 +1,5 @@
-// The inner loop of the CPU splatter: plain arrays only, because it is compiled twice (for x86-64-v3, and for
-// any machine) and shares no inline function with the rest. Both give the same bits: no contraction, no
+// The inner loops of the CPU splatter: plain arrays only, because they are compiled twice (for x86-64-v3, and
+// for any machine) and share no inline function with the rest. Both give the same bits: no contraction, no
 // reassociation.
 #pragma once
 
@@ -29,16 +29,45 @@ struct PackedRecord {
 };
 PackedRecord pack_record(const IrradianceRecord& record);
 
-using SplatKernel = void(SplatTile& tile, const PackedRecord* records, const std::uint32_t* list,
-                         std::size_t count, float inverse_accuracy, float least_weight, float per_unit);
+/// An AdaptiveFootprint as its loop wants it: its frame, and of each axis the inverse of its length and, by
+/// colour, AdaptiveFootprint::Axis with bends halved. per_radius = longest axis / radius.
+struct PackedFootprint {
+  static constexpr int kAxes = 8;
+  float x[3], y[3], inverse_shortest, per_radius;
+  float inverse[kAxes], slope[3][kAxes], half_bend[3][kAxes], turn_slope[3][kAxes], half_turn_bend[3][kAxes];
+};
+/// Of a record that has one.
+PackedFootprint pack_footprint(const IrradianceRecord& record);
 
-/// Adds the listed records in order to a tile.
-/// `per_unit` is 1 / SplatBuffer::unit_lx.
+/// A record and the rows of a tile that it may reach, as a range of the tile's pixels.
+struct TileRecord {
+  std::uint32_t record;
+  std::uint16_t first = 0, last = kTilePixels;
+};
+
+/// What is the same for all records: least_weight = kLeastWeight, per_unit = 1 / SplatBuffer::unit_lx.
+struct SplatRule {
+  float inverse_accuracy, least_weight, per_unit;
+};
+
+/// Adds the listed records in order to a tile. None of them has a footprint.
+using SplatKernel = void(SplatTile& tile, const PackedRecord* records, const TileRecord* list,
+                         std::size_t count, const SplatRule& rule);
+/// Adds a record with a footprint to the pixels [first, last) of a tile.
+using FootprintKernel = void(SplatTile& tile, const PackedRecord& record, const PackedFootprint& footprint,
+                             int first, int last, const SplatRule& rule);
+
 SplatKernel splat_tile_plain;
+FootprintKernel splat_footprint_plain;
 #ifdef PHOS_SPLAT_AVX2
 SplatKernel splat_tile_avx2;
+FootprintKernel splat_footprint_avx2;
 #endif
-/// The fastest one that this machine can run.
-SplatKernel* best_splat_kernel();
+struct SplatKernels {
+  SplatKernel* discs;
+  FootprintKernel* footprint;
+};
+/// The fastest ones that this machine can run.
+SplatKernels best_splat_kernels();
 
 }  // namespace phos

@@ -21,6 +21,7 @@ struct Samples {
 };
 constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},  {1, 16, 16, 16},
                                 {4, 4, 32, 32}, {4, 64, 64, 16}, {32, 64, 32, 32}};
+constexpr Samples kFewInGloss = {1, 1, 2, 2};  ///< gloss finds lamps by rays of both kinds: few of both
 constexpr Samples kFine = {32, 64, 32, 32}, kTimed = {1, 16, 8, 4};
 constexpr double kSensorRays[] = {4, 64};
 constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
@@ -124,11 +125,13 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   const Knobs caches[] = {knobs_of(kPhotons[0], kAccuracy[0], kRays[0]),
                           knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
                           knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+  std::vector<Samples> pictures(std::begin(kSamples), std::end(kSamples));
+  if (task.gloss) pictures.push_back(kFewInGloss);
   Rows image, lux;
   for (std::size_t c = 0; c < std::size(caches); ++c) {
     runs.make_caches(caches[c]);
     if (task.image) {
-      for (const Samples& s : kSamples)
+      for (const Samples& s : pictures)
         if (c == 0)
           add_rows(image, runs.sized(with(caches[c], s)), runs.pictures(with(caches[c], s), true), true);
       const Knobs fine = with(caches[c], kFine);

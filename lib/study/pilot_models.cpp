@@ -34,6 +34,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   if (task.gloss) {
     seen.push_back({"noise of gloss rays", {{K::gloss_rays, -1}}});
     seen.push_back({"noise of gloss rays, fast part", {{K::gloss_rays, -2}}});
+    seen.push_back({"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}});
   }
   if (task.specular) seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},

@@ -144,9 +144,9 @@ TEST_F(CpuSplat, KernelsGiveTheSameBits) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
   const std::vector<IrradianceRecord> records = test::records_in_view(rays, camera, 40, 0.5f, 20);
   std::vector<PackedRecord> packed;
-  std::vector<std::uint32_t> list;
+  std::vector<TileRecord> list;
   for (const IrradianceRecord& r : records) {
-    list.push_back(static_cast<std::uint32_t>(packed.size()));
+    list.push_back({static_cast<std::uint32_t>(packed.size())});
     packed.push_back(pack_record(r));
   }
   auto plain = std::make_unique<SplatTile>(), fast = std::make_unique<SplatTile>();
@@ -157,8 +157,8 @@ TEST_F(CpuSplat, KernelsGiveTheSameBits) {
     plain->nx[i] = g.normal[from].x, plain->ny[i] = g.normal[from].y, plain->nz[i] = g.normal[from].z;
   }
   *fast = *plain;
-  splat_tile_plain(*plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
-  splat_tile_avx2(*fast, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
+  splat_tile_plain(*plain, packed.data(), list.data(), list.size(), {1 / kAccuracy, kLeastWeight, 0.01f});
+  splat_tile_avx2(*fast, packed.data(), list.data(), list.size(), {1 / kAccuracy, kLeastWeight, 0.01f});
   EXPECT_EQ(0, std::memcmp(plain.get(), fast.get(), sizeof(SplatTile)));
   EXPECT_GT(*std::max_element(plain->error[3], plain->error[3] + kTilePixels), 3);
 #else

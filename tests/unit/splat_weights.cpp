@@ -79,15 +79,15 @@ TEST(SplatWeights, AloneIsItsOwn) {
 
 #ifdef PHOS_SPLAT_AVX2
 TEST(SplatWeights, BothKernelsGiveTheSameBits) {
-  if (best_splat_kernel() == splat_tile_plain) GTEST_SKIP() << "this machine has only the plain kernel";
+  if (best_splat_kernels().discs == splat_tile_plain) GTEST_SKIP() << "this machine has only the plain kernel";
   const Scene scene = test::cornell();
   const RayScene rays(scene);
   std::vector<IrradianceRecord> records = test::records_in_view(rays, scene.camera[0], 20, 0.5f, 3);
   fade(records);
   std::vector<PackedRecord> packed;
-  std::vector<std::uint32_t> list;
+  std::vector<TileRecord> list;
   for (const IrradianceRecord& r : records)
-    list.push_back(static_cast<std::uint32_t>(packed.size())), packed.push_back(pack_record(r));
+    list.push_back({static_cast<std::uint32_t>(packed.size())}), packed.push_back(pack_record(r));
   SplatTile plain{};
   for (int i = 0; i < kTilePixels; ++i) {
     const Vec3 p =
@@ -97,8 +97,8 @@ TEST(SplatWeights, BothKernelsGiveTheSameBits) {
     plain.nz[i] = n.z;
   }
   SplatTile wide = plain;
-  splat_tile_plain(plain, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
-  splat_tile_avx2(wide, packed.data(), list.data(), list.size(), 1 / kAccuracy, kLeastWeight, 0.01f);
+  splat_tile_plain(plain, packed.data(), list.data(), list.size(), {1 / kAccuracy, kLeastWeight, 0.01f});
+  splat_tile_avx2(wide, packed.data(), list.data(), list.size(), {1 / kAccuracy, kLeastWeight, 0.01f});
   EXPECT_GT(plain.light[3][0], 0);
   EXPECT_EQ(0, std::memcmp(&plain, &wide, sizeof plain));
 }
