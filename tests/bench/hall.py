@@ -92,7 +92,7 @@ with open(output, "w") as file:
         material = name
         print("f", *corners, file=file)
 look = {
-    "hall": ((1, 2.2, 10.8), (13, 1.6, 4)),
+    "hall": ((0.8, 2.4, 6.2), (14, 1.4, 5.4)),
     "table": ((9, 1.9, 8.6), (11.6, 0.3, 6.6)),
     "column": ((13.2, 1.6, 4.6), (15.2, 0.5, 2.6)),
 }
