@@ -16,6 +16,12 @@ constexpr int kMostSurfaces = 8;  // looked at about a place: others do not lie 
 
 }  // namespace
 
+std::size_t grid_order(std::size_t j, int k) {
+  std::size_t i = 0;
+  for (int pair = 0; pair < k; ++pair, j >>= 2) i = i << 2 | (j & 3);
+  return i;
+}
+
 Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uint64_t seed,
                              std::int64_t most) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
@@ -59,18 +65,18 @@ std::optional<std::uint32_t> material_at(const RayScene& rays, const Vec3& p, co
 }
 
 Candidates on_materials(const RayScene& rays, MaterialFilter wanted, Candidates all) {
-  return {all.count, [&rays, wanted = std::move(wanted), sites_of = std::move(all.sites)](
-                         std::size_t i, std::vector<RecordSite>& sites) {
-            const std::size_t before = sites.size();
-            sites_of(i, sites);
-            const auto unwanted = [&](const RecordSite& site) {
-              const std::optional<std::uint32_t> material = material_at(rays, site.position, site.normal);
-              return !material || !wanted(*material);
-            };
-            sites.erase(
-                std::remove_if(sites.begin() + static_cast<std::ptrdiff_t>(before), sites.end(), unwanted),
+  all.sites = [&rays, wanted = std::move(wanted), sites_of = std::move(all.sites)](
+                  std::size_t i, std::vector<RecordSite>& sites) {
+    const std::size_t before = sites.size();
+    sites_of(i, sites);
+    const auto unwanted = [&](const RecordSite& site) {
+      const std::optional<std::uint32_t> material = material_at(rays, site.position, site.normal);
+      return !material || !wanted(*material);
+    };
+    sites.erase(std::remove_if(sites.begin() + static_cast<std::ptrdiff_t>(before), sites.end(), unwanted),
                 sites.end());
-          }};
+  };
+  return all;
 }
 
 }  // namespace phos

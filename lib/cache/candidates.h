@@ -27,7 +27,12 @@ struct Candidates {
   std::size_t count = 0;
   /// Appends the sites of place i < count. Any thread may call it; the same sites each time.
   std::function<void(std::size_t i, std::vector<RecordSite>& sites)> sites;
+  /// Of 4^k places whose first is a multiple of 4^k, one after the other in the order of grid_order(0, k),
+  /// grid_order(1, k), ... lies near the one before.
+  bool coarse_to_fine = false;
 };
+/// Number j of 4^k places that are tried coarse to fine, as one walks over them: its pairs of bits, reversed.
+std::size_t grid_order(std::size_t j, int k);
 
 // Random streams of records, by what they were placed for.
 inline constexpr std::uint64_t kPointItems = std::uint64_t{1} << 40;    ///< + number of the point

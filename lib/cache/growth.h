@@ -66,6 +66,10 @@ class Growth {
   Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved);
 
   bool covered(const RecordSite& site) const { return tree_.covered(site.position, site.normal); }
+  /// The same, with the record that covered a site near by (RecordTree::covered).
+  bool covered(const RecordSite& site, std::size_t& record) const {
+    return tree_.covered(site.position, site.normal, record);
+  }
   void accept(const Made& made);
   /// Adaptive caching (Krivanek et al. 2006), of footprints that ask for it: a new record that foretells
   /// another's light wrongly, where it would be read, comes to reach less far: not there, but at least half

@@ -215,6 +215,9 @@ class RecordTree {
   std::span<const IrradianceRecord> records() const;
   /// Is any record valid at p, n? (A3 with w_min = 0.)
   bool covered(const Vec3& p, const Vec3& n) const;
+  /// The same. `record`, one of records() or any number beyond them, is asked first; it becomes the one that
+  /// was found, which is likely to cover the next point too.
+  bool covered(const Vec3& p, const Vec3& n, std::size_t& record) const;
   /// The irradiance of interpolate() alone, lx, without what its errors cost. `weight` becomes the sum of
   /// weights; 0: a miss.
   Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;

@@ -1,6 +1,7 @@
 #include "cache/placement.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 #include "cache/growth.h"
@@ -13,32 +14,90 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kTaskPlaces = 256;  // looked up by one task
+// Places that are looked up together before what is open is made. Many where next to none of a block was: one
+// then walks from each to the next. Few where many were: neighbours that are open together are made in vain.
+constexpr std::size_t kLeastBlock = 64, kOpenBlock = std::size_t{1} << 14, kMostBlock = std::size_t{1} << 20;
+constexpr std::size_t kNextToNone = 1024;  // one place in so many
 
-/// The sites of places [begin, end) that are not covered, in order.
+/// Places [begin, begin + count), walked over.
+class Walk {
+ public:
+  Walk(const Candidates& candidates, std::size_t begin, std::size_t count) : begin_(begin) {
+    if (!candidates.coarse_to_fine || !std::has_single_bit(count) || begin % count != 0) return;
+    const int bits = std::countr_zero(count);
+    if (bits % 2 == 0) level_ = bits / 2;
+  }
+  std::size_t place(std::size_t j) const { return begin_ + (level_ > 0 ? grid_order(j, level_) : j); }
+
+ private:
+  std::size_t begin_;
+  int level_ = 0;
+};
+
+struct OpenSite {
+  std::size_t place;
+  RecordSite site;
+};
+
+/// use(place, site) for the sites of number [from, to) of a walk that are not covered.
+template <class Use>
+std::uint64_t each_open(const Candidates& candidates, const Growth& growth, const Walk& walk,
+                        std::size_t from, std::size_t to, const Use& use) {
+  std::vector<RecordSite> sites;
+  std::size_t record = static_cast<std::size_t>(-1);
+  std::uint64_t all = 0;
+  for (std::size_t j = from; j < to; ++j) {
+    const std::size_t place = walk.place(j);
+    sites.clear();
+    candidates.sites(place, sites);
+    all += sites.size();
+    for (const RecordSite& site : sites)
+      if (!growth.covered(site, record)) use(place, site);
+  }
+  return all;
+}
+
+/// The sites of places [begin, begin + count) that are not covered, in order.
 std::vector<RecordSite> open_sites(const Candidates& candidates, const Growth& growth, std::size_t begin,
-                                   std::size_t end) {
-  return parallel_reduce<std::vector<RecordSite>>(
-      end - begin, kTaskPlaces, {},
+                                   std::size_t count) {
+  const Walk walk(candidates, begin, count);
+  std::vector<OpenSite> open = parallel_reduce<std::vector<OpenSite>>(
+      count, kTaskPlaces, {},
       [&](std::size_t from, std::size_t to) {
-        std::vector<RecordSite> sites;
-        for (std::size_t i = from; i < to; ++i) candidates.sites(begin + i, sites);
-        std::erase_if(sites, [&](const RecordSite& site) { return growth.covered(site); });
-        return sites;
+        std::vector<OpenSite> part;
+        each_open(candidates, growth, walk, from, to, [&](std::size_t place, const RecordSite& site) {
+          part.push_back({place, site});
+        });
+        return part;
       },
-      [](std::vector<RecordSite>& all, const std::vector<RecordSite>& part) {
+      [](std::vector<OpenSite>& all, const std::vector<OpenSite>& part) {
         all.insert(all.end(), part.begin(), part.end());
       });
+  std::stable_sort(open.begin(), open.end(),
+                   [](const OpenSite& a, const OpenSite& b) { return a.place < b.place; });
+  std::vector<RecordSite> sites;
+  for (const OpenSite& o : open) sites.push_back(o.site);
+  return sites;
+}
+
+/// The largest 4^k places from `begin` on that one walks over, at most `most`.
+std::size_t block_at(std::size_t begin, std::size_t most) {
+  std::size_t block = kLeastBlock;
+  while (block * 4 <= most && begin % (block * 4) == 0) block *= 4;
+  return block;
 }
 
 /// One pass over the candidates. Returns how many records it had to add.
 std::size_t run_pass(const Candidates& candidates, int number, Growth& growth, Placer& placer) {
   Progress progress(number == 1 ? "records" : text("records, pass ", number), candidates.count, "candidates");
-  std::size_t placed = 0;
+  std::size_t placed = 0, most = number == 1 ? kLeastBlock : kOpenBlock;
   for (std::size_t begin = 0; begin < candidates.count;) {
-    const std::size_t block =
-        std::min(candidates.count - begin, std::clamp<std::size_t>(4 * growth.size(), 64, 16384));
-    placed += placer.cover(open_sites(candidates, growth, begin, begin + block));
+    const std::size_t block = std::min(candidates.count - begin, block_at(begin, most));
+    const std::vector<RecordSite> open = open_sites(candidates, growth, begin, block);
+    placed += placer.cover(open);
     begin += block;
+    most = open.size() * kNextToNone < block ? std::min(4 * std::max(most, block), kMostBlock)
+                                             : std::clamp(4 * growth.size(), kLeastBlock, kOpenBlock);
     progress.advance(block);
   }
   return placed;
@@ -49,16 +108,22 @@ struct Cover {
 };
 
 Cover cover_of(const Candidates& candidates, const Growth& growth) {
-  return parallel_reduce<Cover>(
-      candidates.count, 4096, {},
-      [&](std::size_t begin, std::size_t end) {
-        std::vector<RecordSite> sites;
-        for (std::size_t i = begin; i < end; ++i) candidates.sites(i, sites);
-        Cover cover{sites.size(), 0};
-        for (const RecordSite& site : sites) cover.open += !growth.covered(site);
-        return cover;
-      },
-      [](Cover& total, const Cover& part) { total.sites += part.sites, total.open += part.open; });
+  Cover total;
+  for (std::size_t begin = 0; begin < candidates.count;) {
+    const std::size_t block = std::min(candidates.count - begin, block_at(begin, kMostBlock));
+    const Walk walk(candidates, begin, block);
+    total = parallel_reduce<Cover>(
+        block, kTaskPlaces, total,
+        [&](std::size_t from, std::size_t to) {
+          Cover cover;
+          cover.sites = each_open(candidates, growth, walk, from, to,
+                                  [&](std::size_t, const RecordSite&) { ++cover.open; });
+          return cover;
+        },
+        [](Cover& all, const Cover& part) { all.sites += part.sites, all.open += part.open; });
+    begin += block;
+  }
+  return total;
 }
 
 }  // namespace

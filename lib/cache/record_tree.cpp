@@ -87,6 +87,17 @@ struct RecordTree::Impl {
     for (std::uint32_t i = 0; i < records.size(); ++i) hang(i);
   }
 
+  /// Weight at p, n of a record; 0: it is not valid there.
+  float weight_of(const Entry& e, const Vec3& p, const Vec3& n) const {
+    float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
+    if (!(w > kLeastWeight)) return 0;
+    const IrradianceRecord& r = records[e.record];
+    if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
+    if (!(w > kLeastWeight) || record_apart(r, p, n)) return 0;
+    if (leak_test && !record_in_sight(*leak_test, r, p, n)) return 0;
+    return w;
+  }
+
   /// visit(record, weight) for each record valid at p until it returns false.
   template <class Visit>
   void visit_valid(const Vec3& p, const Vec3& n, const Visit& visit) const {
@@ -96,13 +107,8 @@ struct RecordTree::Impl {
     const DVec3 point(p);
     while (cell != kNone) {
       for (const Entry& e : cells[cell].entries) {
-        float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
-        if (!(w > kLeastWeight)) continue;
-        const IrradianceRecord& r = records[e.record];
-        if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
-        if (!(w > kLeastWeight) || record_apart(r, p, n)) continue;
-        if (leak_test && !record_in_sight(*leak_test, r, p, n)) continue;
-        if (!visit(r, w * r.weight)) return;
+        const float w = weight_of(e, p, n);
+        if (w > 0 && !visit(records[e.record], w * records[e.record].weight)) return;
       }
       side /= 2;
       const unsigned o = octant_of(point, cell_lo + side);
@@ -159,6 +165,20 @@ bool RecordTree::covered(const Vec3& p, const Vec3& n) const {
   bool found = false;
   impl_->visit_valid(p, n, [&](const IrradianceRecord&, float) {
     found = true;
+    return false;
+  });
+  return found;
+}
+
+bool RecordTree::covered(const Vec3& p, const Vec3& n, std::size_t& record) const {
+  if (record < impl_->records.size()) {
+    const IrradianceRecord& r = impl_->records[record];
+    if (impl_->weight_of({r.position, r.radius_m, r.normal, static_cast<std::uint32_t>(record)}, p, n) > 0)
+      return true;
+  }
+  bool found = false;
+  impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float) {
+    found = true, record = static_cast<std::size_t>(&r - impl_->records.data());
     return false;
   });
   return found;

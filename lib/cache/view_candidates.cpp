@@ -19,7 +19,8 @@ constexpr int kGlossRays = 2;          // of a glossy visible point
 constexpr float kLeastCosine = 0.05f;  // of a grazing pixel's patch
 
 /// Number i of a square of 2^level pixels each way, coarse to fine: the first 4^k make the regular grid of
-/// 2^k each way. Reads the bits of i two by two, from the lowest, as the bits of x and y from the highest.
+/// 2^k each way. Reads the bits of i two by two, from the lowest, as the bits of x and y from the highest
+/// (grid_order() undoes that).
 void spread(std::uint64_t i, int level, std::int64_t& x, std::int64_t& y) {
   x = y = 0;
   for (int bit = 0; bit < level; ++bit, i >>= 2) {
@@ -86,21 +87,25 @@ class Sight {
   std::vector<RecordSite>& sites_;
 };
 
-/// Placement comes by several times; the sites of a small picture are found once.
+/// Placement comes by several times; the sites of a small picture are found once, and lie in memory as one
+/// walks over each sample's square of 4^level places.
 constexpr std::size_t kRemembered = std::size_t{1} << 22;
 
 template <class Sites>
-Candidates remember(std::size_t count, const Sites& sites_of) {
+Candidates remember(std::size_t count, int level, const Sites& sites_of) {
   struct Found {
     std::vector<RecordSite> sites;
     std::vector<std::uint32_t> end;  // of each place's sites
+  };
+  const auto walked = [level, mask = (std::size_t{1} << 2 * level) - 1](std::size_t i) {
+    return (i & ~mask) | grid_order(i & mask, level);
   };
   auto found = std::make_shared<Found>(parallel_reduce<Found>(
       count, 4096, {},
       [&](std::size_t begin, std::size_t end) {
         Found part;
         for (std::size_t i = begin; i < end; ++i) {
-          sites_of(i, part.sites);
+          sites_of(walked(i), part.sites);
           part.end.push_back(static_cast<std::uint32_t>(part.sites.size()));
         }
         return part;
@@ -110,10 +115,13 @@ Candidates remember(std::size_t count, const Sites& sites_of) {
         all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
         for (const std::uint32_t end : part.end) all.end.push_back(before + end);
       }));
-  return {count, [found](std::size_t i, std::vector<RecordSite>& out) {
-            const std::uint32_t begin = i == 0 ? 0 : found->end[i - 1];
-            out.insert(out.end(), found->sites.begin() + begin, found->sites.begin() + found->end[i]);
-          }};
+  return {count,
+          [found, walked](std::size_t i, std::vector<RecordSite>& out) {
+            const std::size_t at = walked(i);
+            const std::uint32_t begin = at == 0 ? 0 : found->end[at - 1];
+            out.insert(out.end(), found->sites.begin() + begin, found->sites.begin() + found->end[at]);
+          },
+          true};
 }
 
 float aspect_of(const View& view) { return static_cast<float>(view.width) / static_cast<float>(view.height); }
@@ -144,9 +152,9 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
     spread(i % square, level, x, y);
     if (x >= view.width || y >= view.height) return;
     const Vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-    const Vec2 st =
-        (Vec2(static_cast<float>(x), static_cast<float>(y)) + r2_point(static_cast<int>(i / square), Vec2(0.5f))) /
-        size;
+    const Vec2 st = (Vec2(static_cast<float>(x), static_cast<float>(y)) +
+                     r2_point(static_cast<int>(i / square), Vec2(0.5f))) /
+                    size;
     const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
     const std::size_t first = out.size();
     Sight(rays, view, wanted, st, out).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
@@ -155,7 +163,7 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
       out[k].item = kViewItems + 16 * i + std::min<std::size_t>(k - first, 15);
   };
   const std::size_t count = kViewSamples * square;
-  return count <= kRemembered ? remember(count, sites) : Candidates{count, sites};
+  return count <= kRemembered ? remember(count, level, sites) : Candidates{count, sites, true};
 }
 
 }  // namespace phos

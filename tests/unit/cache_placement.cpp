@@ -157,6 +157,33 @@ TEST(ViewPlacement, GoesFromCoarseToFine) {
   EXPECT_EQ(cells.size(), 16u);
 }
 
+/// Any block of 4^k places can be walked over, each next to the one before.
+TEST(ViewPlacement, CanBeWalkedOver) {
+  const Scene scene = test::furnace(0.5f).scene;
+  const RayScene rays(scene);
+  const Candidates candidates = view_candidates(rays, {scene.camera[0], 64, 64});
+  ASSERT_TRUE(candidates.coarse_to_fine);
+  for (const int k : {2, 4, 6}) {
+    const std::size_t count = std::size_t{1} << 2 * k, first = 3 * count;
+    std::set<std::size_t> visited;
+    double way = 0;
+    Vec2 last(0);
+    for (std::size_t j = 0; j < count; ++j) {
+      visited.insert(grid_order(j, k));
+      std::vector<RecordSite> sites;
+      candidates.sites(first + grid_order(j, k), sites);
+      ASSERT_EQ(sites.size(), 1u);
+      const Vec4 clip = scene.camera[0].view_projection(1, 0.01f, 10.f) * Vec4(sites[0].position, 1);
+      const Vec2 seen = 0.5f * Vec2(clip) / clip.w;
+      if (j > 0) way += static_cast<double>(glm::length(seen - last));
+      last = seen;
+    }
+    EXPECT_EQ(visited.size(), count);
+    // A Z-curve: 1.7 sides of a cell of the grid, on the mean.
+    EXPECT_LT(way / static_cast<double>(count), 2.2 / (1 << k));
+  }
+}
+
 /// A camera that looks at a mirror, which shows the wall behind the camera.
 Scene mirror_room() {
   Scene scene;

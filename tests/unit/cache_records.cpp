@@ -106,6 +106,7 @@ Interpolated brute_force(std::span<const IrradianceRecord> records, float accura
 
 void expect_same_as_brute_force(const RecordTree& tree, float accuracy) {
   int hits = 0;
+  std::size_t record = 1000000;  // beyond all of them, at first
   for (std::uint64_t i = 0; i < 3000; ++i) {
     RandomStream random(5, Stage::test, i);
     const Vec3 p = Vec3(random.uniform(), random.uniform(), random.uniform()) * 1.6f - 0.3f;
@@ -115,6 +116,7 @@ void expect_same_as_brute_force(const RecordTree& tree, float accuracy) {
     EXPECT_NEAR(a.irradiance.x, b.irradiance.x, 1e-3f);
     EXPECT_NEAR(a.stderr_lx.y, b.stderr_lx.y, 1e-3f);
     EXPECT_EQ(tree.covered(p, n), b.weight > 0);
+    EXPECT_EQ(tree.covered(p, n, record), b.weight > 0);
     hits += b.weight > 0;
   }
   EXPECT_GT(hits, 300);

@@ -15,7 +15,8 @@ namespace {
 
 constexpr float kAccuracy = 0.25f;
 
-/// Three in four records get axes of a tenth to all of their reach, and light that bends along and about them.
+/// Three in four records get axes of a tenth to all of their reach, and light that bends along and about
+/// them.
 void shape(std::vector<IrradianceRecord>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (i % 4 == 0) continue;
