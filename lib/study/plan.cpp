@@ -44,6 +44,24 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   return groups;
 }
 
+/// The same settings with more rays from pixels and sensors, as make_plan() promises.
+Prediction with_enough_rays(const PlanTask& task, const Pilot& pilot, Prediction p) {
+  const double most_s = (1 + kNextToNothing) * p.seconds.value;
+  std::vector<Knob> kinds;
+  if (task.image) kinds = {Knob::light_rays, Knob::edge_samples};
+  if (task.image && task.gloss) kinds.push_back(Knob::gloss_rays);
+  if (task.lux) kinds.push_back(Knob::sensor_rays);
+  for (const Knob kind : kinds)
+    while (2 * p.knobs[at(kind)] <= kEnoughRays) {
+      Knobs k = p.knobs;
+      k[at(kind)] *= 2;
+      const Prediction more = predict(task, pilot, k);
+      if (more.seconds.value > most_s) break;
+      p = more;
+    }
+  return p;
+}
+
 Interval root(Interval squared) {
   return {std::sqrt(squared.low), std::sqrt(squared.value), std::sqrt(squared.high)};
 }
@@ -158,6 +176,7 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
     found = guess;
     if (wide) *wide = true;
   }
+  if (found) found = with_enough_rays(task, pilot, *found);
   return found;
 }
 
