@@ -14,6 +14,8 @@
 
 namespace phos {
 
+class CameraRays;
+
 struct SurfaceSample {
   Vec3 position{0}, normal{0, 0, 1};
 };
@@ -71,5 +73,7 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
 /// pixel in [0,1]^2, `travelled_m` the length of the ray's way (mirrors: all of it), `cosine` that between
 /// ray and surface normal. A grazing pixel's patch counts as one seen at a cosine of 0.05.
 float pixel_side_m(const View& view, const Vec2& st, float travelled_m, float cosine);
+/// The same for many pixels: `eye` sees the view.
+float pixel_side_m(const View& view, const CameraRays& eye, const Vec2& st, float travelled_m, float cosine);
 
 }  // namespace phos

@@ -89,17 +89,13 @@ LightNearby::LightNearby(std::span<const Hemisphere> passes, GradientMode mode, 
       inverse_d2_.push_back(1 / d / d);
     }
     if (mode != GradientMode::hybrid) continue;
-    const Gradients seen = ray_gradients(h, mode, least_m),
-                    blind = ray_gradients(h, GradientMode::analytic, least_m);
+    const OcclusionGradient edges = occlusion_gradient(h, least_m);
     for (int c = 0; c < 3; ++c) {
-      const Vec3 g = weight * (seen.translation[c] - blind.translation[c]);
-      occlusion_[0][c] += glm::dot(g, frame_.x), occlusion_[1][c] += glm::dot(g, frame_.y);
+      occlusion_[0][c] += weight * glm::dot(edges.light[c], frame_.x);
+      occlusion_[1][c] += weight * glm::dot(edges.light[c], frame_.y);
     }
-    Hemisphere even = h;
-    std::fill(even.radiance.begin(), even.radiance.end(), Rgb(1 / kPi));
-    const Vec3 g = weight * (ray_gradients(even, mode, least_m).translation[0] -
-                             ray_gradients(even, GradientMode::analytic, least_m).translation[0]);
-    occlusion_seen_[0] += glm::dot(g, frame_.x), occlusion_seen_[1] += glm::dot(g, frame_.y);
+    occlusion_seen_[0] += weight * glm::dot(edges.even, frame_.x);
+    occlusion_seen_[1] += weight * glm::dot(edges.even, frame_.y);
   }
   share_.resize(red_.size());
 }

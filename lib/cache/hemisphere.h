@@ -93,4 +93,12 @@ bool one_hides_other(const Hemisphere& h, std::size_t a, std::size_t b, float le
 /// that starts at a crease).
 Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m);
 
+/// What occlusion adds to the translation gradient (B5): mode hybrid less mode analytic, of a stratified set
+/// of equal projected solid angles.
+struct OcclusionGradient {
+  Vec3 light[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx/m, by colour
+  Vec3 even{0};                              ///< 1/m: were all of the hemisphere of radiance 1 / pi
+};
+OcclusionGradient occlusion_gradient(const Hemisphere& h, float least_m);
+
 }  // namespace phos

@@ -156,14 +156,20 @@ bool in_front(const Hemisphere& h, std::size_t at, std::size_t of) {
   return glm::dot(normal, step) >= -kTangent * glm::length(step);
 }
 
+struct Occlusion {
+  Sum light;
+  DVec2 even{0};
+};
+
 /// B5: at an edge before which lies something near, that moves with the near thing.
-Sum occlusion(const Hemisphere& h, const Cells& cells, float least_m) {
-  Sum sum;
+Occlusion occlusion(const Hemisphere& h, const Cells& cells, float least_m) {
+  Occlusion sum;
   cells.for_each_wall([&](std::size_t before, std::size_t cell, double length, const DVec2& direction) {
     if (!one_hides_other(h, before, cell, least_m)) return;
-    const double a = cells.nearness(before), b = cells.nearness(cell);
+    const double a = cells.nearness(before), b = cells.nearness(cell), swept = length * std::fabs(a - b);
     const DVec3 far = a >= b ? cells.light(cell) : -cells.light(before);
-    sum.add(length * std::fabs(a - b) * far, direction);
+    sum.light.add(swept * far, direction);
+    sum.even += (a >= b ? swept : -swept) * std::numbers::inv_pi * direction;
   });
   return sum;
 }
@@ -202,7 +208,7 @@ Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m) {
       break;
     case GradientMode::hybrid: {
       translation = analytic(h, least_m);
-      const Sum edges = occlusion(h, cells, least_m);
+      const Sum edges = occlusion(h, cells, least_m).light;
       for (int c = 0; c < 3; ++c) translation.rows[c] += edges.rows[c];
       break;
     }
@@ -210,6 +216,15 @@ Gradients ray_gradients(const Hemisphere& h, GradientMode mode, float least_m) {
       PHOS_CHECK(false, "not a gradient of rays: ", name_of(mode));
   }
   translation.to(g.translation, h.frame);
+  return g;
+}
+
+OcclusionGradient occlusion_gradient(const Hemisphere& h, float least_m) {
+  PHOS_CHECK(h.stratified() && h.measure != Measure::solid, "no cells of equal projected solid angle");
+  const Occlusion sum = occlusion(h, Cells(h, least_m), least_m);
+  OcclusionGradient g;
+  sum.light.to(g.light, h.frame);
+  g.even = h.frame.to_world(Vec3(Vec2(sum.even), 0));
   return g;
 }
 

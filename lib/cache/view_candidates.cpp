@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/camera_rays.h"
 
 namespace phos {
 namespace {
@@ -31,9 +32,9 @@ void spread(std::uint64_t i, int level, std::int64_t& x, std::int64_t& y) {
 /// The sites that one ray from the eye finds.
 class Sight {
  public:
-  Sight(const RayScene& rays, const View& view, const MaterialFilter& wanted, const Vec2& st,
-        std::vector<RecordSite>& sites)
-      : rays_(rays), view_(view), wanted_(wanted), st_(st), sites_(sites) {}
+  Sight(const RayScene& rays, const View& view, const CameraRays& eye, const MaterialFilter& wanted,
+        const Vec2& st, std::vector<RecordSite>& sites)
+      : rays_(rays), view_(view), eye_(eye), wanted_(wanted), st_(st), sites_(sites) {}
 
   void look(const Ray& ray, float travelled_m, const Rgb& throughput, int depth) {
     SurfacePoint point;
@@ -49,7 +50,8 @@ class Sight {
   void add(const SurfacePoint& point, float travelled_m, const Vec3& towards_eye) {
     RecordSite site{point.position, point.smooth_normal};
     if (view_.least_radius_pixels > 0 || view_.most_radius_pixels > 0) {
-      const float side = pixel_side_m(view_, st_, travelled_m, glm::dot(point.geometric_normal, towards_eye));
+      const float side =
+          pixel_side_m(view_, eye_, st_, travelled_m, glm::dot(point.geometric_normal, towards_eye));
       site.least_radius_m = static_cast<float>(view_.least_radius_pixels) * side;
       if (view_.most_radius_pixels > 0)
         site.most_radius_m = static_cast<float>(view_.most_radius_pixels) * side;
@@ -82,6 +84,7 @@ class Sight {
 
   const RayScene& rays_;
   const View& view_;
+  const CameraRays& eye_;
   const MaterialFilter& wanted_;
   const Vec2 st_;
   std::vector<RecordSite>& sites_;
@@ -124,13 +127,19 @@ Candidates remember(std::size_t count, int level, const Sites& sites_of) {
           true};
 }
 
-float aspect_of(const View& view) { return static_cast<float>(view.width) / static_cast<float>(view.height); }
+CameraRays rays_of(const View& view) {
+  return {view.camera, static_cast<float>(view.width) / static_cast<float>(view.height)};
+}
 
 }  // namespace
 
 float pixel_side_m(const View& view, const Vec2& st, float travelled_m, float cosine) {
+  return pixel_side_m(view, rays_of(view), st, travelled_m, cosine);
+}
+
+float pixel_side_m(const View& view, const CameraRays& eye, const Vec2& st, float travelled_m, float cosine) {
   const auto end = [&](const Vec2& at) {
-    const Camera::Ray ray = view.camera.ray(at, aspect_of(view));
+    const Camera::Ray ray = eye(at);
     return DVec3(ray.origin) + static_cast<double>(travelled_m) * DVec3(ray.direction);
   };
   // Over a thousandth of the picture at least: a pixel may be too small for differences of floats.
@@ -147,7 +156,8 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
   const auto longer = static_cast<std::uint64_t>(std::max(view.width, view.height));
   const auto level = static_cast<int>(std::bit_width(longer - 1));
   const std::uint64_t square = std::uint64_t{1} << (2 * level);
-  const auto sites = [&rays, view, wanted, level, square](std::size_t i, std::vector<RecordSite>& out) {
+  const auto sites = [&rays, view, eye = rays_of(view), wanted, level, square](std::size_t i,
+                                                                               std::vector<RecordSite>& out) {
     std::int64_t x, y;
     spread(i % square, level, x, y);
     if (x >= view.width || y >= view.height) return;
@@ -155,9 +165,9 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
     const Vec2 st = (Vec2(static_cast<float>(x), static_cast<float>(y)) +
                      r2_point(static_cast<int>(i / square), Vec2(0.5f))) /
                     size;
-    const Camera::Ray eye = view.camera.ray(st, aspect_of(view));
+    const Camera::Ray ray = eye(st);
     const std::size_t first = out.size();
-    Sight(rays, view, wanted, st, out).look({eye.origin, eye.direction}, 0, Rgb(1), 0);
+    Sight(rays, view, eye, wanted, st, out).look({ray.origin, ray.direction}, 0, Rgb(1), 0);
     // The first few of a pixel's sites have streams of their own; the rest, behind many mirrors, share.
     for (std::size_t k = first; k < out.size(); ++k)
       out[k].item = kViewItems + 16 * i + std::min<std::size_t>(k - first, 15);

@@ -117,6 +117,27 @@ TEST(RayGradients, RotationAgreesWithTheTable) {
   EXPECT_GE(rows, 12);
 }
 
+/// What occlusion adds by itself, of the light that is there and of even light.
+TEST(RayGradients, OcclusionIsWhatTheHybridHasMore) {
+  double most = 0;
+  for (const test::GradientScene& scene : test::gradient_scenes()) {
+    RandomStream random(32, Stage::test, 1);
+    Hemisphere h = test::seen_by_rays(scene, 16, slices_for(16), random);
+    const OcclusionGradient edges = occlusion_gradient(h, 1e-6f);
+    const auto expect = [&](const Vec3& found, int channel, const char* what) {
+      const Vec3 hybrid = ray_gradients(h, GradientMode::hybrid, 1e-6f).translation[channel],
+                 blind = ray_gradients(h, GradientMode::analytic, 1e-6f).translation[channel];
+      EXPECT_LE(glm::length(found - (hybrid - blind)), 1e-5f * (glm::length(hybrid) + glm::length(blind)))
+          << scene.name << what;
+      most = std::max(most, static_cast<double>(glm::length(found)));
+    };
+    for (int c = 0; c < 3; ++c) expect(edges.light[c], c, " light");
+    std::fill(h.radiance.begin(), h.radiance.end(), Rgb(1 / kPi));
+    expect(edges.even, 0, " even");
+  }
+  EXPECT_GT(most, 0.1);
+}
+
 /// What is unbiased must be so, whatever the tables say: within four standard errors of the closed form and a
 /// bias that the width of the cells leaves (FORMULAS B: of the order of 1/M^2).
 TEST(RayGradients, AgreeWithClosedForms) {
