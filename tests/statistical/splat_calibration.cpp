@@ -11,20 +11,20 @@ namespace {
 class EveryScene : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(EveryScene, TwoStandardErrorsHoldThePixels) {
-  constexpr std::uint64_t kSeeds = 12;
   const CalibratedPicture picture(all_point_scenes()[GetParam()], CalibrationOptions::small());
+  // In a furnace that keeps 99 % each seed is one trial: all its light rises and falls together.
+  const bool common = picture.name() == "furnace 0.99";
+  const std::uint64_t seeds = common ? 48 : 12;
   std::map<std::string, Calibration> table;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) picture.measure(seed, table);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) picture.measure(seed, table);
   EXPECT_GE(table.size(), 2u);
   for (const auto& [what, c] : table) {
     EXPECT_GT(c.n, 1000) << what;
     if (c.exact_share() == 1) continue;  // there is no error
-    // In a furnace that keeps 99 % each seed is one trial: all its light rises and falls together.
-    const bool common = picture.name() == "furnace 0.99";
     EXPECT_GE(c.share(), common ? 0.7 : 0.86)
         << picture.name() << ", " << what << ": true over stated " << c.ratio();
     EXPECT_LE(c.share(), 0.997) << picture.name() << ", " << what;
-    EXPECT_LT(c.ratio(), common ? 1.42 : 1.4) << picture.name() << ", " << what;
+    EXPECT_LT(c.ratio(), 1.4) << picture.name() << ", " << what;
     EXPECT_LT(std::fabs(c.bias()), 0.5) << picture.name() << ", " << what;
   }
 }
