@@ -9,30 +9,16 @@
 # build/release/bin; needs python3.
 set -euo pipefail
 [[ $# -ge 1 && $1 != -* ]] || { sed -n '2,10s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 folder=$1
 shift
 views="hall table column" width=800 rays=256 traced="64 256" interleaved="16 64" photons=400000 samples=64 threads=0
-while (($# > 1)); do
-  case $1 in
-    --views) views=$2 ;; --width) width=$2 ;; --rays) rays=$2 ;; --traced) traced=$2 ;; --interleaved) interleaved=$2 ;;
-    --photons) photons=$2 ;; --samples) samples=$2 ;; --threads) threads=$2 ;;
-    *) echo "unknown: $1" >&2 && exit 2 ;;
-  esac
-  shift 2
-done
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$PATH:$here/../../build/release/bin
+take_options "views width rays traced interleaved photons samples threads" "$@"
 mkdir -p "$folder"
 scene=$folder/hall.obj
 python3 "$here/hall.py" "$scene"
 light=(--sky overcast --portals auto --threads "$threads" --quiet)
 
-timed() { # prints seconds; what a program says is shown if it fails
-  local start
-  start=$(date +%s.%N)
-  "$@" 2>"$folder/race.log" || { cat "$folder/race.log" >&2; exit 1; }
-  awk "BEGIN { printf \"%.2f\", $(date +%s.%N) - $start }"
-}
 records() { # CACHE OPTION...
   local cache=$1 add=()
   shift
@@ -40,31 +26,26 @@ records() { # CACHE OPTION...
   timed phos-irradiance "$scene" "$folder/hall.photons" "${light[@]}" --place view --camera "$view" --width "$width" \
     --estimate gather --rays "$rays" "$@" "${add[@]}" --stats "$folder/records.json" -o "$cache"
 }
-count() { sed -n 's/^  "records_new": *\([0-9]*\),*$/\1/p' "$folder/records.json"; }
 row() { printf '%-8s %-16s %8s %9s %9s %8s %7s\n' "$@"; }
 draw() { # WAY CACHE RECORDS RECORDS_S OPTION...
   local way=$1 cache=$2 made=$3 records_s=$4 picture_s
   shift 4
   picture_s=$(timed phos-splat "$scene" "$cache" "${light[@]}" --camera "$view" --width "$width" "$@" -o "$folder/picture.exr")
-  row "$view" "$way" "$made" "$records_s" "$picture_s" "$(awk "BEGIN { printf \"%.2f\", $records_s + $picture_s }")" \
-    "$(phos-compare "$folder/picture.exr" "$folder/$view-$width-1.exr" --second-reference "$folder/$view-$width-2.exr" --ignore-emission \
-      --json | awk -F'[:,]' '/"relative_converged_rmse"/ { printf "%.2f", 100 * $2; exit }')"
+  row "$view" "$way" "$made" "$records_s" "$picture_s" "$(calculate %.2f "$records_s + $picture_s")" \
+    "$(true_error "$folder/picture.exr" "$folder/$view-$width" --layer beauty --ignore-emission)"
 }
 
 rm -f "$folder"/{cached,traced}.irradiance
 phos-photons "$scene" "${light[@]}" --photons "$photons" --reuse -o "$folder/hall.photons"
 for view in $views; do
-  for seed in 1 2; do
-    phos-reference "$scene" "${light[@]}" --camera "$view" --width "$width" --samples "$samples" --adaptive --seed $seed --reuse \
-      -o "$folder/$view-$width-$seed.exr"
-  done
+  reference_pair "$folder/$view-$width" "$scene" "${light[@]}" --camera "$view" --width "$width" --samples "$samples" --adaptive
 done
 row view way records records_s picture_s all_s 'error%'
 for view in $views; do
   cached_s=$(records "$folder/cached.irradiance" --footprint adaptive --direct cached)
-  draw cached "$folder/cached.irradiance" "$(count)" "$cached_s"
+  draw cached "$folder/cached.irradiance" "$(count_of records_new "$folder/records.json")" "$cached_s"
   traced_s=$(records "$folder/traced.irradiance")
-  made=$(count)
+  made=$(count_of records_new "$folder/records.json")
   for n in $traced; do draw "traced $n" "$folder/traced.irradiance" "$made" "$traced_s" --direct traced --light-samples "$n"; done
   for n in $interleaved; do
     draw "interleaved $n" "$folder/traced.irradiance" "$made" "$traced_s" --direct interleaved --light-samples "$n"

@@ -7,39 +7,21 @@
 # FOLDER), their noise taken out. Then the same for phos-reference with so many paths a pixel. Programs from PATH or build/release/bin.
 set -euo pipefail
 [[ $# -ge 2 && $1 != -* ]] || { sed -n '2,7s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
 ways="circle-min:0.2 circle-min:0.4 circle-harmonic:0.1 circle-harmonic:0.2 adaptive:0.2 adaptive:0.2:cached adaptive:0.4:cached"
 width=800 rays=512 light_samples=30 photons=200000 paths="8 32" samples=256 threads=0 runs=1
-while (($# > 1)); do
-  case $1 in
-    --ways) ways=$2 ;; --width) width=$2 ;; --rays) rays=$2 ;; --light-samples) light_samples=$2 ;; --photons) photons=$2 ;;
-    --paths) paths=$2 ;; --samples) samples=$2 ;; --threads) threads=$2 ;; --runs) runs=$2 ;;
-    *) echo "unknown: $1" >&2 && exit 2 ;;
-  esac
-  shift 2
-done
-[[ -f $scene ]] || { echo "footprint_race.sh: $scene: no such file" >&2; exit 3; }
-PATH=$PATH:$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/build/release/bin
+take_options "ways width rays light_samples photons paths samples threads runs" "$@"
+require_file "$scene"
 mkdir -p "$folder"
 base=$folder/$(basename "${scene%.*}")-$width
 common=(--threads "$threads" --quiet)
 
-timed() { # prints seconds; what a program says is shown if it fails
-  local start
-  start=$(date +%s.%N)
-  "$@" 2>"$folder/race.log" || { cat "$folder/race.log" >&2; exit 1; }
-  awk "BEGIN { printf \"%.2f\", $(date +%s.%N) - $start }"
-}
-true_error() {
-  phos-compare "$1" "$base-1.exr" --second-reference "$base-2.exr" --ignore-emission --json |
-    awk -F'[:,]' '/"relative_converged_rmse"/ { printf "%.2f", 100 * $2; exit }'
-}
+error_of() { true_error "$1" "$base" --layer beauty --ignore-emission; }
 row() { printf '%-24s %8s %9s %9s %9s %8s %7s\n' "$@"; }
 
-for seed in 1 2; do
-  phos-reference "$scene" --width "$width" --samples "$samples" --adaptive --seed $seed --reuse "${common[@]}" -o "$base-$seed.exr"
-done
+reference_pair "$base" "$scene" --width "$width" --samples "$samples" --adaptive --threads "$threads"
 row way records photons_s records_s picture_s all_s 'error%'
 for ((run = 0; run < runs; ++run)); do
   for way in $ways; do
@@ -51,11 +33,11 @@ for ((run = 0; run < runs; ++run)); do
     lamps=(--direct traced --light-samples "$light_samples")
     [[ -z $direct ]] || lamps=()
     picture_s=$(timed phos-splat "$scene" "$base.irradiance" --width "$width" --splat cpu "${lamps[@]}" "${common[@]}" -o "$base.exr")
-    row "$way" "$(sed -n 's/^  "records": *\([0-9]*\),*$/\1/p' "$base.json")" "$photons_s" "$records_s" "$picture_s" \
-      "$(awk "BEGIN { printf \"%.2f\", $photons_s + $records_s + $picture_s }")" "$(true_error "$base.exr")"
+    row "$way" "$(count_of records "$base.json")" "$photons_s" "$records_s" "$picture_s" \
+      "$(calculate %.2f "$photons_s + $records_s + $picture_s")" "$(error_of "$base.exr")"
   done
   for n in $paths; do
     all_s=$(timed phos-reference "$scene" --width "$width" --samples "$n" --seed 9 "${common[@]}" -o "$base.exr")
-    row "$n paths" - - - - "$all_s" "$(true_error "$base.exr")"
+    row "$n paths" - - - - "$all_s" "$(error_of "$base.exr")"
   done
 done

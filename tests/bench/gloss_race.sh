@@ -9,44 +9,24 @@
 # Programs from PATH or build/release/bin; --lobes needs python3.
 set -euo pipefail
 [[ $# -ge 2 && $1 != -* ]] || { sed -n '2,9s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
 lobes=as-is material=back-glossy width=850 rays=4000 accuracy=0.3 read=0.6 traced=256 samples=64 photons=400000 threads=0 runs=1
-while (($# > 1)); do
-  case $1 in
-    --lobes) lobes=$2 ;; --material) material=$2 ;; --width) width=$2 ;; --rays) rays=$2 ;; --accuracy) accuracy=$2 ;;
-    --read) read=$2 ;; --traced) traced=$2 ;; --samples) samples=$2 ;; --photons) photons=$2 ;; --threads) threads=$2 ;;
-    --runs) runs=$2 ;; *) echo "unknown: $1" >&2 && exit 2 ;;
-  esac
-  shift 2
-done
-[[ -f $scene ]] || { echo "gloss_race.sh: $scene: no such file" >&2; exit 3; }
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$PATH:$here/../../build/release/bin
+take_options "lobes material width rays accuracy read traced samples photons threads runs" "$@"
+require_file "$scene"
 mkdir -p "$folder"
 common=(--threads "$threads" --quiet)
 
-calculate() { awk "BEGIN { printf \"$1\", $2 }"; }
-timed() { # prints seconds; what a program says is shown if it fails
-  local start
-  start=$(date +%s.%N)
-  "$@" 2>"$folder/race.log" || { cat "$folder/race.log" >&2; exit 1; }
-  calculate %.3f "$(date +%s.%N) - $start"
-}
 draw() { phos-splat "$base.glb" "$base.irradiance" "$@" --width "$width" --splat cpu --light-samples 1 --layers glossy "${common[@]}"; }
-true_error() {
-  phos-compare "$1" "$base-1.exr" --second-reference "$base-2.exr" --layer glossy --json |
-    awk -F'[:,]' '/"relative_converged_rmse"/ { printf "%.2f", 100 * $2; exit }'
-}
+error_of() { true_error "$1" "$base" --layer glossy; }
 row() { printf '%-10s %7s %9s %7s %7s | %6s %7s | %8s %6s  %s\n' "$@"; }
 
 row lobe records records_s draw_s 'error%' "rays_s" 'error%' equal_s ratio auto
 for lobe in $lobes; do
   base=$folder/${lobe//:/-}-$width
   if [[ $lobe == as-is ]]; then cp "$scene" "$base.glb"; else python3 "$here/gloss_lobe.py" "$scene" "$material" "$lobe" "$base.glb"; fi
-  for seed in 1 2; do
-    phos-reference "$base.glb" --width "$width" --samples "$samples" --seed $seed --reuse "${common[@]}" -o "$base-$seed.exr"
-  done
+  reference_pair "$base" "$base.glb" --width "$width" --samples "$samples" --threads "$threads"
   phos-photons "$base.glb" --photons "$photons" --reuse "${common[@]}" -o "$base.photons"
   phos-irradiance "$base.glb" "$base.photons" --place view --width "$width" --reuse "${common[@]}" -o "$base.irradiance"
   auto=$(phos-scene "$base.glb" --json | awk -F'[:,]' '/"traced_share"/ { print ($2 < 0.5 ? "records" : "rays"); exit }')
@@ -57,7 +37,7 @@ for lobe in $lobes; do
     none_s=$(timed draw --gloss traced --gloss-samples 0 -o "$base-none.exr")
     cached_s=$(timed draw "$base.radiance" "$base.brdf" --gloss cached --accuracy "$read" -o "$base-cached.exr")
     traced_s=$(timed draw --gloss traced --gloss-samples "$traced" -o "$base-traced.exr")
-    error=$(true_error "$base-cached.exr") traced_error=$(true_error "$base-traced.exr")
+    error=$(error_of "$base-cached.exr") traced_error=$(error_of "$base-traced.exr")
     draw_s=$(calculate %.2f "$cached_s - $none_s") rays_s=$(calculate %.2f "$traced_s - $none_s")
     # Errors of 0 are below what the references can tell.
     equal_s=- ratio=-
@@ -65,7 +45,7 @@ for lobe in $lobes; do
       equal_s=$(calculate %.2f "$rays_s * ($traced_error / $error) ^ 2")
       ratio=$(calculate %.1f "$equal_s / ($records_s + $draw_s)")
     fi
-    row "$lobe" "$(sed -n 's/^  "records": *\([0-9]*\),*$/\1/p' "$base.json")" "$(calculate %.2f "$records_s")" "$draw_s" "$error" \
+    row "$lobe" "$(count_of records "$base.json")" "$(calculate %.2f "$records_s")" "$draw_s" "$error" \
       "$rays_s" "$traced_error" "$equal_s" "$ratio" "$auto"
   done
 done

@@ -8,46 +8,26 @@
 # taken out, emission left out. The defaults are those for sponza-flat at 3.6 %. Programs from PATH or build/release/bin.
 set -euo pipefail
 [[ $# -ge 2 && $1 != -* ]] || { sed -n '2,9s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
 places=112 accuracy=0.4 rays=256 min_radius=0.1 light_samples=7 edge_samples=16 side=1000 samples=64 runs=3 cycles=
-while (($# > 1)); do
-  case $1 in
-    --places) places=$2 ;; --accuracy) accuracy=$2 ;; --rays) rays=$2 ;; --min-radius) min_radius=$2 ;;
-    --light-samples) light_samples=$2 ;; --edge-samples) edge_samples=$2 ;; --side) side=$2 ;; --samples) samples=$2 ;;
-    --runs) runs=$2 ;; --cycles) cycles=$2 ;; *) echo "unknown: $1" >&2 && exit 2 ;;
-  esac
-  shift 2
-done
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-PATH=$PATH:$here/../../build/release/bin
+take_options "places accuracy rays min_radius light_samples edge_samples side samples runs cycles" "$@"
+require_file "$scene"
 mkdir -p "$folder"
-
-now() { date +%s.%N; }
-seconds() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", b - a }'; }
-true_error() {
-  phos-compare "$1" "$folder/reference_1.exr" --second-reference "$folder/reference_2.exr" --layer beauty --ignore-emission --json |
-    awk -F'[:,]' '/"relative_converged_rmse"/ { printf "%.2f %%\n", 100 * $2; exit }'
-}
-
-for seed in 1 2; do
-  phos-reference "$scene" --bounces 2 --width "$side" --height "$side" --samples "$samples" --seed $seed --reuse --quiet \
-    -o "$folder/reference_$seed.exr"
-done
+reference_pair "$folder/reference" "$scene" --bounces 2 --width "$side" --height "$side" --samples "$samples"
+error_of() { true_error "$1" "$folder/reference" --layer beauty --ignore-emission; }
 for ((run = 0; run < runs; ++run)); do
-  start=$(now)
-  phos-irradiance "$scene" --estimate gather --gather-bounces 1 --place view --width "$places" --height "$places" \
-    --accuracy "$accuracy" --rays "$rays" --min-radius "$min_radius" --threads 1 --quiet -o "$folder/race.irradiance"
-  middle=$(now)
-  phos-splat "$scene" "$folder/race.irradiance" --width "$side" --height "$side" --accuracy 0.95 --splat cpu \
+  records_s=$(timed phos-irradiance "$scene" --estimate gather --gather-bounces 1 --place view --width "$places" --height "$places" \
+    --accuracy "$accuracy" --rays "$rays" --min-radius "$min_radius" --threads 1 --quiet -o "$folder/race.irradiance")
+  picture_s=$(timed phos-splat "$scene" "$folder/race.irradiance" --width "$side" --height "$side" --accuracy 0.95 --splat cpu \
     --direct interleaved --pixel-samples 1 --light-samples "$light_samples" --edge-samples "$edge_samples" --layers beauty \
-    --compression none --threads 1 --quiet -o "$folder/race.exr" 2>"$folder/race.log"
-  end=$(now)
-  echo "phos: $(seconds "$start" "$end") s ($(seconds "$start" "$middle") records, $(seconds "$middle" "$end") picture)," \
-    "error $(true_error "$folder/race.exr")"
+    --compression none --threads 1 --quiet -o "$folder/race.exr")
+  printf 'phos: %.2f s (%.2f records, %.2f picture), error %s %%\n' "$(calculate %.3f "$records_s + $picture_s")" \
+    "$records_s" "$picture_s" "$(error_of "$folder/race.exr")"
 done
 [[ -n $cycles ]] || exit 0
 took=$(blender --background --python "$here/race_cycles.py" -- "$scene" "$folder/cycles.exr" "$side" "$cycles" 2>/dev/null |
   awk '/^rendered in/ { print $3 }')
 [[ -n $took ]] || { echo "blender did not render" >&2; exit 1; }
-printf 'Cycles, %s samples: %.1f s, error %s\n' "$cycles" "$took" "$(true_error "$folder/cycles.exr")"
+printf 'Cycles, %s samples: %.1f s, error %s %%\n' "$cycles" "$took" "$(error_of "$folder/cycles.exr")"
