@@ -67,7 +67,7 @@ void FlickerMeter::add(std::int64_t frame, const Image& image, const Image& refe
   require_layers(image, "image");
   require_layers(reference, "reference");
   if (second) require_layers(*second, "second reference");
-  const std::vector<char> counts = emission_mask(image, reference, options_.ignore_emission);
+  const std::vector<char> counts = emission_mask({&image, &reference, second}, options_.ignore_emission);
   ++added_;
   for (Layer& layer : layers_) take(layer, frame, image, reference, second, counts);
 }

@@ -200,15 +200,23 @@ std::vector<std::string> common_layers(const Image& image, const Image& referenc
   return wanted;
 }
 
-std::vector<char> emission_mask(const Image& image, const Image& reference, bool ignore_emission) {
-  std::vector<char> mask(reference.pixels(), 1);
+bool show_emission(Pictures pictures) {
+  return std::any_of(pictures.begin(), pictures.end(),
+                     [](const Image* p) { return p && p->has_layer("emission"); });
+}
+
+std::vector<char> emission_mask(Pictures pictures, bool ignore_emission) {
+  std::vector<char> mask((*pictures.begin())->pixels(), 1);
   if (!ignore_emission) return mask;
-  const Image& source = reference.has_layer("emission") ? reference : image;
-  if (!source.has_layer("emission"))
+  if (!show_emission(pictures))
     throw Error(ExitCode::mismatch, "--ignore-emission",
                 "neither image has the layer emission; leave the option out");
-  const std::vector<Rgb> emission = source.rgb("emission");
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = emission[i] == Rgb(0) ? 1 : 0;
+  for (const Image* picture : pictures) {
+    if (!picture || !picture->has_layer("emission")) continue;
+    const std::vector<Rgb> emission = picture->rgb("emission");
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (emission[i] != Rgb(0)) mask[i] = 0;
+  }
   return mask;
 }
 
@@ -216,7 +224,7 @@ std::vector<LayerMetrics> compare_images(const Image& image, const Image& refere
                                          const CompareOptions& options, const Image* second) {
   const std::vector<std::string> layers = common_layers(image, reference, options);
   if (second) common_layers(*second, reference, {.layers = options.layers});
-  const std::vector<char> mask = emission_mask(image, reference, options.ignore_emission);
+  const std::vector<char> mask = emission_mask({&image, &reference, second}, options.ignore_emission);
   std::vector<LayerMetrics> all;
   for (const std::string& layer : layers) all.push_back(measure(image, reference, second, layer, mask));
   return all;
@@ -224,7 +232,7 @@ std::vector<LayerMetrics> compare_images(const Image& image, const Image& refere
 
 Image difference_image(const Image& image, const Image& reference, const CompareOptions& options) {
   const std::vector<std::string> layers = common_layers(image, reference, options);
-  const std::vector<char> mask = emission_mask(image, reference, options.ignore_emission);
+  const std::vector<char> mask = emission_mask({&image, &reference}, options.ignore_emission);
   Image out(image.width(), image.height());
   for (const std::string& layer : layers)
     for (const std::string& c : components_of(reference, layer)) {

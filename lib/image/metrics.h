@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ struct LayerMetrics {
 
 struct CompareOptions {
   std::vector<std::string> layers;  ///< empty: all that both images have
-  bool ignore_emission = false;     ///< leave out pixels whose `emission` is not black
+  bool ignore_emission = false;     ///< leave out pixels that show a lamp (emission_mask)
 };
 
 /// One entry per layer, in order of name, beauty first. A pixel with a component that is not finite in either
@@ -54,8 +55,13 @@ std::vector<LayerMetrics> compare_images(const Image& image, const Image& refere
 /// The layers that `options` ask for, "" for the beauty, in order. Throws as compare_images().
 std::vector<std::string> common_layers(const Image& image, const Image& reference,
                                        const CompareOptions& options);
-/// 1 where a pixel counts, else 0: --ignore-emission. Throws as compare_images().
-std::vector<char> emission_mask(const Image& image, const Image& reference, bool ignore_emission);
+/// Pictures of one thing and size; null: none.
+using Pictures = std::initializer_list<const Image*>;
+/// Has any of them the layer `emission`?
+bool show_emission(Pictures pictures);
+/// 1 where a pixel counts, else 0. With `ignore_emission`, none counts whose `emission` is not black in any
+/// of them: few samples miss a lamp at its edge. Throws Error(mismatch) if none has the layer.
+std::vector<char> emission_mask(Pictures pictures, bool ignore_emission);
 
 /// The layers of compare_images as pixels of `image - reference`; zero where left out, for a difference
 /// picture.

@@ -37,20 +37,11 @@ Image mean_of(const Image& a, const Image& b, const std::string& layer, const Na
   return mean;
 }
 
-/// A pixel shows a lamp if any of the pictures saw it there: few samples miss a lamp at its edge. False: none
-/// has the layer.
-bool mark_lamps(Image& mean, std::initializer_list<const Image*> pictures) {
-  std::vector<Rgb> lamps(mean.pixels(), Rgb(0));
-  bool known = false;
-  for (const Image* picture : pictures) {
-    if (!picture || !picture->has_layer("emission")) continue;
-    known = true;
-    const std::vector<Rgb> emission = picture->rgb("emission");
-    for (std::size_t i = 0; i < lamps.size(); ++i)
-      if (emission[i] != Rgb(0)) lamps[i] = Rgb(1);
-  }
-  if (known) mean.set_rgb("emission", lamps);
-  return known;
+/// The layer emission, not black where `mask` is 0.
+void mark_lamps(Image& picture, const std::vector<char>& mask) {
+  std::vector<Rgb> lamps;
+  for (const char counts : mask) lamps.emplace_back(counts ? 0.f : 1.f);
+  picture.set_rgb("emission", lamps);
 }
 
 void require_alike(const Image& second, const Image& reference, const std::string& layer,
@@ -129,7 +120,9 @@ MeasuredError measure_picture(const Image& image, const Image& reference, const 
   const Names components = components_of(reference, layer);
   if (second) require_alike(*second, reference, layer, components);
   Image mean = mean_of(reference, second ? *second : reference, layer, components);
-  const bool lamps = options.ignore_lamps && mark_lamps(mean, {&image, &reference, second});
+  const bool lamps = options.ignore_lamps && show_emission({&image, &reference, second});
+  const std::vector<char> mask = emission_mask({&image, &reference, second}, lamps);
+  if (lamps) mark_lamps(mean, mask);
   const LayerMetrics metrics = compare_images(image, mean, {{options.layer}, lamps}).at(0);
 
   MeasuredError error;
@@ -138,7 +131,6 @@ MeasuredError measure_picture(const Image& image, const Image& reference, const 
   error.bias = metrics.bias, error.relative_bias = metrics.relative_bias;
   error.p99 = metrics.p99, error.max = metrics.max;
   if (metrics.visual) error.psnr_db = metrics.visual->psnr_db, error.ssim = metrics.visual->ssim;
-  const std::vector<char> mask = emission_mask(image, mean, lamps);
   Pixels(image, reference, second, layer, components).sums(mask).finish(error);
   return error;
 }

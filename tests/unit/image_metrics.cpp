@@ -126,6 +126,13 @@ TEST(Metrics, EmissionMask) {
   const LayerMetrics m = compare_images(image, reference, options)[0];
   EXPECT_EQ(m.ignored, 1u);
   EXPECT_EQ(m.max, 0);
+  // Whichever of them saw the lamp.
+  Image second = grey(4, 4, 1);
+  second.set_rgb("emission", std::vector<Rgb>(16, Rgb(0)));
+  image.set_rgb("emission", std::vector<Rgb>(16, Rgb(0)));
+  second.channel("emission.R")[6] = 1, image.channel("emission.B")[7] = 1;
+  EXPECT_EQ(compare_images(image, reference, options, &second)[0].ignored, 3u);
+  EXPECT_EQ(compare_images(image, reference, options)[0].ignored, 2u);
 }
 
 TEST(Metrics, LayersAndMismatches) {
