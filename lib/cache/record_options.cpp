@@ -44,12 +44,14 @@ const char* name_of(GradientMode mode) { return name_in(kGradients, mode).c_str(
 void RecordOptions::resolve(float diagonal_m) {
   const double size = diagonal_m > 0 && std::isfinite(diagonal_m) ? static_cast<double>(diagonal_m) : 1;
   if (!min_radius_m) min_radius_m = std::min(size / 100, max_radius_m.value_or(HUGE_VAL));
-  if (!max_radius_m) max_radius_m = std::max(size / 4, *min_radius_m);
+  if (!max_radius_m)
+    max_radius_m = std::max(size / (footprint == Footprint::adaptive ? 8 : 4), *min_radius_m);
   if (*min_radius_m > *max_radius_m) {
     throw Error(
         ExitCode::usage, "--min-radius",
         text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
   }
+  source_max_radius_m = std::min(*max_radius_m, std::max(size / 16, *min_radius_m));
   if (gather_bounces == 0) {
     throw Error(ExitCode::usage, "--gather-bounces",
                 "0 leaves no indirect light; give 1 for surfaces lit by lamps alone, or -1 for all");
@@ -81,8 +83,8 @@ void declare_reach_options(Options& options, RecordOptions& r) {
                  {1e-3, 1, false});
   options.number("min-radius", r.min_radius_m, "METRES", "smallest radius (default: scene diagonal / 100)",
                  kPositive);
-  options.number("max-radius", r.max_radius_m, "METRES", "largest radius (default: scene diagonal / 4)",
-                 kPositive);
+  options.number("max-radius", r.max_radius_m, "METRES",
+                 "largest radius (default: scene diagonal / 4; of adaptive footprints / 8)", kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
                            "ray: a record serves a point only if the two can see each other");
 }

@@ -69,15 +69,18 @@ struct RecordOptions {
   std::int64_t gather_bounces =
       -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
   GatherFrom gather_from = GatherFrom::cache;
-  double source_accuracy = 0.4;       ///< a of the coarse cache
-  std::int64_t source_photons = 100;  ///< that a zone of the coarse cache should hold at least
-  std::int64_t light_samples = 64;    ///< with paths = all: shadow rays to each area light
-  std::int64_t raster_side = 64;      ///< pixels of the plane, each way
+  double source_accuracy = 0.4;               ///< a of the coarse cache
+  std::optional<double> source_max_radius_m;  ///< resolve() sets it: max_radius_m, at most diagonal/16
+  std::int64_t source_photons = 100;          ///< that a zone of the coarse cache should hold at least
+  std::int64_t light_samples = 64;            ///< with paths = all: shadow rays to each area light
+  std::int64_t raster_side = 64;              ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;
 
-  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size), the
-  /// estimator's own gradients, and the rule of the radius that a footprint stands for. Throws Error(usage)
-  /// if the smaller radius exceeds the larger, or if the estimator has no such gradients or footprint.
+  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size; footprints
+  /// that follow surroundings do not know what comes into sight beside them: diagonal/8),
+  /// the estimator's own gradients, and the rule of the radius that a footprint stands for. Throws
+  /// Error(usage) if the smaller radius exceeds the larger, or if the estimator has no such gradients or
+  /// footprint.
   void resolve(float diagonal_m);
 };
 

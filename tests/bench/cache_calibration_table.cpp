@@ -16,14 +16,16 @@ int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::string only = argc > 2 ? argv[2] : "";
   const bool small = argc > 3 && std::string(argv[3]) == "small";
-  const test::CalibrationOptions options =
-      small ? test::CalibrationOptions::small() : test::CalibrationOptions();
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
   std::vector<test::KnownLight> scenes;
   for (const test::AnalyticScene& s : test::all_point_scenes()) scenes.push_back(test::known_light(s));
   if (std::optional<test::KnownLight> sponza = test::sponza()) scenes.push_back(std::move(*sponza));
   for (test::KnownLight& known : scenes) {
     if (known.name.find(only) == std::string::npos) continue;
+    const test::CalibrationOptions options = !small ? test::CalibrationOptions()
+                                             : known.name == "Sponza"
+                                                 ? test::CalibrationOptions::small_of_real_scene()
+                                                 : test::CalibrationOptions::small();
     const test::CalibratedScene scene(std::move(known), options);
     test::CalibrationTable table;
     for (int seed = 1; seed <= seeds; ++seed) scene.measure(static_cast<std::uint64_t>(seed), table);

@@ -92,7 +92,7 @@ TEST_F(ZoneBias, CurvatureIsRightToTheFourthOrder) {
 /// beside such a place are so near that their photons' gradients have next to no mean and no variance. Moved
 /// along those, the light there would be 2.6 % too faint.
 TEST_F(ZoneBias, EvenLightIsEvenBesideWalls) {
-  constexpr int kSeeds = 100, kPlaces = 600;
+  constexpr int kSeeds = 140, kPlaces = 600;
   constexpr float kBeside_m = 0.04f;
   const test::AnalyticScene furnace = test::furnace(0.9f);
   const Vec3 size = furnace.scene.bounds.hi - furnace.scene.bounds.lo;

@@ -63,6 +63,14 @@ struct CalibrationOptions {
     options.points = 40, options.records = 8;
     return options;
   }
+  /// The same of a scene of many places that are unlike; all photons are candidates, so that nothing is read
+  /// beyond its reach.
+  static CalibrationOptions small_of_real_scene() {
+    CalibrationOptions options = small();
+    options.paths = 100'000, options.candidates = 0;
+    options.points = 200, options.records = 40;
+    return options;
+  }
 };
 
 /// Points on surfaces that reflect and are lit, with the irradiance there, lx, and how well that is known.
@@ -189,7 +197,8 @@ class CalibratedScene {
                CalibrationTable& table) const {
     const auto add = [&](const std::string& what, std::size_t i, const Rgb& lx, const Rgb& stated_lx) {
       const double truth = seen.all[i] - (options.paths == Quantity::all ? 0 : seen.direct[i]);
-      table[name + what].add(double(lx.y), std::hypot(double(stated_lx.y), seen.all_error[i]), truth);
+      table[name + what].add(double(luminance(lx)),
+                             std::hypot(double(luminance(stated_lx)), seen.all_error[i]), truth);
     };
     const auto worker = estimator.make_worker();
     for (std::size_t i = 0; i < std::min(seen.at.size(), static_cast<std::size_t>(options_.records)); ++i) {
