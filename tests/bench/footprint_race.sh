@@ -10,8 +10,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
-ways="circle-min:0.2 circle-min:0.4 circle-harmonic:0.1 circle-harmonic:0.2 adaptive:0.2 adaptive:0.2:cached adaptive:0.4:cached"
-width=800 rays=512 light_samples=30 photons=200000 paths="8 32" samples=256 threads=0 runs=1
+ways="circle-min:0.28 circle-min:0.56 circle-harmonic:0.28 circle-harmonic:0.56 adaptive:0.2 adaptive:0.4 adaptive:0.2:cached"
+width=800 rays=1024 light_samples=128 photons=1000000 paths="8 32" samples=256 threads=0 runs=1
 take_options "ways width rays light_samples photons paths samples threads runs" "$@"
 require_file "$scene"
 mkdir -p "$folder"
@@ -30,9 +30,10 @@ for ((run = 0; run < runs; ++run)); do
     records_s=$(timed phos-irradiance "$scene" "$base.photons" --place view --width "$width" --estimate gather --rays "$rays" \
       --footprint "$footprint" --accuracy "$accuracy" --direct "${direct:-traced}" --stats "$base.json" "${common[@]}" \
       -o "$base.irradiance")
-    lamps=(--direct traced --light-samples "$light_samples")
+    lamps=(--direct interleaved --light-samples "$light_samples")
     [[ -z $direct ]] || lamps=()
-    picture_s=$(timed phos-splat "$scene" "$base.irradiance" --width "$width" --splat cpu "${lamps[@]}" "${common[@]}" -o "$base.exr")
+    picture_s=$(timed phos-splat "$scene" "$base.irradiance" --width "$width" --splat cpu --pixel-samples 1 --edge-samples 16 \
+      "${lamps[@]}" "${common[@]}" -o "$base.exr")
     row "$way" "$(count_of records "$base.json")" "$photons_s" "$records_s" "$picture_s" \
       "$(calculate %.2f "$photons_s + $records_s + $picture_s")" "$(error_of "$base.exr")"
   done
