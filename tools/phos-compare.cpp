@@ -123,7 +123,8 @@ int main_of_tool(int argc, const char* const* argv) {
          "layers to compare (beauty, indirect, illuminance, Z, ...); else all common ones");
   o.file("second-reference", c.second,
          "the reference made with another seed: gives the rmse without the noise of the two");
-  o.flag("ignore-emission", c.options.ignore_emission, "leave out pixels whose layer emission is not black in any of the images");
+  o.flag("ignore-emission", c.options.ignore_emission,
+         "leave out pixels whose layer emission is not black in any of the images");
   o.flag("flicker", c.flicker, "compare sequences: error over all frames, and flicker");
   declare_frames(o, c.frames);
   o.section("Results");

@@ -83,8 +83,11 @@ void declare_reach_options(Options& options, RecordOptions& r) {
                  {1e-3, 1, false});
   options.number("min-radius", r.min_radius_m, "METRES", "smallest radius (default: scene diagonal / 100)",
                  kPositive);
-  options.number("max-radius", r.max_radius_m, "METRES",
-                 "largest radius (default: scene diagonal / 4; of adaptive footprints / 8)", kPositive);
+  options.number(
+      "max-radius", r.max_radius_m, "METRES",
+      "largest radius (default: scene diagonal / 4; of adaptive footprints / 8); coarse records that "
+      "rays read reach scene diagonal / 16 at most",
+      kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
                            "ray: a record serves a point only if the two can see each other");
 }

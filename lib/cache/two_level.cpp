@@ -22,7 +22,7 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   coarse.leak_test = LeakTest::none;
   coarse.footprint = Footprint::circle;
   // In the dark, zones with photons enough would be so large that light is not even in them (indirect light
-  // of Sponza would be 0.7 % too faint; it is 0.1 %). Fewer photons are noisier there, which rays average
+  // of Sponza would be 0.5 % too faint; it is 0.1 %). Fewer photons are noisier there, which rays average
   // out.
   PHOS_CHECK(fine.source_max_radius_m, "resolve() first");
   coarse.max_radius_m = fine.source_max_radius_m;
