@@ -5,6 +5,7 @@
 #include "cache/direct_light.h"
 #include "cache/lamp_sampler.h"
 #include "cache/record_of.h"
+#include "cache/two_level.h"
 #include "core/error.h"
 #include "support/gathered.h"
 
@@ -137,6 +138,30 @@ TEST(LampSampler, SamplesAboutAsManyAsLampsMatter) {
   EXPECT_EQ(samples({1e6f, 1}), 1u);
   EXPECT_EQ(samples({100, 100, 100}), 3u);
   EXPECT_EQ(samples({100, 100, 100, 100, 100, 100, 100, 100, 100, 100, 100, 100}), 4u);
+}
+
+/// What is made of rays, and the coarse records that they read, at any size of a scene.
+TEST(RecordOptions, ReachAsFarAsTheirKindMay) {
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    const auto resolved = [&](Footprint footprint, std::optional<double> least, std::optional<double> most) {
+      RecordOptions options;
+      options.estimate = Estimate::gather, options.footprint = footprint;
+      options.min_radius_m = least, options.max_radius_m = most;
+      options.resolve(static_cast<float>(size));
+      return options;
+    };
+    const RecordOptions circle = resolved(Footprint::circle, {}, {}),
+                        adaptive = resolved(Footprint::adaptive, {}, {}),
+                        small = resolved(Footprint::adaptive, {}, size / 50),
+                        large = resolved(Footprint::circle, size / 2, {});
+    const double tolerance = 1e-6 * size;
+    EXPECT_NEAR(*circle.max_radius_m, size / 4, tolerance);
+    EXPECT_NEAR(*adaptive.max_radius_m, size / 8, tolerance);
+    EXPECT_NEAR(*coarse_options(circle).max_radius_m, size / 16, tolerance);
+    EXPECT_NEAR(*coarse_options(adaptive).max_radius_m, size / 16, tolerance);
+    EXPECT_EQ(*coarse_options(small).max_radius_m, size / 50);
+    EXPECT_EQ(*coarse_options(large).max_radius_m, size / 2);  // no less than the least
+  }
 }
 
 /// Two hemispheres made by hand: means weigh rays, distances are harmonic or least.
