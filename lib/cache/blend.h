@@ -11,14 +11,14 @@ namespace phos {
 /// overlap, and light that is not even in them is mistaken by all alike. (Of two discs whose middles are a
 /// radius apart 39 % are common, at 1.5 radii 14 %; records are read up to about 2 radii from where they
 /// are.) Measured, with kCommonOfPhotons, so that two stated errors hold 90 to 98 % in scenes of known light.
-inline constexpr float kSharedByZones = 0.28f;
+inline constexpr float kSharedByZones = 0.30f;
 /// Noise of a record's value where it is carried to by its gradient, which has noise of its own, over that at
 /// the record.
 inline constexpr double kCarriedNoise = 1.5;
 /// Of the variance among records that noise does not account for: what it says of their mean, where records
 /// know their own light exactly, and where they are of photons, whose gradients have noise too that averages
 /// out.
-inline constexpr double kCommonDisagreement = 0.3, kCommonOfPhotons = 0.11;
+inline constexpr double kCommonDisagreement = 0.28, kCommonOfPhotons = 0.11;
 
 /// Sums over the records valid at a place, of weight w, besides those of w and w E.
 struct BlendSums {

@@ -15,14 +15,18 @@ constexpr float kLeastCosine = 0.05f;        // D2: grazing rays
 constexpr float kSlope = 2;                  // E7
 constexpr float kShorter = 0.75f;
 constexpr std::size_t kLanes = 8;
+constexpr float kLightsEnough = 256;  // equivalent lights that tell how light changes about a place
+// Hits of neighbouring rays make one light where their normals and distances differ by no more than that.
+constexpr float kAlikeNormal = 0.95f, kAlike = 1.25f;
 
 Vec2 axis_of(int k) { return AdaptiveFootprint::direction(k); }
 
 int nearest_axis(const Vec2& v) {
-  int best = 0;
-  for (int k = 1; k < kAxes; ++k)
-    if (glm::dot(v, axis_of(k)) > glm::dot(v, axis_of(best))) best = k;
-  return best;
+  constexpr float kTangent = 0.41421356f;  // of 22.5 degrees
+  const float x = std::fabs(v.x), y = std::fabs(v.y);
+  if (y <= kTangent * x) return v.x >= 0 ? 0 : 4;
+  if (x <= kTangent * y) return v.y >= 0 ? 2 : 6;
+  return v.x >= 0 ? (v.y >= 0 ? 1 : 7) : (v.y >= 0 ? 3 : 5);
 }
 
 /// What a record with this parabola says of its axis.
@@ -64,30 +68,28 @@ AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float)>& light, fl
   }
 }
 
+/// Neighbouring rays that hit what is alike, as one: sums, and means weighted by what they take.
+struct LightNearby::Bundle {
+  float distance_m;  // of the first
+  Vec3 normal;       // of the first
+  Rgb light{0};
+  float seen = 0;
+  Vec2 towards{0}, facing{0};
+  float inverse_d2 = 0;
+
+  bool takes(float d, const Vec3& n) const {
+    if (!std::isfinite(d) || !std::isfinite(distance_m)) return d == distance_m;
+    return glm::dot(n, normal) > kAlikeNormal && std::max(d, distance_m) <= kAlike * std::min(d, distance_m);
+  }
+};
+
 LightNearby::LightNearby(std::span<const Hemisphere> passes, GradientMode mode, float least_m)
     : frame_(passes.front().frame) {
   double rays = 0;
   for (const Hemisphere& h : passes) rays += static_cast<double>(h.size());
   for (const Hemisphere& h : passes) {
     const auto weight = static_cast<float>(static_cast<double>(h.size()) / rays);
-    for (std::size_t i = 0; i < h.size(); ++i) {
-      const Rgb light = weight * h.projected_sr[i] * h.radiance[i];
-      const float seen = weight * h.projected_sr[i] * (1 / kPi);
-      const Vec3 w = frame_.to_local(h.direction[i]);
-      direction_.push_back(w), light_.push_back(light);
-      const float d = std::max(h.distance_m[i], least_m);
-      if (!std::isfinite(d)) {
-        constant_ += light, constant_seen_ += seen;
-        continue;
-      }
-      Vec3 n = frame_.to_local(h.hit_normal[i]);
-      float cosine = -glm::dot(n, w);
-      if (cosine < kLeastEmitterCosine) n = -w, cosine = 1;
-      red_.push_back(light.x), green_.push_back(light.y), blue_.push_back(light.z), seen_.push_back(seen);
-      towards_x_.push_back(2 * w.x / d), towards_y_.push_back(2 * w.y / d);
-      facing_x_.push_back(n.x / (cosine * d)), facing_y_.push_back(n.y / (cosine * d));
-      inverse_d2_.push_back(1 / d / d);
-    }
+    add(h, weight, least_m);
     if (mode != GradientMode::hybrid) continue;
     const OcclusionGradient edges = occlusion_gradient(h, least_m);
     for (int c = 0; c < 3; ++c) {
@@ -98,6 +100,53 @@ LightNearby::LightNearby(std::span<const Hemisphere> passes, GradientMode mode, 
     occlusion_seen_[1] += weight * glm::dot(edges.even, frame_.y);
   }
   share_.resize(red_.size());
+}
+
+void LightNearby::add(const Hemisphere& h, float weight, float least_m) {
+  const bool cells = h.stratified();
+  const int rings = cells ? h.rings : 1, slices = cells ? h.slices : static_cast<int>(h.size());
+  const auto merged = std::lround(std::sqrt(static_cast<float>(h.size()) / kLightsEnough));
+  const int side = cells ? std::max(1, static_cast<int>(merged)) : 1;
+  std::vector<Bundle> bundles;
+  for (int ring = 0; ring < rings; ring += side)
+    for (int slice = 0; slice < slices; slice += side) {
+      bundles.clear();
+      for (int j = ring; j < std::min(ring + side, rings); ++j)
+        for (int k = slice; k < std::min(slice + side, slices); ++k)
+          add_ray(h, static_cast<std::size_t>(j * slices + k), weight, least_m, bundles);
+      for (const Bundle& bundle : bundles) keep(bundle);
+    }
+}
+
+void LightNearby::add_ray(const Hemisphere& h, std::size_t i, float weight, float least_m,
+                          std::vector<Bundle>& bundles) {
+  const Vec3 w = frame_.to_local(h.direction[i]), n = frame_.to_local(h.hit_normal[i]);
+  const float d = std::max(h.distance_m[i], least_m);
+  auto bundle = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& b) { return b.takes(d, n); });
+  if (bundle == bundles.end()) bundle = bundles.insert(bundle, Bundle{.distance_m = d, .normal = n});
+  const float seen = weight * h.projected_sr[i] * (1 / kPi);
+  const Rgb light = weight * h.projected_sr[i] * h.radiance[i];
+  direction_.push_back(w), light_.push_back(light);
+  bundle->light += light;
+  bundle->seen += seen;
+  if (!std::isfinite(d)) return;
+  const float cosine = -glm::dot(n, w);
+  const bool grazing = cosine < kLeastEmitterCosine;
+  bundle->towards += 2 * seen / d * Vec2(w);
+  bundle->facing += grazing ? -seen / d * Vec2(w) : seen / (cosine * d) * Vec2(n);
+  bundle->inverse_d2 += seen / d / d;
+}
+
+void LightNearby::keep(const Bundle& b) {
+  if (!(b.seen > 0)) return;
+  if (!std::isfinite(b.distance_m)) {
+    constant_ += b.light, constant_seen_ += b.seen;
+    return;
+  }
+  red_.push_back(b.light.x), green_.push_back(b.light.y), blue_.push_back(b.light.z), seen_.push_back(b.seen);
+  towards_x_.push_back(b.towards.x / b.seen), towards_y_.push_back(b.towards.y / b.seen);
+  facing_x_.push_back(b.facing.x / b.seen), facing_y_.push_back(b.facing.y / b.seen);
+  inverse_d2_.push_back(b.inverse_d2 / b.seen);
 }
 
 LightNearby::Light LightNearby::at(const Vec2& step, float of_occlusion) const {

@@ -29,11 +29,12 @@ AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float distance_m)>
 
 /// E3: light near a place, if all that its rays hit stayed in sight and shone as it does: hits as equivalent
 /// point lights of intensity L d^2 / density that fall off with the emitter's cosine (13). Exact at the
-/// place. What a hit takes of the hemisphere has a size: it comes no nearer than a quarter of its distance.
-/// Occlusion, which such lights know nothing of, enters to first order by the difference of the gradients
-/// with and without it (B5, B4). What the hits take of the hemisphere, moved alike, must add up to all of it:
-/// light is divided by that sum, so that it is even where all shines alike, and where the sum is far from 1
-/// things have come into sight or out of it, and nothing is known (known()).
+/// place. Neighbouring rays that hit what is alike make one light (256 or more in all). What a hit takes of
+/// the hemisphere has a size: it comes no nearer than a quarter of its distance. Occlusion, which such lights
+/// know nothing of, enters to first order by the difference of the gradients with and without it (B5, B4).
+/// What the hits take of the hemisphere, moved alike, must add up to all of it: light is divided by that sum,
+/// so that it is even where all shines alike, and where the sum is far from 1 things have come into sight or
+/// out of it, and nothing is known (known()).
 class LightNearby {
  public:
   /// `mode`: of ray_gradients(); distances below `least_m` count as that much there. In the frame of the
@@ -55,19 +56,24 @@ class LightNearby {
   const Frame& frame() const { return frame_; }
 
  private:
+  struct Bundle;
+  void add(const Hemisphere& h, float weight, float least_m);
+  void add_ray(const Hemisphere& h, std::size_t i, float weight, float least_m, std::vector<Bundle>& bundles);
+  void keep(const Bundle& bundle);
+
   Frame frame_;
   Rgb constant_{0};  // from infinitely far, lx
   float constant_seen_ = 0;
   Rgb occlusion_[2]{Rgb(0), Rgb(0)};
   float occlusion_seen_[2]{0, 0};
-  // Columns of the hits; tangential parts, over the squared distance or the emitter's cosine.
+  // Columns of the lights; tangential parts, over the squared distance or the emitter's cosine.
   std::vector<float> red_, green_, blue_;     // lx at the place
   std::vector<float> seen_;                   // share of the hemisphere, cosine included
   std::vector<float> towards_x_, towards_y_;  // 1/m: 2 q / d^2
   std::vector<float> facing_x_, facing_y_;    // 1/m: n_q / (-n_q.q)
   std::vector<float> inverse_d2_;             // 1/m2
   mutable std::vector<float> share_;
-  std::vector<Vec3> direction_;  // local, of all rays with light
+  std::vector<Vec3> direction_;  // local, of all rays
   std::vector<Rgb> light_;       // lx
 };
 

@@ -20,7 +20,7 @@ namespace phos {
 struct ShadingOptions {
   int light_samples = 16;      ///< shadow rays per area light at the visible surface
   int gloss_samples = 8;       ///< rays per glossy visible surface
-  int specular_depth = 16;     ///< longest chain of mirrors and glass
+  int specular_depth = 64;     ///< longest chain of mirrors and glass
   bool cached_direct = false;  ///< the records hold direct light too: lamps add to glossy lobes alone
   bool reflect_direct = true;  ///< what gloss and mirrors show is lit by the lamps
 };

@@ -43,7 +43,7 @@ struct RenderOptions {
   SplatBy splat = SplatBy::gl;
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
-  std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 16;
+  std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 64;
   std::int64_t shadow_map_size = 1024;
   GlossBy gloss = GlossBy::automatic;
   SplatBy gloss_splat = SplatBy::cpu;

@@ -217,6 +217,41 @@ TEST(Mirror, EndlessReflectionsEndAtTheDepth) {
   EXPECT_EQ(log.counters["specular paths cut"], 1u);
 }
 
+/// A pane seen from one end leads light from a lamp beyond the other end, by some 40 total reflections.
+/// Entering and leaving it costs Fresnel's share each; what the ends reflect back and forth is next to
+/// nothing.
+TEST(Glass, LeadsLightFromEndToEnd) {
+  constexpr double kIndex = 1.5, kTurns = 40.5, kThick_m = 0.01, kOutside = 0.45;
+  const double sine = kOutside / kIndex, cosine = std::sqrt(1 - sine * sine);
+  const auto length = static_cast<float>(kTurns * kThick_m * cosine / sine),
+             thick = static_cast<float>(kThick_m);
+  Scene scene;
+  begin_instance(scene, "lamp", add_lambert(scene, "lamp", 0, kLuminance));
+  add_quad(scene, {length + 0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0});
+  scene.material.push_back(make_material(Model::dielectric, Rgb(0), Rgb(1)));
+  begin_instance(scene, "pane", 1);
+  const Vec3 x(length, 0, 0), y(0, thick, 0), z(0, 0, 1), corner(0, 0, -0.5f);
+  add_quad(scene, corner, x, z), add_quad(scene, corner + y, z, x);  // outwards: -y, +y
+  add_quad(scene, corner, z, y), add_quad(scene, corner + x, y, z);  // -x, +x
+  add_quad(scene, corner, y, x), add_quad(scene, corner + z, x, y);  // -z, +z
+  finalize(scene);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const RecordTree no_records(scene.bounds, 0.2);
+  const Shading shading(rays, lights, no_records, {});
+  const auto out = static_cast<float>(std::sqrt(1 - kOutside * kOutside));
+  const Vec3 way(out, static_cast<float>(kOutside), 0), end(0, thick / 2, 0);
+  SurfacePoint point;
+  ASSERT_TRUE(trace(rays, {end - 0.1f * way, way}, point));
+  ShadingLog log;
+  RandomStream random(1, Stage::test, 1);
+  const Rgb seen = shading.specular(point, Bsdf(scene, point), -way, 0, Rgb(1), random, log);
+  const double across = (out - kIndex * cosine) / (out + kIndex * cosine),
+               along = (kIndex * out - cosine) / (kIndex * out + cosine);
+  const double lost = (across * across + along * along) / 2;
+  EXPECT_NEAR(static_cast<double>(seen.y), kLuminance * (1 - lost) * (1 - lost), 0.003 * kLuminance);
+}
+
 /// However many mirrors and panes it is seen by way of, a sharp lobe shows the lamps that it points to,
 /// without rare samples of great weight.
 TEST(Gloss, IsSeenAsWellByWayOfOthers) {
