@@ -87,7 +87,8 @@ void declare_options(Options& options, RenderOptions& r) {
                   {1, 4096});
   options.integer("edge-samples", r.edge_samples, "N",
                   "more samples of the pixels in which surfaces meet (anti-aliasing where it shows, at a "
-                  "fraction of --pixel-samples' time)",
+                  "fraction of --pixel-samples' time); they lie in pairs about the centre: give "
+                  "an even number",
                   {0, 4096});
   options.list("layers", r.layers, "all|LAYER,...",
                "layers to write: " + LayerSet::names() + " (fewer are faster)");

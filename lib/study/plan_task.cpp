@@ -85,7 +85,8 @@ Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene
   words.push_back(cache);
   add(words, view(task));
   const std::int64_t samples = std::llround(knobs[at(Knob::pixel_samples)]),
-                     more = std::llround(knobs[at(Knob::edge_samples)]) - samples;
+                     asked = std::llround(knobs[at(Knob::edge_samples)]) - samples;
+  const std::int64_t more = asked + asked % 2;  // in pairs about the pixel's centre
   add(words, {"--pixel-samples", std::to_string(samples)});
   if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
   add(words, light);

@@ -249,7 +249,8 @@ TEST(StudyPlan, TheScriptHoldsPredictionAndReasons) {
   }
 }
 
-/// Edge samples are counted in all by a plan, and beside the others by phos-splat.
+/// Edge samples are counted in all by a plan, and beside the others by phos-splat, of which it asks for whole
+/// pairs.
 TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   PlanTask task = picture();
   task.diagonal_m = 25;
@@ -263,7 +264,10 @@ TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   EXPECT_EQ(shell_line(indirect_picture_command(task, k, "s.glb", "c", "i.exr")),
             "phos-splat s.glb c --width 200 --height 150 --pixel-samples 4 --edge-samples 60 --direct none "
             "--gloss-samples 0 --layers indirect -o i.exr");
-  k[at(K::edge_samples)] = 4;
+  k[at(K::pixel_samples)] = 1, k[at(K::edge_samples)] = 2;
+  EXPECT_NE(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples 2 "),
+            std::string::npos);
+  k[at(K::pixel_samples)] = 4, k[at(K::edge_samples)] = 4;
   EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
             std::string::npos);
   const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
