@@ -1,5 +1,6 @@
 #include "study/study_work.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -16,6 +17,16 @@ constexpr std::int64_t kUsualWidth = 400;
 using Words = std::vector<std::string>;
 
 void append(Words& to, const Words& words) { to.insert(to.end(), words.begin(), words.end()); }
+
+/// Do these options place records for a view, and leave its size to the study?
+bool places_for_picture(const Words& words) {
+  const auto has = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  const auto place = std::find(words.begin(), words.end(), "--place");
+  return place != words.end() && place + 1 != words.end() && place[1] == "view" && !has("--width") &&
+         !has("--height");
+}
 
 /// Adds commands to a study's stages.
 class Planner {
@@ -104,8 +115,10 @@ class Planner {
       else
         *word++ = camera;
     }
-    if (section == "splat")
-      append(words, sizes_[s.scene * study_.cameras.size() + s.camera]), append(words, camera_words(camera));
+    const bool picture = section == "splat";
+    if (picture || places_for_picture(words))
+      append(words, sizes_[s.scene * study_.cameras.size() + s.camera]);
+    if (picture) append(words, camera_words(camera));
     if (section == "sense") append(words, {"--points", study_.sensors});
     append(words, {"--seed", std::to_string(study_.seeds[seed])});
     std::vector<std::size_t> inputs;

@@ -67,6 +67,19 @@ TEST_F(StudyWorks, CamerasShareWhatDoesNotSeeThem) {
   EXPECT_EQ(w.pictures.size(), 2u);
 }
 
+/// Records for a view are placed for the pixels of the picture, unless the study says otherwise.
+TEST_F(StudyWorks, RecordsForAViewAreOfThePicturesSize) {
+  const auto records = [&](const std::string& more) {
+    const StudyWork w = work("width = 300\n[photons]\nphotons = 1000\n[irradiance]\n" + more + "[splat]\n");
+    return w.stages.shell_lines(*w.jobs[0].picture, "p")[1];
+  };
+  EXPECT_NE(records("place = \"view\"\n").find("--place view --width 300 "), std::string::npos);
+  EXPECT_EQ(records("place = \"surface\"\n").find("--width"), std::string::npos);
+  const std::string own = records("place = \"view\"\nwidth = 40\n");
+  EXPECT_NE(own.find("--width 40"), std::string::npos);
+  EXPECT_EQ(own.find("--width 300"), std::string::npos);
+}
+
 TEST_F(StudyWorks, RoundsGoTheOtherWay) {
   const StudyWork w = work(kGrid);
   for (std::size_t i = 0; i < 6; ++i) {
