@@ -29,12 +29,12 @@ AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float distance_m)>
 
 /// E3: light near a place, if all that its rays hit stayed in sight and shone as it does: hits as equivalent
 /// point lights of intensity L d^2 / density that fall off with the emitter's cosine (13). Exact at the
-/// place. Neighbouring rays that hit what is alike make one light (256 or more in all). What a hit takes of
-/// the hemisphere has a size: it comes no nearer than a quarter of its distance. Occlusion, which such lights
-/// know nothing of, enters to first order by the difference of the gradients with and without it (B5, B4).
-/// What the hits take of the hemisphere, moved alike, must add up to all of it: light is divided by that sum,
-/// so that it is even where all shines alike, and where the sum is far from 1 things have come into sight or
-/// out of it, and nothing is known (known()).
+/// place. Neighbouring rays that hit what is alike make one light (some 256 in all, or more). What a hit
+/// takes of the hemisphere has a size: it comes no nearer than a quarter of its distance. Occlusion, which
+/// such lights know nothing of, enters to first order by the difference of the gradients with and without it
+/// (B5, B4). What the hits take of the hemisphere, moved alike, must add up to all of it: light is divided by
+/// that sum, so that it is even where all shines alike, and where the sum is far from 1 things have come into
+/// sight or out of it, and nothing is known (known()).
 class LightNearby {
  public:
   /// `mode`: of ray_gradients(); distances below `least_m` count as that much there. In the frame of the

@@ -19,7 +19,7 @@ enum class Knob : std::size_t {
   accuracy,       ///< a of the records
   rays,           ///< of a record
   pixel_samples,  ///< of a pixel
-  edge_samples,   ///< of one in which surfaces meet, in all; one more makes the pairs even
+  edge_samples,   ///< of one in which surfaces meet, in all; made up to whole pairs beside pixel_samples
   light_rays,     ///< shadow rays of a pixel to each area light
   gloss_rays,     ///< of a pixel on a glossy surface
   sensor_rays,    ///< shadow rays of a sensor to each area light
