@@ -23,8 +23,8 @@ struct LogSums {
   double n = 0;
 };
 
-Interval ratio_interval(const std::vector<double>& logs, double confidence) {
-  const Interval log = mean_interval(logs, confidence);
+MeanInterval ratio_interval(const std::vector<double>& logs, double confidence) {
+  const MeanInterval log = mean_interval(logs, confidence);
   return {std::exp(log.mean), std::exp(log.lo), std::exp(log.hi), log.n};
 }
 

@@ -19,10 +19,10 @@ struct Trial {
 
 /// A level of a factor against the first one: the ratio of errors and of times, all else equal.
 struct LevelEffect {
-  Interval error, seconds;   ///< factors; 0.5 halves it
-  std::size_t pairs = 0;     ///< of trials that are alike but for this factor
-  std::size_t faint = 0;     ///< pairs with an error below the resolution, which stands in its place
-  std::size_t left_out = 0;  ///< pairs with an error or time that has no logarithm
+  MeanInterval error, seconds;  ///< factors; 0.5 halves it
+  std::size_t pairs = 0;        ///< of trials that are alike but for this factor
+  std::size_t faint = 0;        ///< pairs with an error below the resolution, which stands in its place
+  std::size_t left_out = 0;     ///< pairs with an error or time that has no logarithm
 };
 
 /// Effects of the levels of `factor`, the first of which is 1 by definition. Trials that differ in it alone

@@ -39,7 +39,7 @@ std::string short_number(double v) {
   return digits;
 }
 
-std::string interval_text(const Interval& i, double scale) {
+std::string interval_text(const MeanInterval& i, double scale) {
   std::string words = short_number(scale * i.mean);
   if (i.bounded())
     words.append(" (")

@@ -45,7 +45,7 @@ Summary summary_of(const StudyFile& study, const std::vector<const Judgement*>& 
   s.p99 = mean_interval(values_of(runs, [](const Judgement& r) { return r.error.relative_p99; }), confidence);
   s.seconds = mean_interval(values_of(runs, [](const Judgement& r) { return r.cost.wall_s; }), confidence);
   s.cpu_s = mean_interval(values_of(runs, [](const Judgement& r) { return r.cost.cpu_s; }), confidence);
-  for (Interval* i : {&s.error, &s.p99, &s.seconds, &s.cpu_s})
+  for (MeanInterval* i : {&s.error, &s.p99, &s.seconds, &s.cpu_s})
     if (std::isless(i->lo, 0)) i->lo = 0;
   s.time = study.by_cpu ? s.cpu_s : s.seconds;
   const auto n = static_cast<double>(runs.size());

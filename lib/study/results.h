@@ -36,17 +36,17 @@ struct RunResult {
 /// One kind of result of one setting, over its seeds. Intervals are of StudyFile::confidence, for errors with
 /// the noise of the reference in them.
 struct Summary {
-  std::size_t owner = 0;      ///< see Judgement
-  Interval error, bias, p99;  ///< relative (see MeasuredError)
-  double rmse = 0;            ///< mean
+  std::size_t owner = 0;          ///< see Judgement
+  MeanInterval error, bias, p99;  ///< relative (see MeasuredError)
+  double rmse = 0;                ///< mean
   std::string unit;
   std::optional<double> noise, resolution;  ///< of the reference
   bool resolved = true;                     ///< is the mean error above the resolution?
   std::optional<double> stated, inside;
   std::optional<double> psnr_db, ssim;
   std::size_t non_finite = 0;
-  Interval seconds, cpu_s;
-  Interval time;  ///< the one of them that fronts, effects and plots are of
+  MeanInterval seconds, cpu_s;
+  MeanInterval time;  ///< the one of them that fronts, effects and plots are of
   double peak_bytes = 0, file_bytes = 0;
   /// On the front of its scene and camera: does nothing there beat it in error and that?
   bool best_in_time = false, best_in_memory = false, best_in_bytes = false;

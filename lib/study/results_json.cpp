@@ -5,7 +5,7 @@ namespace phos {
 
 namespace {
 
-Json to_json(const Interval& i) {
+Json to_json(const MeanInterval& i) {
   Json j;
   j["mean"] = i.mean, j["lo"] = i.lo, j["hi"] = i.hi, j["n"] = i.n;
   return j;

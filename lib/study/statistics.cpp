@@ -30,8 +30,8 @@ double normal_quantile(double confidence) {
   return boost::math::quantile(boost::math::normal(), upper(confidence));
 }
 
-Interval mean_interval(std::span<const double> values, double confidence, double common) {
-  Interval result{kNone, kNone, kNone, values.size()};
+MeanInterval mean_interval(std::span<const double> values, double confidence, double common) {
+  MeanInterval result{kNone, kNone, kNone, values.size()};
   if (values.empty()) return result;
   const auto n = static_cast<double>(values.size());
   double sum = 0, squares = 0;

@@ -8,7 +8,7 @@
 namespace phos {
 
 /// A mean with its interval of confidence. lo and hi are not numbers where nothing bounds it.
-struct Interval {
+struct MeanInterval {
   double mean = 0, lo = 0, hi = 0;
   std::size_t n = 0;  ///< values that it is the mean of
   bool bounded() const { return std::islessequal(lo, hi); }
@@ -18,7 +18,7 @@ struct Interval {
 /// freedom. `common` is the standard error of what all of them share (the noise of one reference), which
 /// repeats do not show: added in quadrature, as a normal deviation. One value alone is bounded by `common` if
 /// that is above 0, else not. No value gives a mean that is no number. `confidence` in (0, 1).
-Interval mean_interval(std::span<const double> values, double confidence, double common = 0);
+MeanInterval mean_interval(std::span<const double> values, double confidence, double common = 0);
 
 /// The t that a share `confidence` of draws lies within, either side of 0.
 double student_t(double confidence, std::size_t degrees);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "study/html.h"
+#include "study/plan.h"
 #include "study/results.h"
 #include "study/results_plots.h"
 #include "study/study_check.h"
@@ -45,8 +46,7 @@ std::string front_of(const StudyFile& study, const StudyWork& work, const StudyR
   if (!least) return "";
   const Summary& s = *(least->*kind);
   return text(name, ": ", front, " of ", all, " settings are on the front; the least error is ",
-              s.resolved ? "" : "at most ", shortest(static_cast<float>(100 * s.told_error())), " % in ",
-              shortest(static_cast<float>(s.time.mean)), " s (",
+              s.resolved ? "" : "at most ", percent(s.told_error()), " in ", duration(s.time.mean), " (",
               describe(study, work.settings[least->setting]), ")");
 }
 

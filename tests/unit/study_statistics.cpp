@@ -21,7 +21,7 @@ TEST(StudyStatistics, QuantilesAreThoseOfTables) {
 TEST(StudyStatistics, MeanOfRepeats) {
   // Mean 4, deviation 2, standard error 2 / sqrt(3).
   const double values[] = {2, 4, 6};
-  const Interval i = mean_interval(values, 0.95);
+  const MeanInterval i = mean_interval(values, 0.95);
   EXPECT_DOUBLE_EQ(i.mean, 4);
   EXPECT_NEAR(i.hi - 4, 4.30265 * 2 / std::sqrt(3.0), 1e-4);
   EXPECT_DOUBLE_EQ(i.hi - 4, 4 - i.lo);
@@ -37,7 +37,7 @@ TEST(StudyStatistics, WhatRepeatsShareIsAddedInQuadrature) {
 
 TEST(StudyStatistics, OneValueHasNoInterval) {
   const double value[] = {2};
-  const Interval one = mean_interval(value, 0.95);
+  const MeanInterval one = mean_interval(value, 0.95);
   EXPECT_EQ(one.mean, 2);
   EXPECT_FALSE(one.bounded());
   EXPECT_TRUE(std::isnan(mean_interval({}, 0.95).mean));
