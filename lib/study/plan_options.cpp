@@ -56,10 +56,12 @@ void declare_options(Options& options, PlanOptions& p) {
       "run", p.run,
       "carry the plan out in the folder of -o, measure it, and correct it until the error is met or the "
       "time is spent; exit code 1 if it is not met");
-  options.number("reference-seconds", p.reference_s, "S",
-                 "with --run: the two references that it is measured by may take so long; 0: as long as the "
-                 "pipeline, or 60 if that is more",
-                 kNotNegative);
+  options.number(
+      "reference-seconds", p.reference_s, "S",
+      "with --run: the two references that it is measured by may take so long, and better ones, where "
+      "they cannot tell whether the error is met, three times as long; 0: as long as the pipeline, or "
+      "60 if that is more",
+      kNotNegative);
   options.integer("rounds", p.rounds, "N", "with --run: times that the pipeline is run, at most", {1, 100});
 }
 

@@ -10,6 +10,7 @@ namespace phos {
 namespace {
 
 constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
+constexpr double kPatience = 4;    ///< times the usual seconds for references, where those cannot judge
 
 /// What was measured, where the references could tell it, goes into the models.
 void learn(Pilot& pilot, const PlanRound& round) {
@@ -65,6 +66,10 @@ double PlanRound::resolution() const {
   return std::max(image ? image->resolution.value_or(0) : 0.0, lux ? lux->resolution.value_or(0) : 0.0);
 }
 
+bool PlanRound::judged(double asked) const {
+  return resolution() <= asked || error() > std::max(resolution(), asked);
+}
+
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2) {
   for (const bool indirect : {false, true}) {
     const double found = indirect ? indirect2 : std::max(whole2 - indirect2, 0.0);
@@ -103,7 +108,10 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
     PlanRound round{*next, 0, {}, {}, 0};
     runner.run(round, !report.rounds.empty());
     runner.measure(round);
-    if (const double took = runner.better_references(round, aim, most_s - report.reference_s); took > 0) {
+    const auto judged = [&] { return !goal.error || round.judged(*goal.error); };
+    const double patience = judged() ? 1 : kPatience;
+    const double left_s = patience * most_s - report.reference_s;
+    if (const double took = runner.better_references(round, aim, left_s); took > 0) {
       report.reference_s += took;
       runner.measure(round);
     }
@@ -116,12 +124,9 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
                      duration(next->seconds.value), ")"));
     next.reset();
     const bool small = goal.error ? round.error() <= *goal.error : report.pipeline_s <= *goal.seconds;
-    const bool fine = !goal.error || round.resolution() <= *goal.error;
-    report.met = small && fine;
-    // Coarse references tell at most that an error is large.
-    const bool told = fine || round.error() > round.resolution();
-    if (!told || (small && !fine)) why = "whether it is met cannot be told; raise --reference-seconds";
-    if (!told || small || !goal.error) break;
+    report.met = small && judged();
+    if (!judged()) why = "whether it is met cannot be told; raise --reference-seconds";
+    if (!judged() || small || !goal.error) break;
     next = next_try(task, pilot, *goal.error, report.rounds);
     if (!next) {
       why = "no settings are left that would be better";

@@ -16,7 +16,8 @@ struct PlanRunOptions {
   std::uint64_t seed = 0;
   std::vector<std::string> common;  ///< words for every program
   double reference_seconds =
-      0;  ///< that the two references may take; 0: as long as the pipeline, but kReferenceSeconds at least
+      0;  ///< that the two references may take; 0: as long as the pipeline, but kReferenceSeconds at least.
+          ///< Where they cannot judge a round, better ones may take up to three times as long again.
   int rounds = 5;  ///< at most
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
@@ -30,6 +31,8 @@ struct PlanRound {
       0;  ///< mean square root of the picture's indirect light's error, over the mean of the whole
   double error() const;       ///< the larger one
   double resolution() const;  ///< the larger of what the references tell from none
+  /// Can the references tell whether the error is at most `asked`? Coarse ones tell at most that it is more.
+  bool judged(double asked) const;
 };
 
 struct PlanReport {

@@ -2,8 +2,8 @@
 // collection lies beside the project, and each estimator, over many seeds: the share of estimates within two
 // stated standard errors of the truth (95 % of normal ones), the true over the stated root mean square error,
 // and the mean error in stated ones. CSV.
-//   build/tests/cache_calibration_table [SEEDS [SCENE [small]]] > calibration.csv
-// small: with as few photons and records as the test has.
+//   build/tests/cache_calibration_table [SEEDS [SCENE [small|full [FIRST]]]] > calibration.csv
+// small: with as few photons and records as the test has. Seeds from FIRST (1) on.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::string only = argc > 2 ? argv[2] : "";
   const bool small = argc > 3 && std::string(argv[3]) == "small";
+  const int first = argc > 4 ? std::atoi(argv[4]) : 1;
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
   std::vector<test::KnownLight> scenes;
   for (const test::AnalyticScene& s : test::all_point_scenes()) scenes.push_back(test::known_light(s));
@@ -28,7 +29,8 @@ int main(int argc, char** argv) {
                                                  : test::CalibrationOptions::small();
     const test::CalibratedScene scene(std::move(known), options);
     test::CalibrationTable table;
-    for (int seed = 1; seed <= seeds; ++seed) scene.measure(static_cast<std::uint64_t>(seed), table);
+    for (int seed = first; seed < first + seeds; ++seed)
+      scene.measure(static_cast<std::uint64_t>(seed), table);
     for (const auto& [estimator, c] : table)
       std::printf("%s,%s,%.0f,%.1f,%.1f,%.3f,%.3f\n", scene.name().c_str(), estimator.c_str(), c.n,
                   100 * c.exact_share(), 100 * c.share(), c.ratio(), c.bias());

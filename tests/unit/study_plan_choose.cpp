@@ -346,4 +346,20 @@ TEST(StudyPlan, FiguresForPeople) {
 }
 
 }  // namespace
+
+/// Of the larger error and the coarser reference.
+TEST(PlanRound, CoarseReferencesJudgeOnlyThatAnErrorIsLarge) {
+  const auto judged = [](double error, double resolution, double asked) {
+    PlanRound round;
+    round.image.emplace(), round.lux.emplace();
+    round.image->relative_rmse = error, round.lux->resolution = resolution;
+    return round.judged(asked);
+  };
+  EXPECT_TRUE(judged(0.01, 0.02, 0.02)) << "met";
+  EXPECT_TRUE(judged(0.05, 0.02, 0.02)) << "missed";
+  EXPECT_TRUE(judged(0.05, 0.03, 0.02)) << "missed, by more than the references feign";
+  EXPECT_FALSE(judged(0.025, 0.03, 0.02)) << "missed, or noise of the references";
+  EXPECT_FALSE(judged(0.01, 0.03, 0.02)) << "met, or luck";
+}
+
 }  // namespace phos
