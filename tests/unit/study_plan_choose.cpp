@@ -345,8 +345,6 @@ TEST(StudyPlan, FiguresForPeople) {
   EXPECT_EQ(duration(150), "2 min 30 s");
 }
 
-}  // namespace
-
 /// Of the larger error and the coarser reference.
 TEST(PlanRound, CoarseReferencesJudgeOnlyThatAnErrorIsLarge) {
   const auto judged = [](double error, double resolution, double asked) {
@@ -362,4 +360,5 @@ TEST(PlanRound, CoarseReferencesJudgeOnlyThatAnErrorIsLarge) {
   EXPECT_FALSE(judged(0.01, 0.03, 0.02)) << "met, or luck";
 }
 
+}  // namespace
 }  // namespace phos
