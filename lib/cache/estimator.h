@@ -41,6 +41,7 @@ struct Made {
   std::shared_ptr<const RadianceRecord> radiance{};
   std::shared_ptr<const Ahead> ahead{};
   std::uint64_t item = 0;  ///< of its RecordSite (set by ParallelMaker)
+  float least_share = 1;   ///< of site_least_m that counts here (GatherSource)
 };
 
 /// One way of estimating irradiance. Const and usable from any thread, each with a worker of its own.

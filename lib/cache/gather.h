@@ -32,6 +32,15 @@ struct GatherSource {
   double photon_lm = 0;     ///< luminance that one photon of it carries, lm; 0: it is taken as exact
   double zone_photons = 0;  ///< that its zones hold
   double common = 0;        ///< relative variance of all of it together
+  double usual_lx = 0;      ///< luminance of `indirect`, mean over surfaces; 0: unknown
+
+  /// The part of a site's own lower bound of the radius that counts, for errors of bright places weigh more
+  /// in a picture: (2 usual_lx / E)^1/2 where E, which `indirect` has there, is more than twice usual; 1/4 at
+  /// least, 1 where E is not known. Records then lie as dense as light is bright: at most half again as many
+  /// in all as with the bound alone. It does not ask the record's own E: one that is too bright by the noise
+  /// of its rays would have less weight than one that is too dark, and pictures of few rays would be too
+  /// dark.
+  float least_share(const RecordSite& site) const;
 };
 
 /// Light from where rays land, towards where they came from. Const, usable from any thread; holds references.

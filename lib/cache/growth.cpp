@@ -39,12 +39,12 @@ float RadiusRules::add(const Made& made, const std::function<void(std::size_t, f
   const float radius =
       clamp_.insert(record.position, record.normal, record.radius_m, false, [&](std::size_t i, float raw_m) {
         ++clamped_to_neighbour_;
-        shrunk(i, within_bounds(std::min(raw_m, limit_m_[i]), made_[i]));
+        shrunk(i, within_bounds_m(std::min(raw_m, limit_m_[i]), made_[i], bounds_));
       });
   if (radius < record.radius_m) ++clamped_to_neighbour_;
   made_.push_back(made);
   limit_m_.push_back(kInfinity);
-  return within_bounds(radius, made);
+  return within_bounds_m(radius, made, bounds_);
 }
 
 float RadiusRules::limit(std::size_t record, float radius_m) {
@@ -55,7 +55,7 @@ float RadiusRules::limit(std::size_t record, float radius_m) {
 
 float RadiusRules::radius_m(std::size_t i) const {
   const IrradianceRecord& r = made_[i].record;
-  if (!r.footprint) return within_bounds(std::min(clamp_.radius_m(i), limit_m_[i]), made_[i]);
+  if (!r.footprint) return within_bounds_m(std::min(clamp_.radius_m(i), limit_m_[i]), made_[i], bounds_);
   const float least_m = bounds_.least_m * (r.footprint->longest_m() / r.footprint->shortest_m());
   return std::min(r.radius_m, std::max(limit_m_[i], least_m));
 }
@@ -90,10 +90,11 @@ void RadiusRules::count_into(Counters& counters) const {
   if (raised_to_least_ > 0) counters.count("radii raised to the smallest", raised_to_least_);
 }
 
-float RadiusRules::within_bounds(float radius_m, const Made& made) const {
-  const float radius = std::clamp(std::max(radius_m, made.least_radius_m), made.site_least_m,
-                                  std::max(made.site_least_m, made.site_most_m));
-  return std::clamp(radius, bounds_.least_m, bounds_.most_m);
+float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& bounds) {
+  const float least_m = made.least_share * made.site_least_m;
+  const float radius =
+      std::clamp(std::max(radius_m, made.least_radius_m), least_m, std::max(least_m, made.site_most_m));
+  return std::clamp(radius, bounds.least_m, bounds.most_m);
 }
 
 Growth::Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved)

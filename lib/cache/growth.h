@@ -19,6 +19,9 @@ struct RadiusBounds {
   float least_m = 0, most_m = kInfinity;
 };
 
+/// A radius within the bounds of its record, and then of all.
+float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& bounds);
+
 /// Final radii of records in the order in which they come (FORMULAS A7): clamped to their neighbours as they
 /// were made, and only then to the bounds, so that a lower bound does not spread. Records with footprints
 /// have looked in eight directions, and in bounds, when they were made: they neither clamp nor are clamped.
@@ -46,7 +49,6 @@ class RadiusRules {
   void count_into(Counters& counters) const;                          ///< the same, as events
 
  private:
-  float within_bounds(float radius_m, const Made& made) const;
   float radius_m(std::size_t record) const;
   RadiusBounds bounds_;
   NeighbourClamp clamp_;

@@ -26,15 +26,16 @@ int samples_nearby(const Luminaires& lights, std::int64_t most) {
 
 }  // namespace
 
-HemisphereRecords::HemisphereRecords(const RayScene& r, const Luminaires& l, const GatherSource& source,
+HemisphereRecords::HemisphereRecords(const RayScene& r, const Luminaires& l, const GatherSource& s,
                                      const RecordOptions& resolved, std::uint64_t own_seed)
-    : rays(r), lights(l), options(resolved), seed(own_seed), light(r, l, source, resolved, own_seed) {
+    : rays(r), lights(l), options(resolved), seed(own_seed), source(s), light(r, l, s, resolved, own_seed) {
   PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");
 }
 
 Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::span<const Hemisphere> passes,
                                HemisphereWorker& worker) const {
   const SurfacePoint place = receiver(rays.scene(), site.position, site.normal);
+  const float share = source.least_share(site);
   worker.lamps.clear();
   if (options.paths == Quantity::all) {
     RandomStream random(seed, Stage::direct_light, site.item);
@@ -43,6 +44,7 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::s
     add_lamps(worker.lamps, samples, lights, site.normal, options, around);
   }
   Made made = record_of(site, around, options, rays.scene().origin_m);
+  made.least_share = share;
   // Under a coat the gloss of a hit is signed, and of few rays the sum may be too.
   if (glm::any(glm::lessThan(made.record.irradiance, Rgb(0)))) {
     made.record.irradiance = glm::max(made.record.irradiance, Rgb(0));
@@ -51,7 +53,8 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::s
   float& radius_m = made.record.radius_m;
   const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * place.error_m, radius_m);
   radius_m = std::min(radius_m, next_m / kNextSurface);
-  if (options.footprint == Footprint::adaptive) fit(site, passes, worker, made.record);
+  if (options.footprint == Footprint::adaptive)
+    fit(site, share * site.least_radius_m, passes, worker, made.record);
   worker.counters.merge(worker.light->counters);
   worker.light->counters = Counters();
   return made;
@@ -67,7 +70,7 @@ Vec3 HemisphereRecords::within_sight(const RecordSite& site, float lift_m, const
   return std::max(hit.distance_m - 4 * lift_m, 0.f) / length * step;
 }
 
-void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> passes,
+void HemisphereRecords::fit(const RecordSite& site, float site_least_m, std::span<const Hemisphere> passes,
                             HemisphereWorker& worker, IrradianceRecord& record) const {
   const float lift_m = receiver(rays.scene(), site.position, site.normal).error_m;
   const auto least_m = static_cast<float>(*options.min_radius_m),
@@ -75,7 +78,7 @@ void HemisphereRecords::fit(const RecordSite& site, std::span<const Hemisphere> 
   FootprintBounds bounds;
   bounds.accuracy = static_cast<float>(reading_accuracy(options.accuracy));
   bounds.rho = static_cast<float>(options.rho);
-  bounds.least_m = std::clamp(site.least_radius_m, least_m, most_m);
+  bounds.least_m = std::clamp(site_least_m, least_m, most_m);
   bounds.most_m = std::clamp(site.most_radius_m, bounds.least_m, most_m);
   const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * lift_m, bounds.most_m);
   bounds.most_m = std::max(bounds.least_m, std::min(bounds.most_m, next_m / kNextSurface));

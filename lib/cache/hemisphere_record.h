@@ -28,6 +28,7 @@ struct HemisphereRecords {
   const Luminaires& lights;
   RecordOptions options;
   std::uint64_t seed;
+  GatherSource source;
   HitLight light;
 
   HemisphereRecords(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -43,8 +44,8 @@ struct HemisphereRecords {
 
  private:
   Vec3 within_sight(const RecordSite& site, float lift_m, const Vec3& step) const;
-  void fit(const RecordSite& site, std::span<const Hemisphere> passes, HemisphereWorker& worker,
-           IrradianceRecord& record) const;
+  void fit(const RecordSite& site, float site_least_m, std::span<const Hemisphere> passes,
+           HemisphereWorker& worker, IrradianceRecord& record) const;
 };
 
 /// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.

@@ -39,10 +39,12 @@ void declare_place_options(Options& options, PlacementOptions& p) {
   options.integer("height", p.height, "PIXELS",
                   "with --place view: height; 0: from the width; both 0: 1000 on the longer side",
                   {0, 65536});
-  options.number("min-radius-pixels", p.min_radius_pixels, "PIXELS",
-                 "with --place view: smallest radius as seen there; 0: no such bound (default: 1 / accuracy, "
-                 "so that no record serves less than a pixel)",
-                 kNotNegative);
+  options.number(
+      "min-radius-pixels", p.min_radius_pixels, "PIXELS",
+      "with --place view: smallest radius as seen there, down to a quarter of it where indirect light is "
+      "more than twice its mean over the scene; 0: no such bound (default: 1 / accuracy, so that "
+      "elsewhere no record serves less than a pixel)",
+      kNotNegative);
   options.number("max-radius-pixels", p.max_radius_pixels, "PIXELS",
                  "with --place view: largest radius as seen there (10 to 20 is usual); 0: no such bound",
                  kNotNegative);

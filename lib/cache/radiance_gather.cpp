@@ -27,12 +27,14 @@ struct RadianceEstimator::Impl {
   RecordOptions options;
   int order;
   RadianceGradient gradient;
+  GatherSource source;
 };
 
 RadianceEstimator::RadianceEstimator(const RayScene& rays, const Luminaires& lights,
                                      const GatherSource& source, const RecordOptions& resolved, int order,
                                      RadianceGradient gradient, std::uint64_t seed)
-    : impl_(new Impl{rays, {rays, lights, source, resolved, seed ^ kOwnStreams}, resolved, order, gradient}) {
+    : impl_(new Impl{
+          rays, {rays, lights, source, resolved, seed ^ kOwnStreams}, resolved, order, gradient, source}) {
   require_radiance_order(order);
 }
 RadianceEstimator::~RadianceEstimator() = default;
@@ -73,8 +75,10 @@ Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemi
   const float rounding_m = receiver(impl_->rays.scene(), site.position, site.normal).error_m;
   const float next_m = height_over_next_m(impl_->rays, site.position, site.normal, 2 * rounding_m, reach);
   record.radius_m = std::min(reach, next_m / kNextSurface);
-  return {irradiance_of(record), 0, site.least_radius_m, site.most_radius_m,
-          std::make_shared<RadianceRecord>(std::move(record))};
+  Made made{irradiance_of(record), 0, site.least_radius_m, site.most_radius_m};
+  made.least_share = impl_->source.least_share(site);
+  made.radiance = std::make_shared<RadianceRecord>(std::move(record));
+  return made;
 }
 
 const Hemisphere& RadianceEstimator::seen(const Estimator::Worker& worker) {

@@ -13,6 +13,13 @@ namespace {
 /// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
 constexpr double kReadBeyond = 1.2;
 
+/// Of the zone that a record describes.
+double area_m2(const IrradianceRecord& r) {
+  const auto radius_m = static_cast<double>(r.radius_m);
+  const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
+  return std::numbers::pi * radius_m * radius_m * share;
+}
+
 }  // namespace
 
 RecordOptions coarse_options(const RecordOptions& fine) {
@@ -36,15 +43,21 @@ RecordOptions coarse_options(const RecordOptions& fine) {
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy) {
   double noise = 0, light = 0, squares = 0, errors = 0;
   for (const IrradianceRecord& r : records) {
-    const double reach_m = accuracy * static_cast<double>(r.radius_m),
-                 error = static_cast<double>(luminance(r.stderr_lx));
-    const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
-    noise += std::numbers::pi * reach_m * reach_m * share * error * error;
+    const auto error = static_cast<double>(luminance(r.stderr_lx));
+    noise += accuracy * accuracy * area_m2(r) * error * error;
     const auto lux = static_cast<double>(luminance(r.irradiance));
     light += lux, squares += lux * lux, errors += error * error;
   }
   if (!(light > 0) || !(errors > 0)) return {};
   return {noise / light, squares / errors};
+}
+
+double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
+  double flux = 0, area = 0;
+  for (const IrradianceRecord& r : records) {
+    flux += area_m2(r) * static_cast<double>(luminance(r.irradiance)), area += area_m2(r);
+  }
+  return area > 0 ? flux / area : 0;
 }
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
@@ -77,6 +90,7 @@ void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
   tree_ = std::make_unique<RecordTree>(rays.scene().bounds, kReadBeyond * cache.accuracy);
   for (const IrradianceRecord& r : cache.records) tree_->insert(r);
   far_ = std::make_unique<FarRecords>(*tree_);
+  usual_lx_ = mean_irradiance_lx(cache.records);
 }
 
 CoarseLevel::CoarseLevel() = default;
@@ -84,8 +98,8 @@ CoarseLevel::~CoarseLevel() = default;
 CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
 
 GatherSource CoarseLevel::source() const {
-  return {tree_.get(),  far_.get(),       photons_.get(), holds_direct_,
-          gloss_.get(), noise_.photon_lm, zone_photons_,  noise_.common};
+  return {tree_.get(),      far_.get(),    photons_.get(), holds_direct_, gloss_.get(),
+          noise_.photon_lm, zone_photons_, noise_.common,  usual_lx_};
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 

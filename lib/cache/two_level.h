@@ -24,6 +24,8 @@ struct EquivalentPhotons {
 };
 /// Zero of records that are exact.
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy);
+/// Luminance of the mean irradiance over what records cover, each by its area; 0 of none.
+double mean_irradiance_lx(std::span<const IrradianceRecord> records);
 /// Photons tried as places for them: a coarse cache needs far fewer records than that.
 inline constexpr std::int64_t kCoarseCandidates = 400'000;
 
@@ -58,7 +60,7 @@ class CoarseLevel {
   std::unique_ptr<GlossCache> gloss_;
   bool holds_direct_ = false;
   PhotonNoise noise_;
-  double zone_photons_ = 0;
+  double zone_photons_ = 0, usual_lx_ = 0;
 };
 
 }  // namespace phos

@@ -114,9 +114,7 @@ Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std
     key.record.position = site.position;
   }
   const float raw = made.record.radius_m * chain.share;
-  const float radius = std::clamp(std::max(raw, made.least_radius_m), made.site_least_m,
-                                  std::max(made.site_least_m, made.site_most_m));
-  key.record.radius_m = std::clamp(radius, bounds.least_m, bounds.most_m);
+  key.record.radius_m = within_bounds_m(raw, made, bounds);
   if (raw < key.record.radius_m) scale_gradients(key, raw / key.record.radius_m);
   return key;
 }

@@ -105,6 +105,7 @@ std::shared_ptr<const RadianceRecord> get(Reader& in) {
 void put(Writer& out, const Made& made) {
   irradiance(out, made.record);
   out.value(made.least_radius_m), out.value(made.site_least_m), out.value(made.site_most_m);
+  out.value(made.least_share);
   put(out, made.radiance);
   out.value(static_cast<std::uint8_t>(made.ahead != nullptr));
   if (!made.ahead) return;
@@ -115,6 +116,7 @@ void put(Writer& out, const Made& made) {
 void get(Reader& in, Made& made) {
   irradiance(in, made.record);
   in.value(made.least_radius_m), in.value(made.site_least_m), in.value(made.site_most_m);
+  in.value(made.least_share);
   made.radiance = get(in);
   std::uint8_t looks_ahead = 0;
   in.value(looks_ahead);

@@ -235,6 +235,45 @@ TEST(RecordOf, EndsWhereTheGradientTakesAll) {
   }
 }
 
+TEST(Gather, BrightPlacesMayHaveNearerNeighbours) {
+  const test::AnalyticScene s = test::furnace(0.5f);
+  const RayScene rays(s.scene);
+  const Luminaires lights(s.scene);
+  RecordOptions options;
+  options.estimate = Estimate::gather;
+  options.resolve(s.scene.bounds.diagonal_m());
+  RecordSite site{s.checks[0].position, s.checks[0].normal};
+  site.least_radius_m = 3;
+  const auto share = [&](float lux, double usual_lx) {
+    RecordTree coarse(s.scene.bounds, 0.2);
+    IrradianceRecord known;
+    known.position = site.position, known.normal = site.normal, known.irradiance = Rgb(lux),
+    known.radius_m = 1;
+    if (lux > 0) coarse.insert(known);
+    GatherSource source;
+    source.indirect = &coarse, source.usual_lx = usual_lx;
+    const GatherEstimator estimator(rays, lights, source, options, 1);
+    const Made made = estimator.make(site, *estimator.make_worker());
+    EXPECT_EQ(made.site_least_m, 3.f);
+    return made.least_share;
+  };
+  EXPECT_EQ(share(20, 10), 1.f);
+  EXPECT_EQ(share(1, 10), 1.f);
+  EXPECT_EQ(share(10, 0), 1.f) << "unknown";
+  EXPECT_EQ(share(0, 10), 1.f) << "no record there";
+  EXPECT_FLOAT_EQ(share(80, 10), 0.5f);
+  EXPECT_FLOAT_EQ(share(8e-10f, 1e-10), 0.5f);
+  EXPECT_EQ(share(1e30f, 10), 0.25f);
+}
+
+TEST(CoarseLevel, MeanIrradianceIsByArea) {
+  EXPECT_EQ(mean_irradiance_lx({}), 0);
+  IrradianceRecord near, far;
+  near.irradiance = Rgb(100), near.radius_m = 1;
+  far.irradiance = Rgb(10), far.radius_m = 3;
+  EXPECT_NEAR(mean_irradiance_lx(std::vector{near, far}), (100 + 9 * 10) / 10., 1e-5);
+}
+
 TEST(Gather, DirectionsLieInTheirCells) {
   const test::AnalyticScene s = test::furnace(0.5f);
   const test::Gathered g(s.scene);

@@ -334,6 +334,15 @@ TEST(RadiusRules, ASitesOwnBoundsHoldWithinThoseOfAll) {
   EXPECT_EQ(radius(1, 0.01f, 0.02f), 0.1f);
   EXPECT_EQ(radius(100, 50, kInfinity), 10.f);
   EXPECT_EQ(radius(1, 0, kInfinity), 1.f);
+  const auto brighter = [&](float made_m) {
+    Made made;
+    made.record.radius_m = made_m;
+    made.site_least_m = 2, made.site_most_m = 3, made.least_share = 0.5f;
+    return within_bounds_m(made_m, made, {0.1f, 10});
+  };
+  EXPECT_EQ(brighter(0.7f), 1.f);
+  EXPECT_EQ(brighter(1.5f), 1.5f);
+  EXPECT_EQ(brighter(5), 3.f);
 }
 
 // --- what goes with what
