@@ -12,11 +12,16 @@
 
 namespace phos {
 
-/// How many records lie where they are wanted, by their accuracy: count x (a / accuracy)^-power.
+/// How many records lie where they are wanted, by their accuracy a: odds n / (most - n) of a place to be one
+/// that follow a power of a, for a record may serve no less than a pixel or a sensor.
 struct RecordCount {
-  double count = 0, accuracy = 1, power = 0;
+  double count = 0, accuracy = 1;  ///< n at one accuracy
+  double power = 0;                ///< n / (most - n) ~ a^-power
+  double most = 0;
   double at(double a) const;
 };
+/// From n records at accuracy a, and `more` at a finer one; places for `most`, and for all there are.
+RecordCount count_of(double a, double n, double finer, double more, double most);
 
 /// What a reference takes, and how noisy it is.
 struct ReferenceCost {

@@ -57,7 +57,7 @@ PlanTask picture() {
 
 TEST(StudyPlanChoose, TheFrontIsWhatTryingEverythingFinds) {
   const PlanModel time = synthetic_time(), error = synthetic_error(1e-5);
-  const RecordCount count{2000, 0.5, 1.5};
+  const RecordCount count{2000, 0.5, 1.5, 1e9};
   KnobGroup photons{{K::photons}, {{1e4, 4e4, 16e4, 64e4}}};
   KnobGroup records{{K::accuracy, K::rays}, {{0.8, 0.4, 0.2}, {16, 64, 256, 1024}}};
   records.derived = {K::records};

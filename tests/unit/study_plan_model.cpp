@@ -137,10 +137,19 @@ TEST(StudyPlanModel, DoubtWidensAnInterval) {
   EXPECT_NEAR(model.predict(k, 0.1).low, 8.36, 0.01);
 }
 
-TEST(StudyPilot, RecordsFollowAPower) {
-  const RecordCount count{1000, 0.5, 2};
-  EXPECT_NEAR(count.at(0.5), 1000, 1e-9);
-  EXPECT_NEAR(count.at(0.25), 4000, 1e-6);
+TEST(StudyPilot, RecordsFollowAPowerUpToTheirPlaces) {
+  const RecordCount few = count_of(0.5, 1000, 0.25, 4000, 1e12);
+  EXPECT_NEAR(few.at(0.5), 1000, 1e-3);
+  EXPECT_NEAR(few.at(0.25), 4000, 1e-3);
+  EXPECT_NEAR(few.at(0.125), 16000, 1e-2);
+  const RecordCount many = count_of(0.5, 1000, 0.25, 4000, 10000);
+  EXPECT_NEAR(many.at(0.5), 1000, 1e-9);
+  EXPECT_NEAR(many.at(0.25), 4000, 1e-6);
+  EXPECT_NEAR(many.at(0.125), 8000, 1e-6);  // odds 1/9, 2/3, 4
+  EXPECT_NEAR(many.at(1e-4), 10000, 1);
+  EXPECT_EQ(count_of(0.5, 0, 0.25, 0, 100).at(0.1), 0);
+  const RecordCount even = count_of(0.5, 100, 0.25, 100, 100);  // every sensor has one of its own
+  EXPECT_NEAR(even.at(0.1), 100, 1e-9);
 }
 
 TEST(StudyPilot, AReferenceTellsMoreWithMoreSamplesAndPlaces) {
