@@ -18,7 +18,11 @@ struct RecordCount {
   double count = 0, accuracy = 1;  ///< n at one accuracy
   double power = 0;                ///< n / (most - n) ~ a^-power
   double most = 0;
+  double law = 0;  ///< n ~ a^-law while there are few
   double at(double a) const;
+  /// The accuracy that would have as many records if there was no end to places: what errors follow. As a
+  /// between the two that were counted; below, where places run out, more than a.
+  double in_effect(double a) const;
 };
 /// From n records at accuracy a, and `more` at a finer one; places for `most`, and for all there are.
 RecordCount count_of(double a, double n, double finer, double more, double most);

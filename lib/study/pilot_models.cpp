@@ -22,11 +22,17 @@ double RecordCount::at(double a) const {
   return most * odds / (1 + odds);
 }
 
+double RecordCount::in_effect(double a) const {
+  return law > 0 ? accuracy * std::pow(at(a) / count, -1 / law) : a;
+}
+
 RecordCount count_of(double a, double n, double finer, double more, double most) {
   RecordCount count{n, a, 0, std::max(most, kRoom * std::max(n, more))};
   const auto odds = [&](double records) { return records / (count.most - records); };
-  if (n > 0 && more > 0)
-    count.power = std::clamp(std::log(odds(more) / odds(n)) / std::log(a / finer), 0., 4.);
+  if (n > 0 && more > n) {
+    count.power = std::log(odds(more) / odds(n)) / std::log(a / finer);
+    count.law = std::log(more / n) / std::log(a / finer);
+  }
   return count;
 }
 
@@ -57,11 +63,11 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
       blur{"shadows that pixels share", {{K::light_rays, -1}, {K::pixels, -0.5}}};
   return {{{"direct light and gloss, noise", sum_of(seen)},
            {"direct light and gloss, bias", sum_of({edges, textures, blur})},
-           {"indirect light, noise", sum_of({{"noise of gathered rays", {{K::accuracy, 1}, {K::rays, -1}}},
+           {"indirect light, noise", sum_of({{"noise of gathered rays", {{K::in_effect, 1}, {K::rays, -1}}},
                                              {"noise of photons", {{K::photons, -1}}}})},
            {"indirect light, bias", sum_of({edges,
                                             textures,
-                                            {"interpolation between records", {{K::accuracy, 2}}},
+                                            {"interpolation between records", {{K::in_effect, 2}}},
                                             {"what no setting mends", {}}})}}};
 }
 
@@ -70,8 +76,8 @@ PlanModel lux_error_model() {
            {"direct light, bias", sum_of({{"what no setting mends", {}}})},
            {"indirect light, noise",
             sum_of({{"noise of gathered rays", {{K::rays, -1}}}, {"noise of photons", {{K::photons, -1}}}})},
-           {"indirect light, bias",
-            sum_of({{"interpolation between records", {{K::accuracy, 2}}}, {"what no setting mends", {}}})}}};
+           {"indirect light, bias", sum_of({{"interpolation between records", {{K::in_effect, 2}}},
+                                            {"what no setting mends", {}}})}}};
 }
 
 PlanModel time_model(const PlanTask& task) {

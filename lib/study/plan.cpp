@@ -23,9 +23,10 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
   groups.push_back({{Knob::photons}, {doubling(20000, 1e8)}});
   KnobGroup records{{Knob::accuracy, Knob::rays}, {{0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(64, 16384)}};
-  records.derived = {Knob::records};
+  records.derived = {Knob::records, Knob::in_effect};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
+    k[at(Knob::in_effect)] = count.in_effect(k[at(Knob::accuracy)]);
   };
   groups.push_back(records);
   if (task.image) {
