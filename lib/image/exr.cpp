@@ -27,6 +27,10 @@ namespace phos {
 
 namespace {
 
+/// Layers of floats hardly shrink by more effort: of a Cornell box at 800 x 800 the usual level 4 takes a
+/// third more time, which is a sixth of phos-splat's, for 0.6 % less.
+constexpr int kZipLevel = 1;
+
 class MemoryIn : public Imf::IStream {
  public:
   MemoryIn(std::string_view bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
@@ -225,6 +229,7 @@ std::string encode_exr(const Image& image, ExrCompression compression) {
   header.compression() = compression == ExrCompression::zip   ? Imf::ZIP_COMPRESSION
                          : compression == ExrCompression::piz ? Imf::PIZ_COMPRESSION
                                                               : Imf::NO_COMPRESSION;
+  header.zipCompressionLevel() = kZipLevel;
   header.lineOrder() = Imf::INCREASING_Y;
   Imf::addWhiteLuminance(header, 1.0f);
   const auto xy = [](const Vec2& v) { return Imath::V2f(v.x, v.y); };
