@@ -20,11 +20,12 @@ struct RecordCount {
   double most = 0;
   double law = 0;  ///< n ~ a^-law while there are few
   double at(double a) const;
-  /// The accuracy that would have as many records if there was no end to places: what errors follow. As a
-  /// between the two that were counted; below, where places run out, more than a.
+  /// The accuracy that would have as many records if places had no end, which errors follow: a itself at the
+  /// two that were counted, more than a where places run out.
   double in_effect(double a) const;
 };
-/// From n records at accuracy a, and `more` at a finer one; places for `most`, and for all there are.
+/// From n records counted at accuracy a, and `more` at a finer one, where there is room for `most`, but for a
+/// quarter more than were counted at least.
 RecordCount count_of(double a, double n, double finer, double more, double most);
 
 /// What a reference takes, and how noisy it is.
@@ -64,8 +65,9 @@ struct PilotOptions {
 };
 
 /// Runs the pipeline twice each at three settings of photons and records and six of the picture's samples,
-/// at a size of at most kPilotPixels and for at most kPilotSensors sensors, and fits models to what comes
-/// out. Throws Error(bad_input) where nothing that is looked at is lit, or a program fails.
+/// at a size of at most kPilotPixels and for at most kPilotSensors sensors; counts records, and times two
+/// pictures, at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that
+/// is looked at is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
 inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
