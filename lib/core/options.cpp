@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/likeness.h"
 
 namespace phos {
 
@@ -141,6 +142,12 @@ struct Options::Impl {
     for (const Declaration& d : declarations)
       if (d.name == name) return &d;
     return nullptr;
+  }
+  [[noreturn]] void refuse_unknown(const std::string& option, const std::string& see) const {
+    std::vector<std::string> names;
+    for (const Declaration& d : declarations)
+      if (!d.is_input) names.push_back("--" + d.name);
+    throw Error(ExitCode::usage, option, "no such option" + did_you_mean(option, names) + see);
   }
   static std::string detail(const Declaration& d) {
     std::string s = d.help;
@@ -375,6 +382,10 @@ bool Options::parse(int argc, const char* const* argv) {
   const std::string see = "; see " + impl_->tool + " --help";
   try {
     impl_->app.parse(arguments);
+  } catch (const CLI::ExtrasError& e) {
+    for (const std::string& word : impl_->app.remaining())
+      if (word.starts_with("-")) impl_->refuse_unknown(word.substr(0, word.find('=')), see);
+    throw Error(ExitCode::usage, "", e.what() + see);
   } catch (const CLI::ParseError& e) {
     std::string message = e.what();
     std::replace(message.begin(), message.end(), '\n', ' ');

@@ -12,7 +12,7 @@ namespace {
 /// Measured gains: of integrands that are smooth, and of those with edges, over the square.
 constexpr double kSmooth = 0.12, kEdges = 0.45;
 /// The same of a lamp of many parts, each of which has its own even points.
-constexpr double kSmoothInParts = 0.05;
+constexpr double kSmoothInParts = 0.08;
 /// (Mean of |difference|)^2 / mean of its square, at which each is taken to be had: 2 / pi where differences
 /// are normal, next to nothing where a few are all.
 constexpr double kOfSmooth = 0.55, kOfEdges = 0.25;

@@ -110,7 +110,10 @@ class Interleaved {
       if (share_.rays > tests)
         send(lamp, first + tests, share_.rays - tests,
              [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
-      for_each([&](std::size_t i) { add(form, i); });
+      if (form.closed())
+        for_each([&](std::size_t i) { add_share(form, i); });
+      else
+        add_means(reach(form));
     }
     return std::move(shared_);
   }
@@ -212,16 +215,15 @@ class Interleaved {
         row, about_, width_, [&](std::size_t i) { return i / width_; }, height);
   }
 
-  /// The lamp's light at a pixel, from what it and its neighbours found.
-  void add(const LampForm& form, std::size_t i) {
-    if (form.closed() && !(about_[i] & kSeen)) return;
-    if (form.closed() && about_[i] == kSeen) {
+  /// The light of a lamp with a closed form at a pixel, from what it and its neighbours found.
+  void add_share(const LampForm& form, std::size_t i) {
+    if (!(about_[i] & kSeen)) return;
+    if (about_[i] == kSeen) {
       shared_[i].illuminance += form.luminance() * unoccluded(form, i);
       return;
     }
     const std::array<Finding, kReaches> found = found_about(i);
     std::size_t reach = this->reach(form);
-    if (!form.closed()) return shared_[i].add_mean(found[reach]);
     while (reach < kAll && !(found[reach].sent > 0)) ++reach;
     if (!(found[reach].seen > 0)) return;
     const float share = found[reach].share();
@@ -232,6 +234,59 @@ class Interleaved {
     }
     shared_[i].add_share(form.luminance() * unoccluded(form, i), found[reach].share(),
                          found[reach].variance_of(share));
+  }
+
+  /// The light of a lamp without one, at all pixels.
+  void add_means(std::size_t reach) {
+    std::vector<SharedLight> mean(pixels_);
+    for_each([&](std::size_t i) { mean[i].add_mean(found_about(i)[reach]); });
+    const double gain = gain_of_strata(mean);
+    for_each([&](std::size_t i) {
+      shared_[i].illuminance += mean[i].illuminance, shared_[i].variance += gain * mean[i].variance;
+    });
+  }
+
+  /// Variance of what a pixel's rays bring, over that of independent rays; at most 1. Pixels a block apart
+  /// send theirs to the same part of the lamp, so half the mean square of their differences is the first;
+  /// the other is the mean square of a ray's light less that of the mean about the pixel, which holds all
+  /// parts.
+  double gain_of_strata(const std::vector<SharedLight>& mean) const {
+    struct Variances {
+      double in_strata = 0, independent = 0;
+    };
+    const std::size_t height = pixels_ / width_;
+    const Variances sum = parallel_reduce(
+        height, 1, Variances(),
+        [&](std::size_t y, std::size_t) {
+          Variances row;
+          for (std::size_t x = 0; x < width_; ++x) {
+            const std::size_t i = y * width_ + x;
+            if (!g_.covered(i)) continue;
+            const SeenSurface own = SeenSurface::of(g_, i);
+            const auto pair = [&](std::size_t j) {
+              if (!same_surface(own, g_, j)) return;
+              const DVec3 differ = own_mean(i) - own_mean(j);
+              row.in_strata += glm::dot(differ, differ) / 2;
+              row.independent += (spread_of_mean(i, mean[i]) + spread_of_mean(j, mean[j])) / 2;
+            };
+            if (x + kBlock < width_) pair(i + kBlock);
+            if (y + kBlock < height) pair(i + kBlock * width_);
+          }
+          return row;
+        },
+        [](Variances& all, const Variances& row) {
+          all.in_strata += row.in_strata, all.independent += row.independent;
+        });
+    return sum.in_strata < sum.independent ? sum.in_strata / sum.independent : 1;
+  }
+  DVec3 own_mean(std::size_t i) const {
+    return DVec3(brought_[i].light) / static_cast<double>(sight_[i].rays);
+  }
+  /// Variance of a pixel's mean if its rays were independent, lx^2, all channels.
+  double spread_of_mean(std::size_t i, const SharedLight& mean) const {
+    const auto n = static_cast<double>(sight_[i].rays);
+    const DVec3 light(mean.illuminance), spread = brought_[i].light2 / n - light * light;
+    return (spread.x + spread.y + spread.z) / n;
   }
 
   /// What a pixel found, with those next to it that show its surface, and with all of these within reach.

@@ -1,7 +1,7 @@
 #include "study/study_keys.h"
 
 #include "core/error.h"
-#include "study/study_tools.h"
+#include "core/likeness.h"
 
 namespace phos {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/likeness.h"
 #include "study/stage.h"
 #include "study/study_tools.h"
 #include "study/study_values.h"

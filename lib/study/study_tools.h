@@ -34,9 +34,4 @@ ToolOptions options_of(const CommandRunner& runner, const std::string& tool);
 std::vector<std::string> option_words(const ToolOption& option, const Json& value, const std::string& folder,
                                       const std::string& where);
 
-/// `; did you mean "rays"?`: the nearest of some names by the number of letters to change (V. I. Levenshtein
-/// 1966), "" where none is near.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
-std::size_t edit_distance(const std::string& a, const std::string& b);
-
 }  // namespace phos

@@ -1,6 +1,7 @@
 // Pictures of scenes in an environment: what is behind them, and the light on them by every way there is.
 #include <gtest/gtest.h>
 
+#include "splat/interleaved.h"
 #include "splat/render.h"
 #include "support/environment.h"
 #include "support/splat_scenes.h"
@@ -90,6 +91,35 @@ TEST_P(EveryWay, LightsOpenGround) {
 
 INSTANTIATE_TEST_SUITE_P(Direct, EveryWay,
                          testing::Values(DirectBy::traced, DirectBy::interleaved, DirectBy::shadow_map));
+
+/// Rays that neighbours share cover the sky evenly; that leaves less than independent ones would, and it is
+/// what is stated.
+TEST(Interleaved, StatesTheErrorThatEvenRaysLeave) {
+  const Scene scene = floor_and_sky(gradient_map(32, 0.3));
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const Vec2 middle(0.5f);
+  const GBuffer gbuffer = trace_gbuffer(rays, scene.camera[0], kSide, kSide, middle);
+  const PixelRays pixel_rays(scene.camera[0], kSide, kSide);
+  constexpr std::uint64_t kSeeds = 24;
+  for (const int rays_of_each : {1, 4, 16}) {
+    std::vector<double> sum(gbuffer.hit.size()), square(sum), stated(sum);
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const auto light =
+          interleaved_light(rays, lights, gbuffer, pixel_rays, middle, {rays_of_each, 0, 1}, seed);
+      for (std::size_t i = 0; i < light.size(); ++i) {
+        const auto e = static_cast<double>(light[i].illuminance.y);
+        sum[i] += e, square[i] += e * e, stated[i] += light[i].variance.y;
+      }
+    }
+    double real = 0, said = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      real += (square[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1), said += stated[i] / kSeeds;
+    const double ratio = std::sqrt(said / real);  // 2.4 to 4.9 if rays were independent
+    EXPECT_GT(ratio, 0.85) << rays_of_each;
+    EXPECT_LT(ratio, 1.35) << rays_of_each;
+  }
+}
 
 /// Edges are sampled more often; where some of their samples pass the edge they see the sky.
 TEST(Background, IsBlendedAtEdges) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/likeness.h"
 #include "support/complaint.h"
 #include "support/every_option.h"
 
@@ -75,6 +76,22 @@ TEST(Options, ErrorsNameTheOptionAndTheMend) {
   EXPECT_NE(Everything().error({"in", "--nonsense"}).find("--nonsense"), std::string::npos);
   EXPECT_NE(Everything().error({}).find("usage: phos-x"), std::string::npos);
   EXPECT_NE(Everything().error({"--flag"}).find("SCENE is missing"), std::string::npos);
+}
+
+TEST(Likeness, NearestName) {
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("same", "same"), 0u);
+  EXPECT_EQ(did_you_mean("acuracy", {"rays", "accuracy", "radius"}), "; did you mean \"accuracy\"?");
+  EXPECT_EQ(did_you_mean("xyzzyxyz", {"rays", "accuracy"}), "");
+}
+
+TEST(Options, AMistypedOneIsToldTheNearest) {
+  EXPECT_EQ(Everything().error({"in", "--cuont", "5"}),
+            "--cuont: no such option; did you mean \"--count\"?; see phos-x --help");
+  EXPECT_EQ(Everything().error({"in", "--nunber=5"}),
+            "--nunber: no such option; did you mean \"--number\"?; see phos-x --help");
+  EXPECT_EQ(Everything().error({"in", "--nonsense"}), "--nonsense: no such option; see phos-x --help");
 }
 
 TEST(Options, ReadsAFileOfOptions) {

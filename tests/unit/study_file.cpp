@@ -109,14 +109,6 @@ TEST(StudyTools, ValuesAreCheckedAsTheProgramWould) {
   wrong(choice, "disk", "\"disc\"");
 }
 
-TEST(StudyTools, NearestName) {
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-  EXPECT_EQ(edit_distance("", "abc"), 3u);
-  EXPECT_EQ(edit_distance("same", "same"), 0u);
-  EXPECT_EQ(did_you_mean("acuracy", {"rays", "accuracy", "radius"}), "; did you mean \"accuracy\"?");
-  EXPECT_EQ(did_you_mean("xyzzyxyz", {"rays", "accuracy"}), "");
-}
-
 TEST(StudySettings, EveryValueWithEveryOther) {
   StudyFile study;
   study.scenes = {"a.glb", "b.glb"}, study.cameras = {"x", "y"};
