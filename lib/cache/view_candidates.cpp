@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cache/candidates.h"
+#include "cache/shading.h"
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
@@ -14,7 +15,7 @@ namespace phos {
 namespace {
 
 // As phos-splat follows them.
-constexpr int kSpecularDepth = 16;
+constexpr int kSpecularDepth = ShadingOptions().specular_depth;
 constexpr float kLeastThroughput = 1e-4f;
 constexpr int kGlossRays = 2;          // of a glossy visible point
 constexpr float kLeastCosine = 0.05f;  // of a grazing pixel's patch
@@ -91,8 +92,8 @@ class Sight {
 };
 
 /// Placement comes by several times; the sites of a small picture are found once, and lie in memory as one
-/// walks over each sample's square of 4^level places.
-constexpr std::size_t kRemembered = std::size_t{1} << 22;
+/// walks over each sample's square of 4^level places, so many places together.
+constexpr std::size_t kRemembered = std::size_t{1} << 22, kTogether = 4096;
 
 template <class Sites>
 Candidates remember(std::size_t count, int level, const Sites& sites_of) {
@@ -103,26 +104,22 @@ Candidates remember(std::size_t count, int level, const Sites& sites_of) {
   const auto walked = [level, mask = (std::size_t{1} << 2 * level) - 1](std::size_t i) {
     return (i & ~mask) | grid_order(i & mask, level);
   };
-  auto found = std::make_shared<Found>(parallel_reduce<Found>(
-      count, 4096, {},
-      [&](std::size_t begin, std::size_t end) {
-        Found part;
-        for (std::size_t i = begin; i < end; ++i) {
-          sites_of(walked(i), part.sites);
-          part.end.push_back(static_cast<std::uint32_t>(part.sites.size()));
-        }
-        return part;
-      },
-      [](Found& all, const Found& part) {
-        const auto before = static_cast<std::uint32_t>(all.sites.size());
-        all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
-        for (const std::uint32_t end : part.end) all.end.push_back(before + end);
-      }));
+  const auto found = std::make_shared<std::vector<Found>>((count + kTogether - 1) / kTogether);
+  parallel_chunks(count, kTogether, [&](std::size_t begin, std::size_t end) {
+    Found& part = (*found)[begin / kTogether];
+    part.sites.reserve(kTogether), part.end.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      sites_of(walked(i), part.sites);
+      part.end.push_back(static_cast<std::uint32_t>(part.sites.size()));
+    }
+    part.sites.shrink_to_fit();
+  });
   return {count,
           [found, walked](std::size_t i, std::vector<RecordSite>& out) {
-            const std::size_t at = walked(i);
-            const std::uint32_t begin = at == 0 ? 0 : found->end[at - 1];
-            out.insert(out.end(), found->sites.begin() + begin, found->sites.begin() + found->end[at]);
+            const std::size_t at = walked(i), place = at % kTogether;
+            const Found& part = (*found)[at / kTogether];
+            const std::uint32_t begin = place == 0 ? 0 : part.end[place - 1];
+            out.insert(out.end(), part.sites.begin() + begin, part.sites.begin() + part.end[place]);
           },
           true};
 }
