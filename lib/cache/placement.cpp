@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <optional>
 
 #include "cache/growth.h"
 #include "cache/placer.h"
@@ -57,26 +58,37 @@ std::uint64_t each_open(const Candidates& candidates, const Growth& growth, cons
   return all;
 }
 
-/// The sites of places [begin, begin + count) that are not covered, in order.
+struct Cover {
+  std::uint64_t sites = 0, open = 0;
+};
+
+/// The sites of places [begin, begin + count) that are not covered, in order; `cover` counts them too.
 std::vector<RecordSite> open_sites(const Candidates& candidates, const Growth& growth, std::size_t begin,
-                                   std::size_t count) {
+                                   std::size_t count, Cover& cover) {
+  struct Found {
+    std::uint64_t sites = 0;
+    std::vector<OpenSite> open;
+  };
   const Walk walk(candidates, begin, count);
-  std::vector<OpenSite> open = parallel_reduce<std::vector<OpenSite>>(
+  Found found = parallel_reduce<Found>(
       count, kTaskPlaces, {},
       [&](std::size_t from, std::size_t to) {
-        std::vector<OpenSite> part;
-        each_open(candidates, growth, walk, from, to, [&](std::size_t place, const RecordSite& site) {
-          part.push_back({place, site});
-        });
+        Found part;
+        part.sites =
+            each_open(candidates, growth, walk, from, to, [&](std::size_t place, const RecordSite& site) {
+              part.open.push_back({place, site});
+            });
         return part;
       },
-      [](std::vector<OpenSite>& all, const std::vector<OpenSite>& part) {
-        all.insert(all.end(), part.begin(), part.end());
+      [](Found& all, const Found& part) {
+        all.sites += part.sites;
+        all.open.insert(all.open.end(), part.open.begin(), part.open.end());
       });
-  std::stable_sort(open.begin(), open.end(),
+  cover.sites += found.sites, cover.open += found.open.size();
+  std::stable_sort(found.open.begin(), found.open.end(),
                    [](const OpenSite& a, const OpenSite& b) { return a.place < b.place; });
   std::vector<RecordSite> sites;
-  for (const OpenSite& o : open) sites.push_back(o.site);
+  for (const OpenSite& o : found.open) sites.push_back(o.site);
   return sites;
 }
 
@@ -87,40 +99,33 @@ std::size_t block_at(std::size_t begin, std::size_t most) {
   return block;
 }
 
-/// One pass over the candidates. Returns how many records it had to add.
-std::size_t run_pass(const Candidates& candidates, int number, Growth& growth, Placer& placer) {
+/// One pass over the candidates: what it found, and how many records it had to add.
+struct Pass {
+  Cover cover;
+  std::size_t placed = 0;
+};
+
+Pass run_pass(const Candidates& candidates, int number, Growth& growth, Placer& placer) {
   Progress progress(number == 1 ? "records" : text("records, pass ", number), candidates.count, "candidates");
-  std::size_t placed = 0, most = number == 1 ? kLeastBlock : kOpenBlock;
+  Pass pass;
+  std::size_t most = number == 1 ? kLeastBlock : kOpenBlock;
   for (std::size_t begin = 0; begin < candidates.count;) {
     const std::size_t block = std::min(candidates.count - begin, block_at(begin, most));
-    const std::vector<RecordSite> open = open_sites(candidates, growth, begin, block);
-    placed += placer.cover(open);
+    const std::vector<RecordSite> open = open_sites(candidates, growth, begin, block, pass.cover);
+    pass.placed += placer.cover(open);
     begin += block;
     most = open.size() * kNextToNone < block ? std::min(4 * std::max(most, block), kMostBlock)
                                              : std::clamp(4 * growth.size(), kLeastBlock, kOpenBlock);
     progress.advance(block);
   }
-  return placed;
+  return pass;
 }
-
-struct Cover {
-  std::uint64_t sites = 0, open = 0;
-};
 
 Cover cover_of(const Candidates& candidates, const Growth& growth) {
   Cover total;
   for (std::size_t begin = 0; begin < candidates.count;) {
     const std::size_t block = std::min(candidates.count - begin, block_at(begin, kMostBlock));
-    const Walk walk(candidates, begin, block);
-    total = parallel_reduce<Cover>(
-        block, kTaskPlaces, total,
-        [&](std::size_t from, std::size_t to) {
-          Cover cover;
-          cover.sites = each_open(candidates, growth, walk, from, to,
-                                  [&](std::size_t, const RecordSite&) { ++cover.open; });
-          return cover;
-        },
-        [](Cover& all, const Cover& part) { all.sites += part.sites, all.open += part.open; });
+    open_sites(candidates, growth, begin, block, total);
     begin += block;
   }
   return total;
@@ -149,14 +154,15 @@ PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator
   Growth growth(cache, rays, resolved);
   ParallelMaker maker(estimator);
   Placer placer(maker, growth);
-  for (int pass = 1; pass <= placement.passes; ++pass) {
-    report.passes = static_cast<std::uint64_t>(pass);
-    const std::size_t placed = run_pass(candidates, pass, growth, placer);
-    const std::size_t shrunk = pass < placement.passes ? growth.compare() : 0;
-    if (placed == 0 && shrunk == 0) break;
+  std::optional<Cover> cover;
+  for (int number = 1; number <= placement.passes && !cover; ++number) {
+    report.passes = static_cast<std::uint64_t>(number);
+    const Pass pass = run_pass(candidates, number, growth, placer);
+    const std::size_t shrunk = number < placement.passes ? growth.compare() : 0;
+    if (pass.placed == 0 && shrunk == 0) cover = pass.cover;  // nothing has changed since it began
   }
-  const Cover cover = cover_of(candidates, growth);
-  report.candidates = cover.sites, report.uncovered = cover.open;
+  if (!cover) cover = cover_of(candidates, growth);
+  report.candidates = cover->sites, report.uncovered = cover->open;
   finish_placement(growth, maker, cache, report, counters);
   return report;
 }

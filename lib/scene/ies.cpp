@@ -26,11 +26,17 @@ class Numbers {
   std::size_t line() const { return lines_.empty() ? 1 : lines_[std::min(at_, lines_.size() - 1)].number; }
   /// Of the number that was read last.
   std::size_t last_line() const { return last_line_; }
+  void require_ascending(const std::vector<double>& deg, const char* which) const {
+    phos::require_ascending(
+        deg, which, where_, last_line_,
+        commas_ ? "are its decimals written with commas? Here they part numbers" : kAskTheMaker);
+  }
 
   std::string_view word() {
     last_line_ = line();
     const std::size_t end = std::min(rest_.find_first_of(" \t,"), rest_.size());
     const std::string_view w = rest_.substr(0, end);
+    commas_ = commas_ || rest_.substr(end).starts_with(',');
     rest_.remove_prefix(end);
     skip();
     return w;
@@ -77,6 +83,7 @@ class Numbers {
 
   const std::vector<PhotometricLine>& lines_;
   std::size_t at_, last_line_ = 1;
+  bool commas_ = false;
   std::string_view rest_;
   const std::string& where_;
 };
@@ -179,7 +186,7 @@ class Reader {
               text("the lamp-to-luminaire geometry is ", geometry, "; it must be 1, 2 or 3"));
     const std::size_t n = numbers.whole("the number of tilt angles", 1);
     const std::vector<double> deg = numbers.list(n, "tilt angle");
-    require_ascending(deg, "tilt", where_, numbers.last_line());
+    numbers.require_ascending(deg, "tilt");
     for (std::size_t i = 0; i < n; ++i) {
       const double factor = numbers.next(text("tilt factor ", i + 1, " of ", n));
       if (!(factor >= 0 && factor <= 1e6))
@@ -249,14 +256,14 @@ class Reader {
 
   void read_angles(Numbers& numbers) {
     vertical_deg_ = numbers.list(verticals_, "vertical angle");
-    require_ascending(vertical_deg_, "vertical", where_, numbers.last_line());
+    numbers.require_ascending(vertical_deg_, "vertical");
     const double least = type_ == 1 ? 0 : -90, most = type_ == 1 ? 180 : 90;
     if (vertical_deg_.front() < least || vertical_deg_.back() > most)
       fail_at(where_, numbers.last_line(),
               text("vertical angles run from ", vertical_deg_.front(), " to ", vertical_deg_.back(),
                    "; of type ", "CBA"[type_ - 1], " they lie between ", least, " and ", most));
     horizontal_deg_ = numbers.list(horizontals_, "horizontal angle");
-    require_ascending(horizontal_deg_, "horizontal", where_, numbers.last_line());
+    numbers.require_ascending(horizontal_deg_, "horizontal");
     angles_line_ = numbers.last_line();
   }
 

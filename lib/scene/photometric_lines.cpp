@@ -74,12 +74,11 @@ bool photometric_number(std::string_view word, double& value) {
 }
 
 void require_ascending(const std::vector<double>& deg, const char* which, const std::string& where,
-                       std::size_t line) {
+                       std::size_t line, const char* mend) {
   for (std::size_t i = 1; i < deg.size(); ++i) {
     if (!(deg[i] >= deg[i - 1] + kLeastStep_deg))
       fail_at(where, line,
-              text(which, " angles must ascend, but ", deg[i - 1], " is followed by ", deg[i],
-                   "; ask the maker for a sound file"));
+              text(which, " angles must ascend, but ", deg[i - 1], " is followed by ", deg[i], "; ", mend));
   }
 }
 
@@ -90,7 +89,7 @@ std::vector<float> CandelaList::finish(double factor, const std::string& where,
   if (lowest != cd.end() && *lowest < 0) {
     const std::size_t at = line[static_cast<std::size_t>(lowest - cd.begin())];
     if (!(-*lowest <= kNoise * most))
-      fail_at(where, at, text("an intensity is negative: ", *lowest, "; ask the maker for a sound file"));
+      fail_at(where, at, text("an intensity is negative: ", *lowest, "; ", kAskTheMaker));
     const auto n = std::count_if(cd.begin(), cd.end(), [](double v) { return v < 0; });
     warnings.push_back(text(n, " intensities are slightly negative (down to ", *lowest,
                             "), which is noise of the measurement: they are taken as 0"));

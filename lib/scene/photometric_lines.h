@@ -26,9 +26,10 @@ std::string plain_text(std::string_view words);
 /// A finite number, or nothing.
 bool photometric_number(std::string_view word, double& value);
 
-/// Angles must ascend by kLeastStep_deg at least.
+inline constexpr const char* kAskTheMaker = "ask the maker for a sound file";
+/// Angles must ascend by kLeastStep_deg at least; `mend` ends the message if they do not.
 void require_ascending(const std::vector<double>& deg, const char* which, const std::string& where,
-                       std::size_t line);
+                       std::size_t line, const char* mend = kAskTheMaker);
 
 /// A measured value, as it is stored. Slightly negative ones (1 % of the greatest; noise of the photometer)
 /// become 0 and one warning; others are an error that names the line of the lowest.

@@ -30,7 +30,8 @@ row() { printf '%-8s %-16s %8s %9s %9s %8s %7s\n' "$@"; }
 draw() { # WAY CACHE RECORDS RECORDS_S OPTION...
   local way=$1 cache=$2 made=$3 records_s=$4 picture_s
   shift 4
-  picture_s=$(timed phos-splat "$scene" "$cache" "${light[@]}" --camera "$view" --width "$width" "$@" -o "$folder/picture.exr")
+  picture_s=$(timed phos-splat "$scene" "$cache" "${light[@]}" --camera "$view" --width "$width" --layers beauty,emission "$@" \
+    -o "$folder/picture.exr")
   row "$view" "$way" "$made" "$records_s" "$picture_s" "$(calculate %.2f "$records_s + $picture_s")" \
     "$(true_error "$folder/picture.exr" "$folder/$view-$width" --layer beauty --ignore-emission)"
 }

@@ -32,8 +32,8 @@ for ((run = 0; run < runs; ++run)); do
       -o "$base.irradiance")
     lamps=(--direct interleaved --light-samples "$light_samples")
     [[ -z $direct ]] || lamps=()
-    picture_s=$(timed phos-splat "$scene" "$base.irradiance" --width "$width" --splat cpu --pixel-samples 1 --edge-samples 16 --layers beauty,emission \
-      "${lamps[@]}" "${common[@]}" -o "$base.exr")
+    picture_s=$(timed phos-splat "$scene" "$base.irradiance" --width "$width" --splat cpu --pixel-samples 1 \
+      --edge-samples 16 --layers beauty,emission "${lamps[@]}" "${common[@]}" -o "$base.exr")
     row "$way" "$(count_of records "$base.json")" "$photons_s" "$records_s" "$picture_s" \
       "$(calculate %.2f "$photons_s + $records_s + $picture_s")" "$(error_of "$base.exr")"
   done

@@ -156,6 +156,7 @@ TEST(Ies, TellsWhatIsWrongAndWhere) {
            {"100 50 0", "100 1e999 0", "which is no finite number"},
            {"100 50 0", "100 -50 0", "lamp.ies:10: an intensity is negative: -50"},
            {"0 45 90", "0 90 45", "lamp.ies:8: vertical angles must ascend, but 90 is followed by 45"},
+           {"0 45 90", "0 42,5 90", "are its decimals written with commas?"},
            {"0 45 90", "0 45 200", "vertical angles run from 0 to 200"},
            {"2.0 3 1", "2.0 1000000000 1", "ends before"},
            {"2.0 3 1", "2.0 1 1",
