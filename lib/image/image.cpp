@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "image/formats.h"
 
@@ -56,9 +57,13 @@ std::vector<Rgb> Image::rgb(const std::string& layer) const {
 
 void Image::set_rgb(const std::string& layer, std::span<const Rgb> values) {
   PHOS_CHECK(values.size() == pixels(), values.size(), " values for ", pixels(), " pixels");
-  const std::span<float> r = channel(channel_name(layer, "R")), g = channel(channel_name(layer, "G")),
-                         b = channel(channel_name(layer, "B"));
-  for (std::size_t i = 0; i < values.size(); ++i) r[i] = values[i].x, g[i] = values[i].y, b[i] = values[i].z;
+  std::vector<float>* const to[] = {&channels_[channel_name(layer, "R")],
+                                    &channels_[channel_name(layer, "G")],
+                                    &channels_[channel_name(layer, "B")]};
+  parallel_for(3, 1, [&](std::size_t c) {
+    to[c]->resize(pixels());
+    for (std::size_t i = 0; i < values.size(); ++i) (*to[c])[i] = values[i][static_cast<int>(c)];
+  });
 }
 
 std::vector<std::string> Image::layers() const {

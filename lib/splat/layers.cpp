@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -26,8 +27,8 @@ Rgb times_of(int times, const Rgb& value) { return static_cast<float>(times) * v
 DVec3 times_of(int times, const DVec3& value) { return static_cast<double>(times) * value; }
 float times_of(int times, float value) { return static_cast<float>(times) * value; }
 
-/// To 13 bits, 1 in 8000: of noise, whose digits do not compress, an error needs no more of them.
-float brief(float error) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & ~0x7ffu); }
+/// To 9 bits, 1 in 250: digits of noise do not compress, and an error needs no more of them.
+float brief(float error) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & ~0x7fffu); }
 
 bool black(std::span<const Rgb> values) {
   return std::all_of(values.begin(), values.end(), [](const Rgb& v) { return v == Rgb(0); });
@@ -58,8 +59,9 @@ std::string LayerSet::names() {
 Layers::Layers(int width, int height, const LayerSet& wanted)
     : width_(width), height_(height), wanted_(wanted) {
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  std::vector<std::function<void()>> makes;  // clearing so much memory takes a while: at once
   const auto make = [&](Layer layer, auto&... sums) {
-    if (wanted.has(layer)) (sums.resize(n), ...);
+    if (wanted.has(layer)) (makes.emplace_back([&sums, n] { sums.resize(n); }), ...);
   };
   make(Layer::beauty, beauty_);
   make(Layer::direct, direct_);
@@ -74,6 +76,7 @@ Layers::Layers(int width, int height, const LayerSet& wanted)
   make(Layer::normal, normal_);
   make(Layer::position, position_);
   make(Layer::depth, depth_);
+  parallel_for(makes.size(), 1, [&](std::size_t k) { makes[k](); });
 }
 
 void Layers::add(std::size_t i, const PixelSample& s, int times) {
