@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstdint>
 #include <functional>
 
 #include "core/error.h"
@@ -26,9 +24,6 @@ void add_to(std::vector<T>& sums, std::size_t i, const T& value) {
 Rgb times_of(int times, const Rgb& value) { return static_cast<float>(times) * value; }
 DVec3 times_of(int times, const DVec3& value) { return static_cast<double>(times) * value; }
 float times_of(int times, float value) { return static_cast<float>(times) * value; }
-
-/// To 9 bits, 1 in 250: digits of noise do not compress, and an error needs no more of them.
-float brief(float error) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & ~0x7fffu); }
 
 bool black(std::span<const Rgb> values) {
   return std::all_of(values.begin(), values.end(), [](const Rgb& v) { return v == Rgb(0); });
@@ -111,8 +106,7 @@ Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
     variance = glm::max(variance, glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1));
   }
   const DVec3 shared = DVec3(indirect_error_[i]) / n;
-  const Rgb error(glm::sqrt(variance + shared * shared));
-  return {brief(error.x), brief(error.y), brief(error.z)};
+  return Rgb(glm::sqrt(variance + shared * shared));
 }
 
 Image Layers::image(std::span<const std::uint16_t> samples, int spread_from) const {

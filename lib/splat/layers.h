@@ -65,7 +65,7 @@ class Layers {
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
   /// Divided by samples[pixel]. Pixels of more than one sample, and no fewer than `spread_from`, sent single
   /// rays, whose noise shows in the spread of their samples alone, or rays that samples share, whose noise
-  /// does not: the larger is stated, to 9 bits.
+  /// does not: the larger is stated.
   Image image(std::span<const std::uint16_t> samples, int spread_from) const;
 
  private:
