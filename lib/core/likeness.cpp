@@ -23,7 +23,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
   const std::string* nearest = nullptr;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 2);  // half the letters are no likeness
+  const std::size_t letters = word.size() - std::min(word.size(), word.find_first_not_of('-'));
+  std::size_t least = std::max<std::size_t>(2, letters / 2);  // half of them are no likeness
   for (const std::string& name : names) {
     const std::size_t distance = edit_distance(word, name);
     if (distance <= least && (!nearest || distance < least)) nearest = &name, least = distance;

@@ -144,7 +144,7 @@ struct Options::Impl {
     return nullptr;
   }
   [[noreturn]] void refuse_unknown(const std::string& option, const std::string& see) const {
-    std::vector<std::string> names;
+    std::vector<std::string> names{"--help", "--version", "--man"};
     for (const Declaration& d : declarations)
       if (!d.is_input) names.push_back("--" + d.name);
     throw Error(ExitCode::usage, option, "no such option" + did_you_mean(option, names) + see);

@@ -74,12 +74,11 @@ TEST_P(SceneWithDarkSurfaces, ShadowMapsComeClose) {
 
 /// One pass of interleaved rays over a scene, as pixels of illuminance.
 struct Interleaved {
-  Interleaved(const AnalyticScene& s, int rays_of_each, std::uint64_t seed = 1)
-      : rays(s.scene), lights(s.scene) {
+  Interleaved(const AnalyticScene& s, int rays_of_each) : rays(s.scene), lights(s.scene) {
     const Vec2 middle(0.5f);
     gbuffer = trace_gbuffer(rays, s.scene.camera[0], kSide, kSide, middle);
     light = interleaved_light(rays, lights, gbuffer, PixelRays(s.scene.camera[0], kSide, kSide), middle,
-                              {rays_of_each, 0, 1}, seed);
+                              {rays_of_each, 0, 1}, 1);
     for (const SharedLight& l : light) {
       value.push_back(static_cast<double>(l.illuminance.y));
       error.push_back(std::sqrt(static_cast<double>(l.variance.y)));

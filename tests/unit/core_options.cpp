@@ -84,6 +84,7 @@ TEST(Likeness, NearestName) {
   EXPECT_EQ(edit_distance("same", "same"), 0u);
   EXPECT_EQ(did_you_mean("acuracy", {"rays", "accuracy", "radius"}), "; did you mean \"accuracy\"?");
   EXPECT_EQ(did_you_mean("xyzzyxyz", {"rays", "accuracy"}), "");
+  EXPECT_EQ(did_you_mean("--ordr", {"--north"}), "") << "dashes are no likeness";
 }
 
 TEST(Options, AMistypedOneIsToldTheNearest) {
@@ -91,6 +92,8 @@ TEST(Options, AMistypedOneIsToldTheNearest) {
             "--cuont: no such option; did you mean \"--count\"?; see phos-x --help");
   EXPECT_EQ(Everything().error({"in", "--nunber=5"}),
             "--nunber: no such option; did you mean \"--number\"?; see phos-x --help");
+  EXPECT_EQ(Everything().error({"--hlep"}),
+            "--hlep: no such option; did you mean \"--help\"?; see phos-x --help");
   EXPECT_EQ(Everything().error({"in", "--nonsense"}), "--nonsense: no such option; see phos-x --help");
 }
 
