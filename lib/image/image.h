@@ -61,7 +61,8 @@ Image read_image(const std::string& path);
 /// Do bytes begin as one of these?
 bool is_image(std::string_view bytes);
 
-/// All are lossless: zip is read everywhere, piz is a third faster to write, none takes no time.
+/// All are lossless: zip is read everywhere, piz takes half again the time to write and makes a
+/// sixth less of pictures with noise, none takes the least time.
 enum class ExrCompression { zip, piz, none };
 /// 32-bit float, whiteLuminance 1, Rec.709 chromaticities; same image gives the same bytes. Atomic.
 void write_exr(const std::string& path, const Image& image, ExrCompression compression = ExrCompression::zip);

@@ -51,8 +51,8 @@ std::string LayerSet::names() {
   return all;
 }
 
-Layers::Layers(int width, int height, const LayerSet& wanted)
-    : width_(width), height_(height), wanted_(wanted) {
+Layers::Layers(int width, int height, const LayerSet& wanted, int most_samples, int spread_from)
+    : width_(width), height_(height), spread_from_(std::max(spread_from, 2)), wanted_(wanted) {
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   std::vector<std::function<void()>> makes;  // clearing so much memory takes a while: at once
   const auto make = [&](Layer layer, auto&... sums) {
@@ -64,7 +64,8 @@ Layers::Layers(int width, int height, const LayerSet& wanted)
   make(Layer::glossy, glossy_);
   make(Layer::specular, specular_);
   make(Layer::emission, emission_);
-  make(Layer::stderr_, variance_, noisy_, noisy_square_, indirect_error_);
+  make(Layer::stderr_, variance_, indirect_error_);
+  if (most_samples >= spread_from_) make(Layer::stderr_, noisy_, noisy_square_);
   make(Layer::albedo, albedo_);
   make(Layer::illuminance, illuminance_);
   make(Layer::weight, weight_);
@@ -97,10 +98,10 @@ void Layers::set_surface(std::size_t i, const Vec3& position, const Vec3& normal
   add_to(depth_, i, depth_m);
 }
 
-Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
+Rgb Layers::standard_error(std::size_t i, int samples) const {
   const auto n = static_cast<double>(samples);
   DVec3 variance = variance_[i] / (n * n);
-  if (samples >= std::max(spread_from, 2)) {
+  if (samples >= spread_from_) {
     // The spread has the noise of each sample's rays, but not of rays that samples share.
     const DVec3 mean = noisy_[i] / n;
     variance = glm::max(variance, glm::max(noisy_square_[i] / n - mean * mean, DVec3(0)) / (n - 1));
@@ -109,7 +110,7 @@ Rgb Layers::standard_error(std::size_t i, int samples, int spread_from) const {
   return Rgb(glm::sqrt(variance + shared * shared));
 }
 
-Image Layers::image(std::span<const std::uint16_t> samples, int spread_from) const {
+Image Layers::image(std::span<const std::uint16_t> samples) const {
   Image image(width_, height_);
   const std::size_t pixels = samples.size();
   std::vector<Rgb> values(pixels);
@@ -128,8 +129,7 @@ Image Layers::image(std::span<const std::uint16_t> samples, int spread_from) con
   put_mean("albedo", albedo_, true);
   put_mean("glossy", glossy_, !wanted_.all());
   put_mean("specular", specular_, !wanted_.all());
-  if (!variance_.empty())
-    put("stderr", [&](std::size_t i) { return standard_error(i, samples[i], spread_from); });
+  if (!variance_.empty()) put("stderr", [&](std::size_t i) { return standard_error(i, samples[i]); });
   const auto put_channel = [&](const std::string& name, bool wanted, const auto& value) {
     if (!wanted) return;
     const std::span<float> channel = image.channel(name);

@@ -57,27 +57,29 @@ struct PixelSample {
 /// Sums of what is asked for alone.
 class Layers {
  public:
-  Layers(int width, int height, const LayerSet& wanted);
+  /// Pixels get up to `most_samples`. Those of more than one, and no fewer than `spread_from`, send single
+  /// rays, whose noise shows in the spread of their samples alone, or rays that samples share, whose noise
+  /// does not: the larger is stated.
+  Layers(int width, int height, const LayerSet& wanted, int most_samples, int spread_from);
 
   /// A sample, or as many that see the same as `times` tells.
   void add(std::size_t pixel, const PixelSample& sample, int times = 1);
   /// What does not average: seen through the pixel's first sample.
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
-  /// Divided by samples[pixel]. Pixels of more than one sample, and no fewer than `spread_from`, sent single
-  /// rays, whose noise shows in the spread of their samples alone, or rays that samples share, whose noise
-  /// does not: the larger is stated.
-  Image image(std::span<const std::uint16_t> samples, int spread_from) const;
+  /// Divided by samples[pixel].
+  Image image(std::span<const std::uint16_t> samples) const;
 
  private:
-  Rgb standard_error(std::size_t pixel, int samples, int spread_from) const;
-  int width_, height_;
+  Rgb standard_error(std::size_t pixel, int samples) const;
+  int width_, height_, spread_from_;
   LayerSet wanted_;
   // One entry per pixel; empty where not asked for.
   std::vector<Rgb> beauty_, direct_, indirect_, glossy_, specular_, emission_, albedo_, normal_, position_;
   std::vector<Rgb> indirect_error_;
   // Squares are beyond the range of floats where light is within, and less the square of the mean are a small
   // rest.
-  std::vector<DVec3> variance_, noisy_, noisy_square_;
+  std::vector<DVec3> variance_;
+  std::vector<DVec3> noisy_, noisy_square_;  // empty, too, where no pixel has samples enough
   std::vector<float> illuminance_, weight_, depth_;
 };
 

@@ -191,7 +191,8 @@ class Painter {
         shading_(rays, lights_, records_, shading_options(), gloss),
         environment_(harmonics(brdfs)),
         shader_(rays, shading_, options, cached_direct(), environment_.get()),
-        layers_(width_, height_, LayerSet(options.layers)),
+        layers_(width_, height_, LayerSet(options.layers), samples_ + static_cast<int>(options.edge_samples),
+                spread_from()),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                static_cast<std::uint16_t>(samples_)),
         progress_("rendering", count_.size() * static_cast<std::uint64_t>(samples_), "pixel samples") {
@@ -233,6 +234,13 @@ class Painter {
     const Stopwatch watch(result_.seconds, "environment");
     return std::make_unique<EnvironmentHarmonics>(scene, *scene.environment, options_.environment,
                                                   static_cast<int>(options_.environment_order), brdfs);
+  }
+
+  /// Samples of a pixel from which on they send single rays.
+  int spread_from() const {
+    return shader_.single_rays(false)  ? 2
+           : shader_.single_rays(true) ? samples_ + 1
+                                       : std::numeric_limits<int>::max();
   }
 
   ShadingOptions shading_options() const {
@@ -347,10 +355,7 @@ class Painter {
     result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = total_.gloss_missed;
     for (std::vector<Miss>* misses : {&result_.misses, &result_.gloss_misses})
       spread(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
-    const int spread_from = shader_.single_rays(false)  ? 2
-                            : shader_.single_rays(true) ? samples_ + 1
-                                                        : std::numeric_limits<int>::max();
-    result_.image = layers_.image(count_, spread_from);
+    result_.image = layers_.image(count_);
   }
 
   const RayScene& rays_;

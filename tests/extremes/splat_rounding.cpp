@@ -17,7 +17,7 @@ TEST(Rounding, ErrorsOfPixels) {
     RandomStream random(2, Stage::test, trial);
     const float light = std::pow(10.f, 20 * random.uniform() - 10);
     const auto n = static_cast<std::uint16_t>(2 + trial % 1000);
-    Layers layers(1, 1, LayerSet(wanted));
+    Layers layers(1, 1, LayerSet(wanted), n, 2);
     long double sum = 0, squares = 0;
     for (int s = 0; s < n; ++s) {
       PixelSample sample;
@@ -28,7 +28,7 @@ TEST(Rounding, ErrorsOfPixels) {
           squares += static_cast<long double>(value) * static_cast<long double>(value);
     }
     const long double exact = std::sqrt(std::max(0.0L, squares / n - sum / n * (sum / n)) / (n - 1));
-    const Image image = layers.image(std::vector<std::uint16_t>{n}, 2);
+    const Image image = layers.image(std::vector<std::uint16_t>{n});
     error.see(static_cast<double>(image.channel("stderr.R")[0]), exact, static_cast<long double>(light));
   }
   error.expect("the error of a pixel, of its light", "samples", 2, 1000, 1e-7);
