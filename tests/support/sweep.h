@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,8 @@ inline Followed follows(const Figures& original, Scale by, const EstimateAt& est
     const Figure& then = original.all[i];
     const double law = then.value * by.of(then.length_power, then.light_power);
     if (now.all[i].value == law) continue;
+    const bool denormal = std::fabs(law) < static_cast<double>(std::numeric_limits<float>::min());
+    if (denormal && now.all[i].value == 0) continue;  // as set_flush_to_zero() has it
     double kin = std::fabs(law);
     for (const Figure& k : original.all)
       if (k.length_power == then.length_power && k.light_power == then.light_power && std::isfinite(k.value))
