@@ -63,6 +63,12 @@ class HitLight {
     Counters counters;
     std::vector<LampSight> sights;  ///< of the last shade(): the first `sight_count`
     std::size_t sight_count = 0;
+    /// Light of a hit by other places on the lamps than those of its sights, as if nothing hid them.
+    struct OtherLight {
+      Rgb radiance{0};
+      std::size_t first = 0, count = 0;  ///< sights of the hit
+    };
+    std::vector<OtherLight> other_light;
     /// Of the last ray: light read from the source, f E, the part f^2 E of its noise, and E (luminance).
     struct Read {
       Rgb radiance{0}, noise{0};
@@ -79,10 +85,10 @@ class HitLight {
   /// Has this material no other lobe than a diffuse one? Only its points leave sights.
   bool is_diffuse(std::uint32_t material) const;
 
-  /// Sets radiance, distance_m, hit_normal and source of h from what its rays hit (distance_m infinite:
-  /// nothing), by samples of the lamps at each hit (LampSampler::samples(), low-discrepancy over the hits)
-  /// and `source`. Lamps' own emission is left out: a record's direct light is computed apart. Random numbers
-  /// depend on (seed, item, pass, ray).
+  /// Sets radiance, distance_m, hit_normal, source and lamps of h from what its rays hit (distance_m
+  /// infinite: nothing), by samples of the lamps at each hit (LampSampler::samples(), low-discrepancy over
+  /// the hits) and `source`. Lamps' own emission is left out: a record's direct light is computed apart.
+  /// Random numbers depend on (seed, item, pass, ray).
   void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,
              Hemisphere& h, Worker& worker) const;
 

@@ -8,7 +8,18 @@ namespace {
 
 constexpr float kSin10Degrees = 0.17364818f;
 
+/// Of n places on lamps, even in three dimensions: the variance of their mean is kEven n^-kBetter of that of
+/// random ones, and no less than kLeft. Measured in a furnace, by 16 to 2048 rays.
+constexpr double kEven = 2.2, kBetter = 0.3, kLeft = 0.3;
+/// Those of rays next to each other are farther apart than random ones are: what differences between strata
+/// hold of their variance (1.0 to 1.4).
+constexpr double kInStrata = 1.2;
+/// Squares of differences spread, where all are drawn alike, so that they weigh like this part of them.
+constexpr double kAlike = 1.0 / 3;
+
 DVec3 squared(const DVec3& v) { return v * v; }
+/// Where squares are beyond floats.
+double brightness(const DVec3& v) { return glm::dot(v, DVec3(0.2126, 0.7152, 0.0722)); }
 
 }  // namespace
 
@@ -47,8 +58,26 @@ DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight) {
   return variance;
 }
 
+void LampNoise::add(const Rgb& difference, double stands_for) {
+  const DVec3 own = squared(DVec3(difference)) / 2.0;
+  variance += stands_for * own;
+  squares += stands_for * brightness(own) * brightness(own);
+}
+
+DVec3 LampNoise::left_of(const DVec3& strata, double weight2, std::size_t rays, double parts) const {
+  if (!(squares > 0)) return strata;
+  const double all = brightness(variance);
+  const double places = std::min(static_cast<double>(rays), all * all / squares / kAlike) / parts;
+  const double left = std::clamp(kEven * std::pow(places, -kBetter), kLeft, 1.0);
+  return strata - (1 - left) * glm::min(strata, kInStrata * weight2 * variance);
+}
+
 Rgb standard_error_of(const Hemisphere& h) {
-  return h.stratified() ? Rgb(glm::sqrt(strata_variance(h, h.projected_sr))) : Rgb(0);
+  if (!h.stratified()) return Rgb(0);
+  double weight2 = 0;
+  for (const float w : h.projected_sr) weight2 += static_cast<double>(w) * static_cast<double>(w);
+  weight2 /= static_cast<double>(h.size());
+  return Rgb(glm::sqrt(h.lamps.left_of(strata_variance(h, h.projected_sr), weight2, h.size())));
 }
 
 float harmonic_distance_m(const Hemisphere& h) {

@@ -30,6 +30,20 @@ struct SourceNoise {
   DVec3 total() const { return glm::max(variance + common * irradiance * irradiance, DVec3(0)); }
 };
 
+/// Noise of the places on lamps that what the rays hit is lit from, were each by itself: a sum over the rays.
+/// Together they are even (HitLight::shade), and leave less of it.
+struct LampNoise {
+  DVec3 variance{0};   ///< of radiance, (cd/m2)^2
+  double squares = 0;  ///< of the rays' own parts of that, luminance: (cd/m2)^4
+
+  /// The difference of radiance by two places that have nothing in common, found at one ray of `stands_for`.
+  void add(const Rgb& difference, double stands_for);
+  /// Of the variance of the sum of radiance over the rays, as differences between strata tell it, times
+  /// weight2 (the mean square of the rays' weights): what even places leave. `parts` of the sum are weighed
+  /// with unlike signs: each has its share of the places.
+  DVec3 left_of(const DVec3& strata, double weight2, std::size_t rays, double parts = 1) const;
+};
+
 /// Rays of one hemisphere, as columns. Stratified: rings x slices cells of equal measure, one ray in each,
 /// ray(j, k) = j * slices + k, theta by the measure, phi in [k, k+1) 2 pi/slices about frame.z from frame.x.
 /// Unstructured (a raster): rings = slices = 0, any directions.
@@ -44,6 +58,7 @@ struct Hemisphere {
   std::vector<float>
       projected_sr;    ///< projected solid angle that it stands for (cosine included); all sum to pi
   SourceNoise source;  ///< none, unless HitLight::shade() has set it
+  LampNoise lamps;     ///< likewise
   std::size_t size() const { return direction.size(); }
   bool stratified() const { return rings > 0; }
   /// Solid angle that a ray stands for; all sum to 2 pi.
@@ -70,12 +85,12 @@ int rings_for(std::int64_t rays);
 /// E = sum of radiance x projected solid angle, lx; in double, in order.
 Rgb irradiance_of(const Hemisphere& h);
 /// Variance of the sum of radiance x weight over the rays of a stratified hemisphere, as standard_error_of
-/// finds it.
+/// finds it, were all that lights what the rays hit independent.
 DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight);
 /// Standard error of irradiance_of, lx, from differences between neighbouring strata that cancel what varies
 /// evenly from cell to cell (conservative: on the mean its square exceeds the variance by what is left, a
-/// half to the double of it at an edge of light). Light that no ray has found is not known of. Unstructured
-/// sets: 0.
+/// half to the double of it at an edge of light), less what even places on lamps take away
+/// (Hemisphere::lamps). Light that no ray has found is not known of. Unstructured sets: 0.
 Rgb standard_error_of(const Hemisphere& h);
 /// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (A7), m; infinity if all miss,
 /// 0 if a ray starts on what it hits.

@@ -21,6 +21,8 @@ constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
+/// One hit in so many is lit from other places too, to tell their noise.
+constexpr std::uint32_t kOfWhichOneTells = 2;
 
 /// A ray of a record's pass.
 struct RayName {
@@ -44,17 +46,25 @@ class LampSequence {
   LampSequence(RandomStream random, std::uint32_t to_a_ray)
       : shift_{random.bits(), random.bits(), random.bits()}, to_a_ray_(to_a_ray) {}
   std::array<float, 3> point(std::size_t ray, std::uint32_t n) const {
-    const std::size_t k = ray * to_a_ray_ + n;
+    return at(static_cast<std::uint32_t>(ray * to_a_ray_ + n), n);
+  }
+  /// Another, with nothing in common with that.
+  std::array<float, 3> other_point(std::size_t ray, std::uint32_t n) const {
+    return at(kUnlike * (static_cast<std::uint32_t>(ray * to_a_ray_ + n) + 1), n);
+  }
+
+ private:
+  static constexpr std::uint32_t kUnlike = 0x9e3779b1u;
+
+  std::array<float, 3> at(std::uint32_t k, std::uint32_t n) const {
     constexpr std::uint32_t kStep[3] = {0xd1b54a32u, 0xabc98388u,
                                         0x8cb92ba7u};  // 2^32 / 1.2207440846^(d + 1)
     std::array<float, 3> u;
-    for (unsigned d = 0; d < 3; ++d)
-      u[d] = static_cast<float>((shift_[d] + static_cast<std::uint32_t>(k) * kStep[d]) >> 8) * 0x1p-24f;
+    for (unsigned d = 0; d < 3; ++d) u[d] = static_cast<float>((shift_[d] + k * kStep[d]) >> 8) * 0x1p-24f;
     if (to_a_ray_ > 1) u[0] = (static_cast<float>(n) + u[0]) / static_cast<float>(to_a_ray_);
     return u;
   }
 
- private:
   std::uint32_t shift_[3], to_a_ray_;
 };
 
@@ -167,12 +177,22 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const LampSequence& 
   Rgb sum(0);
   const bool cached = reads_cache(bounces);
   const std::uint32_t samples = cached && source.holds_direct ? 0 : lamps.samples();
+  const std::size_t first = worker.sight_count;
   for (std::uint32_t n = 0; n < samples; ++n) {
     LampSight& sight = worker.sights[worker.sight_count];
     lamps.sample(point, lamp_points.point(ray.ray, n), sight.light);
     if (!positive(sight.light.lux)) continue;
     sight.brdf = f / static_cast<float>(samples), sight.hit = ray.ray;
     ++worker.sight_count;
+  }
+  if (worker.sight_count > first && ray.ray % kOfWhichOneTells == 0) {
+    Worker::OtherLight other{Rgb(0), first, worker.sight_count - first};
+    for (std::uint32_t n = 0; n < samples; ++n) {
+      ArrivingLight light;
+      lamps.sample(point, lamp_points.other_point(ray.ray, n), light);
+      other.radiance += f / static_cast<float>(samples) * light.lux;
+    }
+    worker.other_light.push_back(other);
   }
   if (cached) {
     const Rgb lux = cached_lx(point, ray.key(), worker);
@@ -346,7 +366,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   const std::size_t most_sights = impl_->lamps.samples() * hits.size();
   if (worker.sights.size() < most_sights) worker.sights.resize(most_sights);
   worker.sight_count = 0;
-  h.source = {};
+  worker.other_light.clear();
+  h.source = {}, h.lamps = {};
   h.source.common = impl_->source.common;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     impl_->rays.ask_ahead(hits, i);
@@ -374,6 +395,16 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
       h.radiance[sight.hit] += radiance;
     else
       worker.hidden_radiance += radiance, ++worker.hidden;
+  }
+  for (const Worker::OtherLight& other : worker.other_light) {
+    // Where something is in the way, shadows make their noise, which even places take less of.
+    Rgb radiance(0);
+    bool arrived = true;
+    for (const LampSight& sight : std::span(worker.sights).subspan(other.first, other.count)) {
+      radiance += sight.brdf * sight.light.lux;
+      arrived = arrived && sight.arrived;
+    }
+    if (arrived) h.lamps.add(radiance - other.radiance, kOfWhichOneTells);
   }
   if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
   if (worker.beyond_reach > 0) worker.counters.count(kBeyondReach, worker.beyond_reach);

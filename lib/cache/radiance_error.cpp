@@ -51,7 +51,12 @@ std::vector<float> RadianceError::of(const Hemisphere& hemisphere) {
   }
   const double cell_sr = 2 * std::numbers::pi / static_cast<double>(hemisphere.size());
   const std::vector<float> one(hemisphere.size(), 1);
-  std::vector<DVec3> squares(order, strata_variance(hemisphere, one));
+  const DVec3 strata = strata_variance(hemisphere, one);
+  std::vector<DVec3> squares;
+  for (std::size_t l = 0; l < order; ++l) {
+    const double parts = 2 * static_cast<double>(l) + 1;
+    squares.push_back(hemisphere.lamps.left_of(strata, 1, hemisphere.size(), parts));
+  }
   for (int ring = 0; ring < rings_; ++ring) {
     // Squares of the mean light of cells, from neighbours so that their noise is not in it.
     DVec3 energy(0);

@@ -62,6 +62,34 @@ TEST_P(EveryScene, TwoStandardErrorsHoldTheTruth) {
 
 INSTANTIATE_TEST_SUITE_P(All, EveryScene, ::testing::Range<std::size_t>(0, 10));
 
+/// Lamps all around lit by even places: without that they are told of, the error stated is half again the
+/// true one.
+TEST(Gather, StatesTheErrorThatEvenPlacesOnLampsLeave) {
+  const AnalyticScene scene = furnace(0.1f);
+  const KnownLight known = known_light(scene);
+  const RayScene rays(known.scene);
+  const Luminaires lights(known.scene);
+  RecordOptions options;
+  options.estimate = Estimate::gather, options.paths = Quantity::indirect, options.gather_bounces = 1;
+  options.resolve(known.scene.bounds.diagonal_m());
+  for (const std::int64_t n : {64, 128, 256}) {
+    options.rays = n;
+    Calibration found;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+      const GatherEstimator gather(rays, lights, {}, options, seed);
+      const auto worker = gather.make_worker();
+      const KnownPoints seen = known.points(rays, seed, 100);
+      for (std::size_t i = 0; i < seen.at.size(); ++i) {
+        const IrradianceRecord r = gather.make({seen.at[i].position, seen.at[i].normal, i}, *worker).record;
+        found.add(double(r.irradiance.y), double(r.stderr_lx.y), 0.1 * seen.direct[i]);
+      }
+    }
+    EXPECT_GE(found.share(), 0.90) << n << " rays";
+    EXPECT_LE(found.share(), 0.98) << n << " rays";
+    EXPECT_NEAR(found.ratio(), 0.95, 0.2) << n << " rays";
+  }
+}
+
 TEST(RealScene, TwoStandardErrorsHoldTheTruth) {
   std::optional<KnownLight> known = sponza();
   if (!known) GTEST_SKIP() << "the scene collection is not beside the project";
