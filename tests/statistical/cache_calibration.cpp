@@ -16,9 +16,8 @@ bool has(const std::string& text, const char* part) { return text.find(part) != 
 
 /// Where more is known of the stated error than that. None is below what chance makes of a few seeds.
 Limits limits_of(const std::string& scene, const std::string& estimator) {
-  // Rays of radiance records: differences of strata bound their variance from above, and lamps are sampled by
-  // low-discrepancy points.
-  if (has(estimator, "radiance by rays")) return {0.86, 1};
+  // Rays of radiance records: differences of strata bound their variance from above.
+  if (has(estimator, "radiance by rays")) return {0.86, 0.995};
   // In a furnace that keeps 99 % each seed is one trial: all its light rises and falls together.
   if (has(scene, "0.99")) return {0.85, 1};
   // Samples of lamps that are smooth all over are better than any of them tells.
