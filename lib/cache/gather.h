@@ -69,6 +69,7 @@ class HitLight {
       std::size_t first = 0, count = 0;  ///< sights of the hit
     };
     std::vector<OtherLight> other_light;
+    bool tell_noise = false;  ///< of unstructured rays it is not known
     /// Of the last ray: light read from the source, f E, the part f^2 E of its noise, and E (luminance).
     struct Read {
       Rgb radiance{0}, noise{0};

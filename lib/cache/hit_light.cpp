@@ -185,7 +185,7 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const LampSequence& 
     sight.brdf = f / static_cast<float>(samples), sight.hit = ray.ray;
     ++worker.sight_count;
   }
-  if (worker.sight_count > first && ray.ray % kOfWhichOneTells == 0) {
+  if (worker.tell_noise && worker.sight_count > first && ray.ray % kOfWhichOneTells == 0) {
     Worker::OtherLight other{Rgb(0), first, worker.sight_count - first};
     for (std::uint32_t n = 0; n < samples; ++n) {
       ArrivingLight light;
@@ -366,6 +366,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   const std::size_t most_sights = impl_->lamps.samples() * hits.size();
   if (worker.sights.size() < most_sights) worker.sights.resize(most_sights);
   worker.sight_count = 0;
+  worker.tell_noise = h.stratified();
   worker.other_light.clear();
   h.source = {}, h.lamps = {};
   h.source.common = impl_->source.common;

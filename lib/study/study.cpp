@@ -57,9 +57,9 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
   StudyFile study = read_study(options.file, CommandRunner());
   if (options.threads) study.threads = *options.threads;
   const CommandRunner runner = runner_of(study);
+  const StudyWork work = plan_work(study, runner, options.folder + "/cache");
   make_folder(options.folder + "/cache");
   StudyJournal journal(options.folder + "/journal.jsonl");
-  const StudyWork work = plan_work(study, runner, options.folder + "/cache");
 
   StudyOutcome outcome{work.settings.size(), work_left(work, journal).size(), 0, ""};
   say(text(outcome.settings, outcome.settings == 1 ? " setting, " : " settings, ", study.seeds.size(),

@@ -13,7 +13,7 @@
 namespace phos {
 namespace {
 
-constexpr double kNotBelow = 0.5, kNotAbove = 1.3;  // of true / stated error at one place
+constexpr double kNotBelow = 0.5, kNotAbove = 1.1;  // of true / stated error
 
 /// The mean is the truth to within 3.5 of its standard errors and the rounding of sums.
 void expect_unbiased(const test::Trial& t, double truth, const std::string& what) {

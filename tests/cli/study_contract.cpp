@@ -80,6 +80,7 @@ TEST(StudyTool, RefusesAReferenceThatDoesNotBelong) {
     spill(folder + "/given.toml", "[study]\nscenes = \"box.glb\"\n" + more + "[reference]\nfiles = [" +
                                       files + "]\n[irradiance]\n[splat]\n");
     expect_refused("study", {folder + "/given.toml", "-o", folder + "/out"}, 4, word);
+    EXPECT_FALSE(fs::exists(folder + "/out"));
   };
   refused("\"a.exr\", \"small.exr\"", "", "20 x 20");
   refused("\"a.exr\"", "width = 30\n", "24 x 24");

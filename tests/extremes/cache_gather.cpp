@@ -67,7 +67,7 @@ TEST(Power, OfTheLamps) {
       const test::Check& check = s.checks[0];
       const test::Trial t = g.trial(check.position, check.normal, options, {}, truth, 50);
       EXPECT_NEAR(t.mean / truth, 1, 4 * t.stderr_of_mean / truth);
-      EXPECT_LT(t.stated, 1.3);
+      EXPECT_LT(t.stated, 1.1);
     }
   }
   for (const float candela : {1e-12f, 1e12f}) {

@@ -1,6 +1,7 @@
 // Image files: what is written comes back, and what others write is understood.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -67,6 +68,27 @@ TEST(Exr, RoundTripIsExact) {
     const std::span<const float> read = std::as_const(back).channel(name);
     EXPECT_EQ(std::memcmp(read.data(), values.data(), values.size() * sizeof(float)), 0) << name;
   }
+}
+
+/// Whole blocks of 16 lines and parts of one, that shrink and that cannot; names beyond 31 letters are
+/// flagged.
+TEST(Exr, BlocksAndLongNames) {
+  const std::string name = "a layer whose name is longer than that.R";
+  for (const int height : {1, 15, 16, 17, 33})
+    for (const bool noise : {false, true}) {
+      Image image(700, height);
+      const std::span<float> values = image.channel(name);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = noise ? std::bit_cast<float>(RandomStream(3, Stage::test, i).bits()) : 2.f;
+      image.attributes["phos.an attribute with a long name"] = "value";
+      const std::string bytes = encode_exr(image);
+      EXPECT_EQ(bytes[5], 4) << "the flag of long names";
+      EXPECT_EQ(noise, bytes.size() > values.size_bytes()) << height;
+      const Image back = decode_exr(bytes, "memory");
+      EXPECT_EQ(back.attributes, image.attributes);
+      EXPECT_EQ(std::memcmp(std::as_const(back).channel(name).data(), values.data(), values.size_bytes()), 0)
+          << height;
+    }
 }
 
 TEST(Exr, SameBytesOnAnyNumberOfThreads) {
