@@ -27,6 +27,10 @@ struct Fit {
   std::vector<double> best;
   std::vector<std::vector<double>> draws;
   double misfit = 1;
+
+  /// Those of a draw, or, beyond the last, the best.
+  std::vector<double>& of(std::size_t guess) { return guess < draws.size() ? draws[guess] : best; }
+  const std::vector<double>& of(std::size_t guess) const { return const_cast<Fit*>(this)->of(guess); }
 };
 Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_t seed);
 

@@ -37,31 +37,21 @@ void Posynomial::fit(std::span<const Observation> observations, std::uint64_t se
 
 void Posynomial::set(std::vector<double> coefficients) {
   PHOS_CHECK(coefficients.size() == terms_.size(), coefficients.size(), " for ", terms_.size(), " terms");
-  fit_ = {std::move(coefficients), {}, 1};
+  fit_ = {coefficients, std::vector<std::vector<double>>(kDraws, coefficients), 1};
 }
 
-void Posynomial::scale(double factor) {
-  for (double& c : fit_.best) c *= factor;
-  for (auto& draw : fit_.draws)
-    for (double& c : draw) c *= factor;
+void Posynomial::scale(std::size_t guess, double factor) {
+  for (double& c : fit_.of(guess)) c *= factor;
 }
 
-void Posynomial::add(std::size_t i, double more) {
-  fit_.best[i] += more;
-  for (auto& draw : fit_.draws) draw[i] += more;
-}
+void Posynomial::add(std::size_t guess, std::size_t i, double more) { fit_.of(guess)[i] += more; }
 
-double Posynomial::sum(const Knobs& knobs, const std::vector<double>& coefficients) const {
+double Posynomial::value(const Knobs& knobs, std::size_t guess) const {
+  const std::vector<double>& coefficients = fit_.of(guess);
   double sum = 0;
   for (std::size_t i = 0; i < coefficients.size(); ++i)
     if (coefficients[i] > 0) sum += coefficients[i] * terms_[i].at(knobs);
   return sum;
-}
-
-double Posynomial::best(const Knobs& knobs) const { return sum(knobs, fit_.best); }
-
-double Posynomial::draw(const Knobs& knobs, std::size_t i) const {
-  return sum(knobs, fit_.draws.empty() ? fit_.best : fit_.draws[i]);
 }
 
 std::vector<double> Posynomial::parts(const Knobs& knobs) const {
@@ -80,12 +70,13 @@ double PlanModel::best(const Knobs& knobs) const {
 Interval PlanModel::predict(const Knobs& knobs, double doubt) const {
   std::vector<double> sums(Posynomial::kDraws, 0);
   for (const auto& [name, p] : part)
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += p.draw(knobs, i);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += p.value(knobs, i);
   std::sort(sums.begin(), sums.end());
   Interval interval;
   interval.value = best(knobs);
   const double low = std::min(sums[sums.size() / 20], interval.value),
                high = std::max(sums[sums.size() - 1 - sums.size() / 20], interval.value);
+  if (measured > 0) doubt *= std::min(1.0, std::fabs(interval.value / measured - 1));
   const double own = kNormal95 * doubt * interval.value;  // independent of the measurements: in quadrature
   interval.low = std::max(0.0, interval.value - std::hypot(interval.value - low, own));
   interval.high = interval.value + std::hypot(high - interval.value, own);

@@ -58,23 +58,22 @@ class Posynomial {
   void fit(std::span<const Observation> observations, std::uint64_t seed);
   /// As if the coefficients had been measured so, without doubt.
   void set(std::vector<double> coefficients);
-  /// What a later measurement says: all coefficients times `factor`.
-  void scale(double factor);
+  /// What a later measurement says, by one guess: a draw, or kBest. All coefficients times `factor`.
+  void scale(std::size_t guess, double factor);
   /// That term i is `more` larger than thought.
-  void add(std::size_t i, double more);
+  void add(std::size_t guess, std::size_t i, double more);
 
-  double best(const Knobs& knobs) const;
-  /// By draw i (of kDraws) of the measurements.
-  double draw(const Knobs& knobs, std::size_t i) const;
+  double best(const Knobs& knobs) const { return value(knobs, kBest); }
+  /// By draw `guess` (of kDraws) of the measurements, or by the best guess.
+  double value(const Knobs& knobs, std::size_t guess) const;
   const std::vector<Monomial>& terms() const { return terms_; }
   const std::vector<double>& coefficients() const { return fit_.best; }
   /// The value of each term.
   std::vector<double> parts(const Knobs& knobs) const;
   double misfit() const { return fit_.misfit; }
-  static constexpr std::size_t kDraws = 200;
+  static constexpr std::size_t kDraws = 200, kBest = kDraws;
 
  private:
-  double sum(const Knobs& knobs, const std::vector<double>& coefficients) const;
   std::vector<Monomial> terms_;
   Fit fit_;
 };
@@ -83,10 +82,12 @@ class Posynomial {
 /// the mean square of all errors.
 struct PlanModel {
   std::vector<std::pair<std::string, Posynomial>> part;
+  /// The value that was measured of a whole pipeline, which the parts were then made to agree with; 0: none.
+  double measured = 0;
 
   double best(const Knobs& knobs) const;
   /// With what the fit does not know, and `doubt` (relative standard deviation, of what the model itself
-  /// leaves out).
+  /// leaves out): of the whole, or, after a measurement, of what differs from it.
   Interval predict(const Knobs& knobs, double doubt) const;
   Posynomial* find(const std::string& name);
   const Posynomial* find(const std::string& name) const;

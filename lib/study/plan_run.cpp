@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/error.h"
 #include "study/plan_runner.h"
@@ -12,9 +13,29 @@ namespace {
 constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
 constexpr double kPatience = 4;    ///< times the usual seconds for references, where those cannot judge
 
-/// What was measured, where the references could tell it, goes into the models.
-void learn(Pilot& pilot, const PlanRound& round) {
+/// Makes a guess of these parts say `found`: see correct().
+void agree(std::span<Posynomial* const> parts, const Knobs& knobs, std::size_t guess, double found) {
+  double predicted = 0, mendable = 0;
+  for (const Posynomial* p : parts) {
+    predicted += p->value(knobs, guess);
+    for (const Monomial& term : p->terms()) mendable += !term.powers.empty();
+  }
+  for (Posynomial* p : parts) {
+    if (found < predicted || mendable == 0) {
+      if (predicted > 0) p->scale(guess, std::max(found / predicted, 0.1));
+      continue;
+    }
+    for (std::size_t i = 0; i < p->terms().size(); ++i)
+      if (!p->terms()[i].powers.empty())
+        p->add(guess, i, (found - predicted) / mendable / p->terms()[i].at(knobs));
+  }
+}
+
+/// What was measured, where the references could tell it, goes into the models; of times, those of a pipeline
+/// that was run whole.
+void learn(Pilot& pilot, const PlanRound& round, bool whole) {
   const Knobs& knobs = round.predicted.knobs;
+  if (whole) correct_time(pilot.time, knobs, round.seconds);
   if (round.image && round.image->resolved())
     correct(*pilot.image_error, knobs, std::pow(round.image->relative_rmse, 2),
             round.indirect * round.indirect);
@@ -72,25 +93,23 @@ bool PlanRound::judged(double asked) const {
 
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2) {
   for (const bool indirect : {false, true}) {
-    const double found = indirect ? indirect2 : std::max(whole2 - indirect2, 0.0);
     std::vector<Posynomial*> parts;
-    double predicted = 0, mendable = 0;
-    for (auto& [name, p] : model.part) {
-      if (name.starts_with("indirect") != indirect) continue;
-      parts.push_back(&p);
-      predicted += p.best(knobs);
-      for (const Monomial& term : p.terms()) mendable += !term.powers.empty();
-    }
-    for (Posynomial* p : parts) {
-      if (found < predicted || mendable == 0) {
-        if (predicted > 0) p->scale(std::max(found / predicted, 0.1));
-        continue;
-      }
-      for (std::size_t i = 0; i < p->terms().size(); ++i)
-        if (!p->terms()[i].powers.empty())
-          p->add(i, (found - predicted) / mendable / p->terms()[i].at(knobs));
-    }
+    for (auto& [name, p] : model.part)
+      if (name.starts_with("indirect") == indirect) parts.push_back(&p);
+    const double found = indirect ? indirect2 : std::max(whole2 - indirect2, 0.0);
+    for (std::size_t guess = 0; guess <= Posynomial::kBest; ++guess) agree(parts, knobs, guess, found);
   }
+  model.measured = whole2;
+}
+
+void correct_time(PlanModel& model, const Knobs& knobs, double seconds) {
+  for (std::size_t guess = 0; guess <= Posynomial::kBest; ++guess) {
+    double predicted = 0;
+    for (const auto& [name, p] : model.part) predicted += p.value(knobs, guess);
+    for (auto& [name, p] : model.part)
+      if (predicted > 0) p.scale(guess, seconds / predicted);
+  }
+  model.measured = seconds;
 }
 
 PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
@@ -115,7 +134,7 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
       report.reference_s += took;
       runner.measure(round);
     }
-    learn(pilot, round);
+    learn(pilot, round, report.rounds.empty());
     report.pipeline_s += round.seconds;
     report.resolution = round.resolution();
     report.rounds.push_back(round);

@@ -50,11 +50,16 @@ struct PlanReport {
 PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
                     const PlanRunOptions& options);
 
-/// What a measurement says of the model, of direct and of indirect light apart, both mean squares relative.
-/// Where less was found, all terms of the part shrink, to a tenth at most. Where more was found, nothing says
-/// which term it comes from: each that a setting mends is raised by as much, so that whichever it is, better
-/// settings are chosen for it.
+/// What a measurement says of the model of errors, of direct and of indirect light apart, both mean squares
+/// relative: every guess of the model, the best and each draw of its measurements, is made to say the same at
+/// those settings, so that the next prediction doubts only what differs from them. Where less was found, all
+/// terms of the part shrink, to a tenth at most. Where more was found, nothing says which term it comes from:
+/// each that a setting mends is raised by as much, so that whichever it is, better settings are chosen for
+/// it.
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2);
+
+/// The same of the model of times: all parts are scaled to `seconds`, which the whole pipeline took.
+void correct_time(PlanModel& model, const Knobs& knobs, double seconds);
 
 Json to_json(const PlanReport& report);
 

@@ -155,6 +155,10 @@ TEST(StudyPlan, KeepsTheTimeWithTheLeastError) {
   }
 }
 
+void scale(Posynomial& p, double factor) {
+  for (std::size_t guess = 0; guess <= Posynomial::kBest; ++guess) p.scale(guess, factor);
+}
+
 /// Records that hold direct light take this part of the time; which way is kept, after how many pilots.
 std::pair<bool, int> direct_way(double part, std::size_t lamps, const PlanGoal& goal,
                                 PlanDirect which = PlanDirect::automatic, double unmended = 0) {
@@ -166,7 +170,7 @@ std::pair<bool, int> direct_way(double part, std::size_t lamps, const PlanGoal& 
         ++pilots;
         Pilot pilot = synthetic_pilot(task.cached_direct ? 0 : unmended);
         for (auto& [name, p] : pilot.time.part)
-          if (task.cached_direct) p.scale(part);
+          if (task.cached_direct) scale(p, part);
         return pilot;
       },
       needs);
@@ -334,6 +338,65 @@ TEST(StudyPlanRun, AMeasurementCorrectsThePartThatIsWrong) {
   EXPECT_NEAR(noise.parts(k)[1], 0.01, 1e-6) << "one of three terms that a setting mends";
   EXPECT_EQ(model.find("indirect light, bias")->coefficients()[1], 0);
   EXPECT_NEAR(model.best(k), before + 0.03, 1e-9);
+}
+
+/// The synthetic pilot, of measurements that tell its errors to `spread` only.
+Pilot doubtful_pilot(double spread) {
+  Pilot pilot = synthetic_pilot(2e-4);
+  for (PlanModel* model : {&*pilot.image_error, &pilot.time})
+    for (auto& [name, p] : model->part) {
+      std::vector<Observation> rows;
+      for (const double level : {1.0, 4.0, 16.0, 64.0})
+        for (const Knob knob :
+             {K::photons, K::accuracy, K::rays, K::light_rays, K::records, K::pixel_samples}) {
+          Knobs k{};
+          k.fill(30);
+          k[at(K::photons)] = 1e5, k[at(K::accuracy)] = 0.2, k[at(K::records)] = 1e4, k[at(K::pixels)] = 3e4;
+          k[at(knob)] *= level;
+          rows.push_back({k, p.best(k), spread * p.best(k)});
+        }
+      p.fit(rows, 3);
+    }
+  return pilot;
+}
+
+TEST(StudyPlanRun, WhatIsMeasuredIsNotDoubtedThere) {
+  Pilot pilot = doubtful_pilot(0.5);
+  PlanModel& errors = *pilot.image_error;
+  const Knobs k = make_plan(picture(), pilot, {0.05, {}}).chosen.knobs;
+  const auto width = [](const Interval& i) { return (i.high - i.low) / i.value; };
+  const auto [whole, indirect] = std::pair(1.2 * errors.best(k), 0.7 * errors.best(k));
+  EXPECT_GT(width(errors.predict(k, 0.2)), 0.5);
+  correct(errors, k, whole, indirect);
+  EXPECT_NEAR(errors.best(k), whole, 1e-9 * whole);
+  EXPECT_LT(width(errors.predict(k, 0.2)), 1e-6);
+  correct_time(pilot.time, k, 7);
+  EXPECT_NEAR(pilot.time.best(k), 7, 1e-9);
+  EXPECT_LT(width(pilot.time.predict(k, 0.2)), 1e-6);
+  // The further away, the more is left to doubt.
+  double before = 0;
+  for (const double factor : {2.0, 4.0, 16.0}) {
+    Knobs other = k;
+    other[at(K::rays)] *= factor, other[at(K::photons)] *= factor, other[at(K::light_rays)] *= factor;
+    EXPECT_GT(width(errors.predict(other, 0.2)), before);
+    before = width(errors.predict(other, 0.2));
+  }
+}
+
+TEST(StudyPlanRun, ANearMissAsksForLittleMore) {
+  Pilot pilot = doubtful_pilot(0.5);
+  const double asked = 0.03, found = 1.1 * asked;
+  const Prediction first = make_plan(picture(), pilot, {asked, {}}).chosen;
+  double indirect = 0;
+  for (const auto& [name, p] : pilot.image_error->part)
+    if (name.starts_with("indirect")) indirect += p.best(first.knobs);
+  const double part = indirect / pilot.image_error->best(first.knobs);
+  correct(*pilot.image_error, first.knobs, found * found, part * found * found);
+  const std::optional<Prediction> next = cheapest(picture(), pilot, front_of(picture(), pilot), asked);
+  ASSERT_TRUE(next);
+  EXPECT_LT(next->error(), asked);
+  // A mean square of 1 / 1.1^2 costs that much more, or twice with levels and a floor that nothing mends.
+  EXPECT_LT(next->seconds.value, 2.5 * first.seconds.value);
 }
 
 TEST(StudyPlan, FiguresForPeople) {

@@ -89,8 +89,10 @@ TEST(StudyPlanModel, PredictsBeyondWhatWasMeasured) {
   EXPECT_NEAR(p.coefficients()[1] / 30, 1, 0.2);
   EXPECT_EQ(p.misfit(), 1);
   const double before = p.best(far);
-  p.scale(4);
+  const double drawn = p.value(far, 7);
+  p.scale(Posynomial::kBest, 4);
   EXPECT_NEAR(p.best(far) / before, 4, 1e-9);
+  EXPECT_EQ(p.value(far, 7), drawn);
 }
 
 TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
