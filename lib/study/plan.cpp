@@ -172,6 +172,8 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
     if (task.image) less.push_back(unmended(*pilot.image_error));
     if (task.lux) less.push_back(unmended(*pilot.lux_error));
     guess = first_that(task, pilot, front, kMargin * error, any, less);
+    const std::optional<Prediction> barely = first_that(task, pilot, front, error, any);
+    if (guess && barely && barely->seconds.value <= kDearest * guess->seconds.value) guess = barely;
   }
   if (guess && (!found || found->seconds.value > kDearest * guess->seconds.value)) {
     found = guess;
