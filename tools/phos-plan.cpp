@@ -84,18 +84,23 @@ int main(int argc, char** argv) {
         plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
     tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
-    const std::string script = plan_script(way, needs, pilot, goal, chosen, tool.seed());
-    Json json = plan_json(way, needs, pilot, goal, chosen, tool.seed());
-    if (!plan.run) return print(plan.output, plan.json ? json.dump(2) + "\n" : script);
+    const auto script = [&](const Plan& p, const std::string& measured) {
+      return plan_script(way, needs, pilot, goal, p, tool.seed(), measured);
+    };
+    const auto json = [&](const Plan& p) { return plan_json(way, needs, pilot, goal, p, tool.seed()); };
+    if (!plan.run) return print(plan.output, plan.json ? json(chosen).dump(2) + "\n" : script(chosen, ""));
 
     PlanRunOptions run;
     run.folder = plan.output, run.seed = tool.seed(), run.common = piloted.common;
     run.reference_seconds = plan.reference_s, run.rounds = static_cast<int>(plan.rounds);
     run.say = [&](const std::string& line) { tool.say(line); };
     const PlanReport report = run_plan(way, pilot, goal, chosen, run);
-    json["run"] = to_json(report);
-    print(run.folder + "/plan.json", json.dump(2) + "\n");
-    print(run.folder + "/plan.sh", script);
+    Plan last = chosen;  // whose pictures are in the folder
+    last.chosen = report.rounds.back().predicted;
+    Json with_run = json(last);
+    with_run["run"] = to_json(report);
+    print(run.folder + "/plan.json", with_run.dump(2) + "\n");
+    print(run.folder + "/plan.sh", script(last, report.verdict));
     if (report.met) return tool.say(report.verdict);
     tool.warn(report.verdict);
     tool.set_exit(ExitCode::check_failed);

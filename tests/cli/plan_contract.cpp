@@ -161,6 +161,11 @@ TEST(PlanTool, ARunIsMeasuredAndJudged) {
   ASSERT_NE(start, std::string::npos) << compared.out;
   EXPECT_NEAR(std::strtod(compared.out.c_str() + start + key.size(), nullptr), measured,
               0.03 * measured + 1e-4);
+  // The script is that of the picture that is there.
+  EXPECT_NE(slurp(out + "plan.sh").find("# Measured: met: error"), std::string::npos);
+  const auto again = run_shell({"bash", out + "plan.sh", "again"}, folder);
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(slurp(folder + "/again/image.exr") == slurp(out + "image.exr"));
 }
 
 /// References that tell nothing of what is asked for: one round, and the reason.
