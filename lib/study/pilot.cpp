@@ -12,7 +12,7 @@ namespace phos {
 namespace {
 
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
-constexpr double kPhotons[] = {20000, 80000};
+constexpr double kPhotons[] = {20000, 160000};
 constexpr double kAccuracy[] = {0.5, 0.25};
 constexpr double kRays[] = {64, 256, 128};
 constexpr double kCountRays = 32;  ///< of records that are made to be counted
@@ -120,9 +120,9 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   }
   if (task.lux) pilot.sensors = runs.sensors();
 
-  const Knobs caches[] = {knobs_of(kPhotons[0], kAccuracy[0], kRays[0]),
-                          knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
-                          knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+  const Knobs caches[] = {
+      knobs_of(kPhotons[0], kAccuracy[0], kRays[0]), knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
+      knobs_of(kPhotons[1], kAccuracy[0], kRays[1]), knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
   std::vector<Samples> pictures(std::begin(kSamples), std::end(kSamples));
   if (task.gloss) pictures.push_back(kFewInGloss);
   Rows image, lux;

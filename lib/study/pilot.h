@@ -64,7 +64,7 @@ struct PilotOptions {
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
 };
 
-/// Runs the pipeline twice each at three settings of photons and records and six of the picture's samples,
+/// Runs the pipeline twice each at four settings of photons and records and six of the picture's samples,
 /// at a size of at most kPilotPixels and for at most kPilotSensors sensors; counts records, and times two
 /// pictures, at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that
 /// is looked at is lit, or a program fails.
