@@ -107,6 +107,11 @@ void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const ch
 
 }  // namespace
 
+std::vector<Knobs> pilot_caches() {
+  return {knobs_of(kPhotons[0], kAccuracy[0], kRays[0]), knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
+          knobs_of(kPhotons[1], kAccuracy[0], kRays[1]), knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+}
+
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   PilotRuns runs(task, options);
@@ -120,13 +125,11 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   }
   if (task.lux) pilot.sensors = runs.sensors();
 
-  const Knobs caches[] = {
-      knobs_of(kPhotons[0], kAccuracy[0], kRays[0]), knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
-      knobs_of(kPhotons[1], kAccuracy[0], kRays[1]), knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+  const std::vector<Knobs> caches = pilot_caches();
   std::vector<Samples> pictures(std::begin(kSamples), std::end(kSamples));
   if (task.gloss) pictures.push_back(kFewInGloss);
   Rows image, lux;
-  for (std::size_t c = 0; c < std::size(caches); ++c) {
+  for (std::size_t c = 0; c < caches.size(); ++c) {
     runs.make_caches(caches[c]);
     if (task.image) {
       for (const Samples& s : pictures)

@@ -69,6 +69,8 @@ struct PilotOptions {
 /// pictures, at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that
 /// is looked at is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
+/// Photons and records of those runs: each term of indirect light follows another way through them.
+std::vector<Knobs> pilot_caches();
 inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
 

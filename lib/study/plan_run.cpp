@@ -49,13 +49,14 @@ void learn(Pilot& pilot, const PlanRound& round, bool whole) {
   }
 }
 
-/// Other settings than those of the last round, for the error that is asked for; after each further miss for
-/// less, as every round costs a whole pipeline.
+/// Other settings than those of the last round, for less than the error that is asked for, and for still less
+/// after each further miss: every round costs a whole pipeline, and no measurement tells which term was too
+/// low.
 std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
                                    std::span<const PlanRound> rounds) {
   const std::vector<PlanPoint> front = front_of(task, pilot);
   const PlanRound& last = rounds.back();
-  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size() - 1));
+  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size()));
   for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
     const std::optional<Prediction> p = cheapest(task, pilot, front, aim);
     if (p && p->knobs != last.predicted.knobs && p->error() < last.error()) return p;

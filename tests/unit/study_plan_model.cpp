@@ -95,6 +95,23 @@ TEST(StudyPlanModel, PredictsBeyondWhatWasMeasured) {
   EXPECT_EQ(p.value(far, 7), drawn);
 }
 
+/// The caches that a pilot makes tell what accuracy mends of indirect light, what photons, and what nothing.
+TEST(StudyPlanModel, APilotTellsTheTermsOfIndirectLightApart) {
+  PlanModel model = lux_error_model();
+  for (const auto& [part, truth] : {std::pair{"indirect light, bias", std::vector{8e-4, 0.03, 2e-4}},
+                                    std::pair{"indirect light, noise", std::vector{0.4, 12.0}}}) {
+    Posynomial& fitted = *model.find(part);
+    Posynomial known(fitted.terms());
+    known.set(truth);
+    std::vector<Observation> rows;
+    for (const Knobs& k : pilot_caches()) rows.push_back({k, known.best(k), 1e-6});
+    fitted.fit(rows, 5);
+    ASSERT_EQ(fitted.coefficients().size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      EXPECT_NEAR(fitted.coefficients()[i] / truth[i], 1, 0.02) << part << ": " << fitted.terms()[i].what;
+  }
+}
+
 TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
   const Knobs far = knobs(1e6, 0.3, 512);
   const auto truth = [](const Knobs& k) {
