@@ -16,7 +16,7 @@ Posynomial sum_of(std::vector<Monomial> terms) { return Posynomial(std::move(ter
 
 /// What the coarse cache blurs near edges and contacts: a strip as wide as its zones. Sponza, 400 pixels
 /// wide, 40,000 to 10 million photons: what falls with them goes as their number to a power of -0.58.
-const Monomial kBlur{"blur of photons' zones", {{K::photons, -0.5}}};
+const Monomial kZoneBlur{"blur of photons' zones", {{K::photons, -0.5}}};
 const Monomial kInterpolation{"interpolation between records", {{K::in_effect, 2}}};
 const Monomial kUnmended{"what no setting mends", {}};
 
@@ -71,7 +71,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
            {"direct light and gloss, bias", sum_of({edges, textures, blur})},
            {"indirect light, noise", sum_of({{"noise of gathered rays", {{K::in_effect, 1}, {K::rays, -1}}},
                                              {"noise of photons", {{K::photons, -1}}}})},
-           {"indirect light, bias", sum_of({edges, textures, kInterpolation, kBlur, kUnmended})}}};
+           {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
 }
 
 PlanModel lux_error_model() {
@@ -79,7 +79,7 @@ PlanModel lux_error_model() {
            {"direct light, bias", sum_of({kUnmended})},
            {"indirect light, noise",
             sum_of({{"noise of gathered rays", {{K::rays, -1}}}, {"noise of photons", {{K::photons, -1}}}})},
-           {"indirect light, bias", sum_of({kInterpolation, kBlur, kUnmended})}}};
+           {"indirect light, bias", sum_of({kInterpolation, kZoneBlur, kUnmended})}}};
 }
 
 PlanModel time_model(const PlanTask& task) {

@@ -30,7 +30,9 @@ struct Fit {
 
   /// Those of a draw, or, beyond the last, the best.
   std::vector<double>& of(std::size_t guess) { return guess < draws.size() ? draws[guess] : best; }
-  const std::vector<double>& of(std::size_t guess) const { return const_cast<Fit*>(this)->of(guess); }
+  const std::vector<double>& of(std::size_t guess) const {
+    return guess < draws.size() ? draws[guess] : best;
+  }
 };
 Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_t seed);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/error.h"
 #include "study/plan_runner.h"
@@ -49,21 +48,6 @@ void learn(Pilot& pilot, const PlanRound& round, bool whole) {
   }
 }
 
-/// Other settings than those of the last round, for less than the error that is asked for, and for still less
-/// after each further miss: every round costs a whole pipeline, and no measurement tells which term was too
-/// low.
-std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
-                                   std::span<const PlanRound> rounds) {
-  const std::vector<PlanPoint> front = front_of(task, pilot);
-  const PlanRound& last = rounds.back();
-  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size()));
-  for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
-    const std::optional<Prediction> p = cheapest(task, pilot, front, aim);
-    if (p && p->knobs != last.predicted.knobs && p->error() < last.error()) return p;
-  }
-  return {};
-}
-
 std::string verdict(const PlanGoal& goal, const PlanReport& report, const char* why) {
   const PlanRound& last = report.rounds.back();
   const bool dim = last.error() <= report.resolution;  // no more than the references' noise may feign
@@ -71,7 +55,9 @@ std::string verdict(const PlanGoal& goal, const PlanReport& report, const char* 
       text("error ",
            dim ? text("below ", percent(report.resolution), ", which is all that the references tell")
                : percent(last.error()),
-           ", pipeline ", duration(report.pipeline_s), ", references ", duration(report.reference_s));
+           ", pipeline ", duration(report.pipeline_s),
+           report.rounds.size() > 1 ? text(" in ", report.rounds.size(), " rounds") : "", ", references ",
+           duration(report.reference_s));
   if (goal.error) out = text(report.met ? "met: " : "not met: ", out, "; asked for ", percent(*goal.error));
   if (goal.seconds) out += text(goal.error ? " in " : "; asked for ", duration(*goal.seconds));
   if (*why) out += text("; ", why);
@@ -111,6 +97,18 @@ void correct_time(PlanModel& model, const Knobs& knobs, double seconds) {
       if (predicted > 0) p.scale(guess, seconds / predicted);
   }
   model.measured = seconds;
+}
+
+std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
+                                   std::span<const PlanRound> rounds) {
+  const std::vector<PlanPoint> front = front_of(task, pilot);
+  const PlanRound& last = rounds.back();
+  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size()));
+  for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
+    const std::optional<Prediction> p = cheapest(task, pilot, front, aim);
+    if (p && p->knobs != last.predicted.knobs && p->error() < last.error()) return p;
+  }
+  return {};
 }
 
 PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,13 @@ void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirec
 
 /// The same of the model of times: all parts are scaled to `seconds`, which the whole pipeline took.
 void correct_time(PlanModel& model, const Knobs& knobs, double seconds);
+
+/// Other settings than those of the last round, for less than the error that is asked for, and for still less
+/// after each further miss: every round costs a whole pipeline, and no measurement tells which term was too
+/// low.
+/// Nothing: none are better.
+std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
+                                   std::span<const PlanRound> rounds);
 
 Json to_json(const PlanReport& report);
 

@@ -1,8 +1,8 @@
 """Is what phos-plan chose the best there is? Every setting around those of its last round, by phos-study:
     tests/bench/plan_best.py FOLDER SCENE PERCENT...
 FOLDER is that of plan_table.sh, which ran the plans and made the references. A line for each error asked for: how many settings
-there are; error and seconds of the plan's; those of the fastest that meets what was asked; and how much longer than that the
-plan's last round took, and all its rounds. Programs from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
+there are; error and seconds of the plan's; those of the fastest that meets what was asked; and how many times its seconds the plan's
+settings took there, and all rounds of the plan when it ran. Programs from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
 
 import csv
 import json
@@ -76,7 +76,7 @@ def judge(folder, scene, percent):
     where = " ".join(f"{k.split('.')[1]} {best[k]}" for k in own)
     print(
         f"{name:28} {percent:>3} %  {len(rows):4}  {error(chosen):7.2%} {seconds(chosen):6.1f} s  {error(best):7.2%}"
-        f" {seconds(best):6.1f} s  {last:5.2f} {last * sum(rounds) / rounds[-1]:5.2f}  {where}",
+        f" {seconds(best):6.1f} s  {last:5.2f} {sum(rounds) / seconds(best):5.2f}  {where}",
         flush=True,
     )
 

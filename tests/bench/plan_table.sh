@@ -2,9 +2,9 @@
 # What phos-plan promises and what comes out, scene by scene and error by error:
 #   tests/bench/plan_table.sh FOLDER [--errors "20% 10% 5% 2%"] [--width W] [--samples N] [--threads N] SCENE...
 # A line each: error asked for; first round of --run: settings, predicted error (its least and greatest), error that phos-plan
-# measured, predicted and real seconds of the pipeline; last round: how many there were, error and seconds; and the error of the
-# last picture against two references of N paths a pixel (384), which are made once and kept in FOLDER. Programs from PATH or
-# build/release/bin.
+# measured, predicted and real seconds of the pipeline; last round: how many there were, error and seconds (of what earlier rounds
+# had not made); and the error of the last picture against two references of N paths a pixel (384), which are made once and kept
+# in FOLDER. Programs from PATH or build/release/bin.
 set -euo pipefail
 [[ $# -ge 2 ]] || { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 folder=$1
