@@ -13,7 +13,7 @@ namespace {
 
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
 constexpr double kPhotons[] = {20000, 160000};
-constexpr double kAccuracy[] = {0.5, 0.25};
+constexpr double kAccuracy[] = {0.4, 0.2};
 constexpr double kRays[] = {64, 256, 128};
 constexpr double kCountRays = 32;  ///< of records that are made to be counted
 struct Samples {
@@ -36,8 +36,8 @@ constexpr double kOwnDoubt = 0.1;        ///< relative, of any measured mean squ
 
 Knobs knobs_of(double photons, double accuracy, double rays) {
   Knobs k{};
-  k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = k[at(Knob::in_effect)] = accuracy,
-  k[at(Knob::rays)] = rays;
+  k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = accuracy, k[at(Knob::rays)] = rays;
+  k[at(Knob::read)] = records_read(accuracy);
   for (const Knob knob :
        {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays, Knob::gloss_rays, Knob::sensor_rays})
     k[at(knob)] = 1;

@@ -18,12 +18,11 @@ struct RecordCount {
   double count = 0, accuracy = 1;  ///< n at one accuracy
   double power = 0;                ///< n / (most - n) ~ a^-power
   double most = 0;
-  double law = 0;  ///< n ~ a^-law while there are few
   double at(double a) const;
-  /// The accuracy that would have as many records if places had no end, which errors follow: a itself at the
-  /// two that were counted, more than a where places run out.
-  double in_effect(double a) const;
 };
+/// Records that a place reads where they were placed with accuracy a, over as many as placement leaves about
+/// it: see reading_accuracy().
+double records_read(double a);
 /// From n records counted at accuracy a, and `more` at a finer one, where there is room for `most`, but for a
 /// quarter more than were counted at least.
 RecordCount count_of(double a, double n, double finer, double more, double most);

@@ -11,6 +11,9 @@ namespace {
 
 /// What the terms leave out, relative standard deviation: of a mean square, and of a time.
 constexpr double kErrorDoubt = 0.2, kTimeDoubt = 0.15;
+/// At 0.5 gaps a pixel wide can be lost, which no small pilot shows (a box of 200 pixels: eight times the
+/// bias of 0.4), and as much noise is had for no fewer rays.
+const std::vector<double> kAccuracies = {0.4, 0.28, 0.2, 0.14, 0.1};
 constexpr double kOtherErrors[] = {0.2, 0.1, 0.05, 0.02, 0.01};
 
 std::vector<double> doubling(double first, double last) {
@@ -22,11 +25,11 @@ std::vector<double> doubling(double first, double last) {
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
   groups.push_back({{Knob::photons}, {doubling(20000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {{0.56, 0.4, 0.28, 0.2, 0.14, 0.1}, doubling(64, 16384)}};
-  records.derived = {Knob::records, Knob::in_effect};
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, doubling(64, 16384)}};
+  records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
-    k[at(Knob::in_effect)] = count.in_effect(k[at(Knob::accuracy)]);
+    k[at(Knob::read)] = records_read(k[at(Knob::accuracy)]);
   };
   groups.push_back(records);
   if (task.image) {
@@ -138,14 +141,23 @@ std::string duration(double seconds) {
   return buffer;
 }
 
-std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot) {
+std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot, std::span<const Knob> kept,
+                                const Knobs& as) {
   Knobs fixed{};
   fixed.fill(1);
+  std::vector<KnobGroup> groups = groups_of(task, pilot);
+  std::erase_if(groups, [&](const KnobGroup& group) {
+    const bool keep = std::find(kept.begin(), kept.end(), group.knobs.front()) != kept.end();
+    for (const auto& list : {group.knobs, group.derived})
+      for (const Knob knob : list)
+        if (keep) fixed[at(knob)] = as[at(knob)];
+    return keep;
+  });
   if (task.image) fixed[at(Knob::pixels)] = static_cast<double>(task.width * task.height);
   std::vector<const PlanModel*> errors;
   if (task.image) errors.push_back(&*pilot.image_error);
   if (task.lux) errors.push_back(&*pilot.lux_error);
-  return plan_front(groups_of(task, pilot), fixed, pilot.time, errors);
+  return plan_front(groups, fixed, pilot.time, errors);
 }
 
 Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs) {

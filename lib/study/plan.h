@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,10 @@ struct Plan {
   std::vector<std::string> warnings;
 };
 
-/// The choices that no other beats, cheapest first.
-std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot);
+/// The choices that no other beats, cheapest first. Of those with the `kept` knobs as they are in `as`, if
+/// any are given; knobs that are chosen together are kept together.
+std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot, std::span<const Knob> kept = {},
+                                const Knobs& as = {});
 Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs);
 
 /// With an error asked for: the cheapest settings whose error_to_meet() is within it: some miss it, which

@@ -24,7 +24,7 @@ enum class Knob : std::size_t {
   gloss_rays,     ///< of a pixel on a glossy surface
   sensor_rays,    ///< shadow rays of a sensor to each area light
   records,        ///< that lie where they are wanted
-  in_effect,      ///< accuracy that their number tells of, see RecordCount
+  read,           ///< of them, of a place: records_read()
   pixels,         ///< of the picture
   count
 };

@@ -48,6 +48,21 @@ void learn(Pilot& pilot, const PlanRound& round, bool whole) {
   }
 }
 
+/// Seconds that a pipeline saves where one with the knobs of `there` ran before: by the photons, if they are
+/// the same, and by the records. (Those of sensors, added to those of a picture, are made anew: so are
+/// these.)
+double left_over_s(const PlanTask& task, const Pilot& pilot, const Knobs& there, const Knobs& knobs) {
+  const auto same = [&](Knob knob) { return there[at(knob)] == knobs[at(knob)]; };
+  std::vector<const char*> parts;
+  if (same(Knob::photons)) parts.push_back("photons");
+  if (same(Knob::photons) && same(Knob::accuracy) && same(Knob::rays) && !(task.image && task.lux))
+    parts.insert(parts.end(), {"coarse records", "records"});
+  double sum = 0;
+  for (const char* name : parts)
+    if (const Posynomial* p = pilot.time.find(name)) sum += p->best(knobs);
+  return sum;
+}
+
 std::string verdict(const PlanGoal& goal, const PlanReport& report, const char* why) {
   const PlanRound& last = report.rounds.back();
   const bool dim = last.error() <= report.resolution;  // no more than the references' noise may feign
@@ -101,12 +116,23 @@ void correct_time(PlanModel& model, const Knobs& knobs, double seconds) {
 
 std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
                                    std::span<const PlanRound> rounds) {
-  const std::vector<PlanPoint> front = front_of(task, pilot);
   const PlanRound& last = rounds.back();
+  const Knobs& there = last.predicted.knobs;
+  std::vector<std::vector<PlanPoint>> fronts;
+  for (const auto& kept : {std::vector<Knob>{}, {Knob::photons}, {Knob::photons, Knob::accuracy}})
+    fronts.push_back(front_of(task, pilot, kept, there));
   const double first = error * std::pow(kTighter, static_cast<double>(rounds.size()));
   for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
-    const std::optional<Prediction> p = cheapest(task, pilot, front, aim);
-    if (p && p->knobs != last.predicted.knobs && p->error() < last.error()) return p;
+    std::optional<Prediction> best;
+    for (const std::vector<PlanPoint>& front : fronts) {
+      std::optional<Prediction> p = cheapest(task, pilot, front, aim);
+      if (!p || p->knobs == there || !(p->error() < last.error())) continue;
+      const double left_s = left_over_s(task, pilot, there, p->knobs);
+      for (double* s : {&p->seconds.low, &p->seconds.value, &p->seconds.high})
+        *s = std::max(0.0, *s - left_s);
+      if (!best || p->seconds.value < best->seconds.value) best = p;
+    }
+    if (best) return best;
   }
   return {};
 }

@@ -63,9 +63,9 @@ void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirec
 void correct_time(PlanModel& model, const Knobs& knobs, double seconds);
 
 /// Other settings than those of the last round, for less than the error that is asked for, and for still less
-/// after each further miss: every round costs a whole pipeline, and no measurement tells which term was too
-/// low.
-/// Nothing: none are better.
+/// after each further miss: no measurement tells which term was too low. Those that take least where photons,
+/// and perhaps records, of the last round are there already; `seconds` are without these. Nothing: none are
+/// better.
 std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, double error,
                                    std::span<const PlanRound> rounds);
 

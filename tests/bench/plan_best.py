@@ -1,10 +1,14 @@
-"""Is what phos-plan chose the best there is? Every setting around those of its last round, by phos-study:
-    tests/bench/plan_best.py FOLDER SCENE PERCENT...
-FOLDER is that of plan_table.sh, which ran the plans and made the references. A line for each error asked for: how many settings
-there are; error and seconds of the plan's; those of the fastest that meets what was asked; and how many times its seconds the plan's
-settings took there, and all rounds of the plan when it ran. Programs from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
+"""Is what phos-plan chose the best there is? Settings around those of its last round, by phos-study:
+    tests/bench/plan_best.py [--whole] FOLDER SCENE PERCENT...
+FOLDER is that of plan_table.sh, which ran the plans and made the references. All settings of photons and records are tried with the
+plan's picture, and all of the picture with the plan's records; mean squares of errors and seconds of the two add up, and of the
+settings that this promises to be faster the first few are run until one holds. --whole: every setting with every other (hours).
+A line for each error asked for: how many settings were run; error and seconds of the plan's; those of the fastest that was seen to
+meet what was asked; and how many times its seconds the plan's settings took there, and all rounds of the plan when it ran. Programs
+from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
 
 import csv
+import itertools
 import json
 import os
 import pathlib
@@ -13,13 +17,14 @@ import sys
 
 # Of each option that trades time for error, multiples of the plan's value.
 LEVELS = {
-    "photons": (0.5, 1),
+    "photons": (0.5, 1, 2),
     "accuracy": (1 / 1.4, 1, 1.4),
     "rays": (0.5, 1, 2),
     "edge_samples": (0.5, 1),
-    "light_samples": (0.5, 1, 2),
+    "light_samples": (0.25, 0.5, 1, 2),
     "gloss_samples": (0.5, 1, 2),
 }
+MOST_TRIES = 4
 
 
 def number(word):
@@ -29,61 +34,109 @@ def number(word):
         return float(word)
 
 
-def study_of(plan, references):
-    """A study file, and the plan's own value of each option that has several."""
-    lines = [
-        "[study]",
-        f"scenes = {json.dumps(str(pathlib.Path(plan['scene']).resolve()))}",
-        f"width = {plan['size'][0]}\nheight = {plan['size'][1]}\nrepeats = 1\nignore_lamps = true",
-        "[reference]",
-        f"files = {json.dumps([str(r) for r in references])}",
-    ]
-    own = {}
-    for stage in plan["stages"]:
-        tool, words = stage["tool"].removeprefix("phos-"), stage["arguments"]
-        lines.append(f"[{tool}]")
-        for word, value in zip(words, words[1:]):
-            key = word[2:].replace("-", "_")
-            if not word.startswith("--") or key in ("width", "height"):
-                continue
-            if key in LEVELS:
-                own[f"{tool}.{word[2:]}"] = number(value)
-                near = [factor * number(value) for factor in LEVELS[key]]
-                value = sorted({float(f"{v:.4g}") if key == "accuracy" else max(1, round(v)) for v in near})
-            elif value.startswith("-"):
-                value = True
-            elif value.replace(".", "", 1).isdigit():
-                value = number(value)
-            lines.append(f"{key} = {json.dumps(value)}")
-    return "\n".join(lines) + "\n", own
+def near(key, value):
+    return sorted({float(f"{v:.4g}") if key == "accuracy" else max(1, round(v)) for v in (f * value for f in LEVELS[key])})
 
 
-def judge(folder, scene, percent):
-    name = pathlib.Path(scene).stem
-    plan = json.loads((folder / f"run_{name}_{percent}/plan.json").read_text())
-    text, own = study_of(plan, [folder / f"ref_{name}_{seed}.exr" for seed in (1, 2)])
-    study, asked = folder / f"best_{name}_{percent}", float(percent) / 100
-    study.with_suffix(".toml").write_text(text)
-    subprocess.run(["phos-study", study.with_suffix(".toml"), "-o", study, "--pictures", "0", "--quiet", "--discard"], check=True)
-    with open(study / "results.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    error = lambda row: float(row["picture_error"] or "inf")
-    seconds = lambda row: float(row["picture_seconds"] or "inf")
-    [chosen] = [row for row in rows if all(abs(float(row[k]) / v - 1) < 1e-3 for k, v in own.items())]
-    best = min((row for row in rows if error(row) <= asked), key=seconds, default=chosen)
-    rounds = [r["seconds"] for r in plan["run"]["rounds"]]
-    last = seconds(chosen) / seconds(best)
-    where = " ".join(f"{k.split('.')[1]} {best[k]}" for k in own)
+class Case:
+    """What was asked of one plan, and the studies of it."""
+
+    def __init__(self, folder, scene, percent):
+        self.name = pathlib.Path(scene).stem
+        self.base = folder / f"best_{self.name}_{percent}"
+        self.plan = json.loads((folder / f"run_{self.name}_{percent}/plan.json").read_text())
+        self.references = [str(folder / f"ref_{self.name}_{seed}.exr") for seed in (1, 2)]
+        self.fixed = {}  # all options of each tool
+        self.own = {}  # of those, the plan's value of what LEVELS names
+        for stage in self.plan["stages"]:
+            tool, words = stage["tool"].removeprefix("phos-"), stage["arguments"]
+            self.fixed[tool] = {}
+            for word, value in zip(words, words[1:]):
+                key = word[2:].replace("-", "_")
+                if not word.startswith("--") or key in ("width", "height"):
+                    continue
+                if key in LEVELS:
+                    self.own[tool, key] = number(value)
+                plain = value.replace(".", "", 1).isdigit()
+                self.fixed[tool][key] = True if value.startswith("-") else number(value) if plain else value
+
+    def study(self, suffix, values):
+        """Rows of the study of these values of options: (values, error, seconds)."""
+        lines = [
+            "[study]",
+            f"scenes = {json.dumps(str(pathlib.Path(self.plan['scene']).resolve()))}",
+            f"width = {self.plan['size'][0]}\nheight = {self.plan['size'][1]}\nrepeats = 1\nignore_lamps = true",
+            f"[reference]\nfiles = {json.dumps(self.references)}",
+        ]
+        for tool, options in self.fixed.items():
+            lines.append(f"[{tool}]")
+            lines += [f"{key} = {json.dumps(values.get((tool, key), value))}" for key, value in options.items()]
+        out = self.base.with_name(self.base.name + suffix)
+        out.with_suffix(".toml").write_text("\n".join(lines) + "\n")
+        command = ["phos-study", out.with_suffix(".toml"), "-o", out, "--pictures", "0", "--quiet", "--discard"]
+        subprocess.run(command, check=True)
+        with open(out / "results.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        found = {}
+        for row in rows:
+            # A column for each option of several values.
+            read = lambda tool, key: float(row.get(f"{tool}.{key.replace('_', '-')}") or single(values.get((tool, key))) or self.own[tool, key])
+            at = tuple(read(*which) for which in self.own)
+            found[at] = (float(row["picture_error"] or "inf"), float(row["picture_seconds"] or "inf"))
+        return found
+
+
+def single(values):
+    return values[0] if isinstance(values, list) else values
+
+
+def search(case, asked):
+    """All settings that were run, and the plan's own."""
+    own = tuple(float(v) for v in case.own.values())
+    of_picture = [tool == "splat" for tool, key in case.own]
+    levels = {which: near(which[1], v) for which, v in case.own.items()}
+    part = lambda picture: {w: v for (w, v), p in zip(levels.items(), of_picture) if p == picture}
+    records, pictures = case.study("_records", part(False)), case.study("_picture", part(True))
+    found = records | pictures | {own: records[own]}
+    error0, seconds0 = [sum(x) / 2 for x in zip(records[own], pictures[own])]
+    promised = []
+    for a, b in itertools.product(records, pictures):
+        at = tuple(y if p else x for x, y, p in zip(a, b, of_picture))
+        square = records[a][0] ** 2 + pictures[b][0] ** 2 - error0**2
+        if square <= asked**2:
+            promised.append((records[a][1] + pictures[b][1] - seconds0, at))
+    for tries, (seconds, at) in enumerate(sorted(p for p in promised if p[1] not in found)[:MOST_TRIES]):
+        if seconds > min((s for e, s in found.values() if e <= asked), default=float("inf")):
+            break
+        found |= case.study(f"_try{tries}", {which: [number(f"{v:g}")] if v != round(v) else [round(v)] for which, v in zip(case.own, at)})
+    return found, own
+
+
+def judge(folder, scene, percent, whole):
+    case, asked = Case(folder, scene, percent), float(percent) / 100
+    if whole:
+        own = tuple(float(v) for v in case.own.values())
+        found = case.study("", {which: near(which[1], v) for which, v in case.own.items()})
+    else:
+        found, own = search(case, asked)
+    chosen = found[own]
+    at, best = min(((k, v) for k, v in found.items() if v[0] <= asked), key=lambda x: x[1][1], default=(own, chosen))
+    rounds = [r["seconds"] for r in case.plan["run"]["rounds"]]
+    where = " ".join(f"{key} {v:g}" for (tool, key), v in zip(case.own, at))
     print(
-        f"{name:28} {percent:>3} %  {len(rows):4}  {error(chosen):7.2%} {seconds(chosen):6.1f} s  {error(best):7.2%}"
-        f" {seconds(best):6.1f} s  {last:5.2f} {sum(rounds) / seconds(best):5.2f}  {where}",
+        f"{case.name:28} {percent:>3} %  {len(found):4}  {chosen[0]:7.2%} {chosen[1]:6.1f} s  {best[0]:7.2%}"
+        f" {best[1]:6.1f} s  {chosen[1] / best[1]:5.2f} {sum(rounds) / best[1]:5.2f}  {where}",
         flush=True,
     )
 
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-os.environ["PATH"] += os.pathsep + str(pathlib.Path(__file__).resolve().parents[2] / "build/release/bin")
-print(f"{'scene':28} asked     n             plan               best   last   all  the best's")
-for percent in sys.argv[3:]:
-    judge(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], percent)
+if __name__ == "__main__":
+    arguments = sys.argv[1:]
+    whole = arguments[:1] == ["--whole"]
+    arguments = arguments[whole:]
+    if len(arguments) < 3:
+        sys.exit(__doc__)
+    os.environ["PATH"] += os.pathsep + str(pathlib.Path(__file__).resolve().parents[2] / "build/release/bin")
+    print(f"{'scene':28} asked     n             plan               best   last   all  the best's")
+    for percent in arguments[2:]:
+        judge(pathlib.Path(arguments[0]).resolve(), arguments[1], percent, whole)

@@ -44,7 +44,7 @@ Pilot synthetic_pilot(double unmended = 0) {
   Pilot pilot;
   pilot.time = synthetic_time();
   pilot.image_error = synthetic_error(unmended);
-  pilot.records = {2000, 0.5, 1.5};
+  pilot.records = {2000, 0.5, 1.5, 1e9};
   pilot.image_reference = {0.1, 1e-6, 1, 30000};
   return pilot;
 }
@@ -413,6 +413,39 @@ TEST(StudyPlanRun, ANearMissAsksForLittleMore) {
   const std::optional<Prediction> third = next_try(picture(), pilot, asked, rounds);
   ASSERT_TRUE(third);
   EXPECT_LT(third->error(), next->error());
+}
+
+/// Records take nearly all of the time and are good enough; direct light is what misses.
+TEST(StudyPlanRun, AnotherRoundKeepsRecordsThatWillDo) {
+  Pilot pilot = synthetic_pilot();
+  const double asked = 0.03, found = 1.2 * asked;
+  const Prediction first = make_plan(picture(), pilot, {0.6 * asked, {}}).chosen;
+  pilot.time.find("records")->set({1e-3});
+  double indirect = 0;
+  for (const auto& [name, p] : pilot.image_error->part)
+    if (name.starts_with("indirect")) indirect += p.best(first.knobs);
+  correct(*pilot.image_error, first.knobs, found * found, indirect);
+  std::vector<PlanRound> rounds{{first, 1, MeasuredError{}, {}, 0}};
+  rounds[0].image->relative_rmse = found;
+  std::optional<Prediction> next = next_try(picture(), pilot, asked, rounds);
+  ASSERT_TRUE(next);
+  for (const Knob knob : {K::photons, K::accuracy, K::rays, K::records})
+    EXPECT_EQ(next->knobs[at(knob)], first.knobs[at(knob)]) << name_of(knob);
+  EXPECT_GT(next->knobs[at(K::light_rays)], first.knobs[at(K::light_rays)]);
+  EXPECT_NEAR(next->seconds.value, pilot.time.find("picture")->best(next->knobs), 1e-6);
+  // Where records are what misses, others are made, of the same photons or not.
+  pilot.image_error = synthetic_error(0);
+  correct(*pilot.image_error, first.knobs, found * found,
+          found * found - pilot.image_error->best(first.knobs) + indirect);
+  next = next_try(picture(), pilot, asked, rounds);
+  ASSERT_TRUE(next);
+  EXPECT_NE(next->knobs[at(K::records)] * next->knobs[at(K::rays)],
+            first.knobs[at(K::records)] * first.knobs[at(K::rays)]);
+  EXPECT_NEAR(next->seconds.value,
+              pilot.time.best(next->knobs) - (next->knobs[at(K::photons)] == first.knobs[at(K::photons)]
+                                                  ? pilot.time.find("photons")->best(next->knobs)
+                                                  : 0),
+              1e-6);
 }
 
 TEST(StudyPlan, FiguresForPeople) {

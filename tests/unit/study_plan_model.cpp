@@ -166,12 +166,7 @@ TEST(StudyPilot, RecordsFollowAPowerUpToTheirPlaces) {
   EXPECT_NEAR(many.at(0.25), 4000, 1e-6);
   EXPECT_NEAR(many.at(0.125), 8000, 1e-6);  // odds 1/9, 2/3, 4
   EXPECT_NEAR(many.at(1e-4), 10000, 1);
-  EXPECT_NEAR(few.in_effect(0.1), 0.1, 1e-6);
-  EXPECT_NEAR(many.in_effect(0.5), 0.5, 1e-9);
-  EXPECT_NEAR(many.in_effect(0.25), 0.25, 1e-9);
-  EXPECT_NEAR(many.in_effect(0.125), 0.25 / std::sqrt(2), 1e-9);  // twice as many, not four times
   EXPECT_EQ(count_of(0.5, 0, 0.25, 0, 100).at(0.1), 0);
-  EXPECT_EQ(count_of(0.5, 0, 0.25, 0, 100).in_effect(0.1), 0.1);
   const RecordCount even = count_of(0.5, 100, 0.25, 100, 100);  // every sensor has one of its own
   EXPECT_NEAR(even.at(0.1), 100, 1e-9);
 }
