@@ -88,8 +88,10 @@ struct Rows {
   std::vector<Observation> seen_noise, seen_bias, indirect_noise, indirect_bias;
 };
 
-void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_direct) {
-  rows.indirect_noise.push_back(observed(k, s.indirect.noise2, s.indirect.noise2_sigma));
+/// `own_noise`: of the records, which all that is made with one pair of caches shares, this is the
+/// measurement.
+void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_direct, bool own_noise) {
+  if (own_noise) rows.indirect_noise.push_back(observed(k, s.indirect.noise2, s.indirect.noise2_sigma));
   rows.indirect_bias.push_back(observed(k, s.indirect.bias2, s.indirect.bias2_sigma));
   if (!with_direct) return;
   rows.seen_noise.push_back(observed(k, s.seen.noise2, s.seen.noise2_sigma));
@@ -101,7 +103,7 @@ void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_di
 void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const char* direct) {
   fit(model, text(direct, ", noise"), rows.seen_noise, seed + 1);
   fit(model, text(direct, ", bias"), rows.seen_bias, seed + 2);
-  fit(model, "indirect light, noise", rows.indirect_noise, seed + 3);
+  model.find("indirect light, noise")->fit_noise(rows.indirect_noise, seed + 3);
   fit(model, "indirect light, bias", rows.indirect_bias, seed + 4);
 }
 
@@ -132,17 +134,19 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   for (std::size_t c = 0; c < caches.size(); ++c) {
     runs.make_caches(caches[c]);
     if (task.image) {
-      for (const Samples& s : pictures)
-        if (c == 0)
-          add_rows(image, runs.sized(with(caches[c], s)), runs.pictures(with(caches[c], s), true), true);
-      const Knobs fine = with(caches[c], kFine);
-      if (c > 0) add_rows(image, runs.sized(fine), runs.pictures(fine, false), false);
+      const Knobs fine = runs.sized(with(caches[c], kFine));
+      if (c > 0) add_rows(image, fine, runs.pictures(fine, false), false, true);
+      for (const Samples& s : pictures) {
+        const Knobs k = runs.sized(with(caches[c], s));
+        if (c == 0) add_rows(image, k, runs.pictures(k, true), true, k == fine);
+      }
     }
     if (!task.lux) continue;
     for (const double rays : kSensorRays) {
       Knobs k = caches[c];
       k[at(Knob::sensor_rays)] = rays;
-      if (c == 0 || rays == kSensorRays[1]) add_rows(lux, k, runs.lux_tables(k), true);
+      const bool most = rays == kSensorRays[1];
+      if (c == 0 || most) add_rows(lux, k, runs.lux_tables(k), true, most);
     }
   }
   const std::vector<double> counts =

@@ -35,6 +35,21 @@ void Posynomial::fit(std::span<const Observation> observations, std::uint64_t se
   fit_ = fit_with_draws(rows, kDraws, seed);
 }
 
+void Posynomial::fit_noise(std::vector<Observation> observations, std::uint64_t seed) {
+  constexpr int kPasses = 3;
+  double doubt2 = 0, n = 0;
+  for (const Observation& o : observations)
+    if (o.value > 0) doubt2 += std::pow(o.sigma / o.value, 2), n += 1;
+  fit(observations, seed);
+  for (int pass = 1; pass < kPasses && n > 0; ++pass) {
+    std::vector<double> sigma;
+    for (const Observation& o : observations) sigma.push_back(std::sqrt(doubt2 / n) * best(o.knobs));
+    if (*std::min_element(sigma.begin(), sigma.end()) <= 0) return;
+    for (std::size_t i = 0; i < sigma.size(); ++i) observations[i].sigma = sigma[i];
+    fit(observations, seed);
+  }
+}
+
 void Posynomial::set(std::vector<double> coefficients) {
   PHOS_CHECK(coefficients.size() == terms_.size(), coefficients.size(), " for ", terms_.size(), " terms");
   fit_ = {coefficients, std::vector<std::vector<double>>(kDraws, coefficients), 1};

@@ -56,6 +56,10 @@ class Posynomial {
   Posynomial() = default;
   explicit Posynomial(std::vector<Monomial> terms) : terms_(std::move(terms)) {}
   void fit(std::span<const Observation> observations, std::uint64_t seed);
+  /// To measured noise, of which few places may have most (a ring about a lamp): one that came out low does
+  /// not know what it missed. Each is in doubt as all of them are together, relative to what the fit says of
+  /// it, not to itself.
+  void fit_noise(std::vector<Observation> observations, std::uint64_t seed);
   /// As if the coefficients had been measured so, without doubt.
   void set(std::vector<double> coefficients);
   /// What a later measurement says, by one guess: a draw, or kBest. All coefficients times `factor`.

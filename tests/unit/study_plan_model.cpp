@@ -139,6 +139,31 @@ TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
   EXPECT_LT(width, 1);
 }
 
+TEST(StudyPlanModel, NoiseThatCameOutLowIsNotBelievedMore) {
+  // Mean squares of six normal deviates, whose doubt is told in proportion to what came out.
+  constexpr int kTrials = 200, kDeviates = 6;
+  double plain = 0, as_noise = 0;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    RandomStream random(trial, Stage::pilot, 0);
+    std::vector<Observation> rows;
+    for (const double rays : {64, 128, 256, 512}) {
+      double squares = 0;
+      for (int i = 0; i < kDeviates; ++i) squares += std::pow(normal(random), 2) / kDeviates;
+      Observation o;
+      o.knobs[at(Knob::rays)] = rays, o.value = squares / rays,
+      o.sigma = o.value * std::sqrt(2.0 / kDeviates);
+      rows.push_back(o);
+    }
+    Posynomial p({{"noise", {{Knob::rays, -1}}}});
+    p.fit(rows, trial);
+    plain += p.coefficients()[0] / kTrials;
+    p.fit_noise(rows, trial);
+    as_noise += p.coefficients()[0] / kTrials;
+  }
+  EXPECT_LT(plain, 0.75);  // so there is something to mend
+  EXPECT_NEAR(as_noise, 1, 0.12);
+}
+
 TEST(StudyPlanModel, ATermThatMayBeThereHasAShare) {
   // Two rows that the first term alone fits best, and the second just fits as well within their sigma.
   Posynomial p({{"all", {}}, {"rays", {{Knob::rays, 1}}}});
