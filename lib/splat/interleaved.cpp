@@ -30,8 +30,8 @@ constexpr int kPerTest = 16;
 constexpr int kTelling = 16;
 /// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
 constexpr float kDoubt = 2;
-/// Rays of one pass that it takes for that: of fewer, one blocked ray in a place that sees most of the lamp
-/// would be believed, and none that arrives.
+/// Rays of one pass that it takes for that. A single one would be believed where it differs from most of
+/// those about it, and not where it agrees: half shadows would come out too dark or too bright.
 constexpr float kTold = 6;
 
 /// What a shadow ray leaves from.
@@ -230,7 +230,7 @@ class Interleaved {
     while (reach < kAll && !(found[reach].sent > 0)) ++reach;
     if (!(found[reach].seen > 0)) return;
     const float share = found[reach].share();
-    if (reach > kOwn && found[reach - 1].rays >= kTold) {
+    if (reach > kOwn && found[reach - 1].rays >= kTold && found[reach - 1].sent > 0) {
       const Finding& nearer = found[reach - 1];
       const float change = nearer.share() - share;
       if (change * change > kDoubt * kDoubt * nearer.variance_of(share)) --reach;
