@@ -125,7 +125,8 @@ void declare_options(Options& options, RenderOptions& r) {
       "theirs, "
       "at edges too, and more of them only where a lamp is seen in part (a fraction of the time; blurs "
       "shadows "
-      "over up to 4 pixels, less with more rays, not at all with 512); by shadow maps (fast preview, diffuse "
+      "over up to 4 pixels, less with more rays, not at all with 512, 16 of each sample); by shadow maps "
+      "(fast preview, diffuse "
       "only); or left out");
   options.integer("light-samples", r.light_samples, "N",
                   "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
