@@ -44,7 +44,7 @@ Rgb irradiance_of(const Hemisphere& h) {
 DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight) {
   const auto light = [&](int ring, int slice) {
     const std::size_t i = h.at(ring, slice);
-    return DVec3(h.radiance[i]) * static_cast<double>(weight[i]);
+    return h.radiance[i] * weight[i];
   };
   // Each difference has as its mean square the mean variance of the cells in it, and the square of what does
   // not cancel of their means. Each cell counts once: in four blocks of 2 x 2, a quarter each; a cell of the
@@ -52,9 +52,9 @@ DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight) {
   DVec3 variance(0);
   for (int k = 0; k < h.slices; ++k) {
     for (int j = 0; j + 1 < h.rings; ++j)
-      variance += squared(light(j, k) - light(j, k + 1) - light(j + 1, k) + light(j + 1, k + 1)) / 4.0;
+      variance += squared(DVec3(light(j, k) - light(j, k + 1) - light(j + 1, k) + light(j + 1, k + 1))) / 4.0;
     for (const int j : {0, h.rings - 1})
-      variance += squared(light(j, k - 1) - 2.0 * light(j, k) + light(j, k + 1)) / 12.0;
+      variance += squared(DVec3(light(j, k - 1) - 2.f * light(j, k) + light(j, k + 1))) / 12.0;
   }
   return variance;
 }

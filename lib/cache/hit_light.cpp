@@ -22,7 +22,7 @@ constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
 /// One hit in so many is lit from other places too, to tell their noise.
-constexpr std::uint32_t kOfWhichOneTells = 2;
+constexpr std::uint32_t kOfWhichOneTells = 4;
 
 /// A ray of a record's pass.
 struct RayName {
@@ -68,20 +68,33 @@ class LampSequence {
   std::uint32_t shift_[3], to_a_ray_;
 };
 
-/// What the light read along one ray adds to the noise of the hemisphere.
-void add_noise(const HitLight::Worker::Read& read, const GatherSource& source, float distance_m,
-               float cos_hit, float solid_sr, float cosine, SourceNoise& noise) {
-  const auto lux = static_cast<double>(read.lux), d = static_cast<double>(distance_m);
-  if (!(lux > 0)) return;
-  const double sr = static_cast<double>(solid_sr), c = static_cast<double>(cosine);
-  noise.irradiance += c * sr * DVec3(read.radiance);
-  const double zone2_m2 = source.zone_photons * source.photon_lm / (std::numbers::pi * lux);
-  if (!(d * d + zone2_m2 / 2 > 0)) return;  // of a source without noise
-  const double share = source.photon_lm * static_cast<double>(cos_hit) / (d * d + zone2_m2 / 2);
-  const DVec3 white = share * sr * DVec3(read.noise);
-  noise.variance += c * c * white;
-  noise.per_coefficient += white / (2 * std::numbers::pi);
-}
+/// Noise of the light that a hemisphere's rays read from the source.
+class ReadNoise {
+ public:
+  explicit ReadNoise(const GatherSource& source)
+      : photon_lm_(source.photon_lm),
+        half_zone_(source.zone_photons * source.photon_lm / (2 * std::numbers::pi)),
+        common_(source.common) {}
+
+  /// What was read along one ray.
+  void add(const HitLight::Worker::Read& read, float distance_m, float cos_hit, float projected_sr,
+           float cosine) {
+    const auto lux = static_cast<double>(read.lux), d = static_cast<double>(distance_m);
+    const auto projected = static_cast<double>(projected_sr), c = static_cast<double>(cosine);
+    const double spread = c * (d * d * lux + half_zone_);
+    if (!(lux > 0) || !(spread > 0)) return;  // of a source without noise
+    irradiance_ += projected * DVec3(read.radiance);
+    const DVec3 white =
+        photon_lm_ * lux * static_cast<double>(cos_hit) * projected / spread * DVec3(read.noise);
+    variance_ += c * c * white, white_ += white;
+  }
+  SourceNoise all() const { return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common_}; }
+
+ private:
+  double photon_lm_, half_zone_;  // m2 lx
+  double common_;
+  DVec3 irradiance_{0}, variance_{0}, white_{0};
+};
 
 bool positive(const Rgb& c) { return c.x > 0 || c.y > 0 || c.z > 0; }
 
@@ -122,7 +135,11 @@ struct HitLight::Impl {
   bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
-  static void note(const Rgb& f, const Rgb& lux, Worker& worker);
+  /// Light f E that has been read from the source.
+  static void note(const Rgb& f, const Rgb& lux, Worker& worker) {
+    worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
+    worker.read.lux = luminance(lux);
+  }
   Rgb from_diffuse(const SurfacePoint& point, const LampSequence& lamp_points, const RayName& ray,
                    Worker& worker) const;
   Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
@@ -153,12 +170,6 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   if (!worker.fallback) worker.fallback = source.fallback->make_worker();
   const RecordSite site{point.position, point.smooth_normal, item};
   return source.fallback->make(site, *worker.fallback).record.irradiance;
-}
-
-/// Light f E that has been read from the source.
-void HitLight::Impl::note(const Rgb& f, const Rgb& lux, Worker& worker) {
-  worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
-  worker.read.lux = luminance(lux);
 }
 
 /// Of a material that is diffuse alone.
@@ -368,8 +379,8 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   worker.sight_count = 0;
   worker.tell_noise = h.stratified();
   worker.other_light.clear();
-  h.source = {}, h.lamps = {};
-  h.source.common = impl_->source.common;
+  ReadNoise noise(impl_->source);
+  h.lamps = {};
   for (std::size_t i = 0; i < hits.size(); ++i) {
     impl_->rays.ask_ahead(hits, i);
     h.distance_m[i] = hits[i].distance_m;
@@ -384,11 +395,11 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     h.radiance[i] = impl_->surface[point.material].diffuse
                         ? impl_->from_diffuse(point, lamp_points, ray, worker)
                         : impl_->from_any(point, -h.direction[i], ray, worker);
-    if (impl_->source.photon_lm > 0 && worker.read.lux > 0)
-      add_noise(worker.read, impl_->source, hits[i].distance_m,
-                std::fabs(glm::dot(point.geometric_normal, h.direction[i])), h.solid_sr(i),
-                glm::dot(h.direction[i], h.frame.z), h.source);
+    if (impl_->source.photon_lm > 0)
+      noise.add(worker.read, hits[i].distance_m, std::fabs(glm::dot(point.geometric_normal, h.direction[i])),
+                h.projected_sr[i], glm::dot(h.direction[i], h.frame.z));
   }
+  h.source = noise.all();
   for (LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
     const Rgb radiance = sight.brdf * sight.light.lux;
     sight.arrived = impl_->arrives(sight.light);
