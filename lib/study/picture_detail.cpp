@@ -51,4 +51,16 @@ double detail_power(const Image& a, const Image& b) {
   return std::clamp(0.5 * std::log2(large / small - 1), kLeastDetailPower, 1.0);
 }
 
+double differs_within_pixels(const Image& few, const Image& more, const std::string& layer) {
+  PHOS_CHECK(few.width() == more.width() && few.height() == more.height(), few.width(), " ", more.width());
+  const std::vector<Rgb> a = few.rgb(layer), b = more.rgb(layer);
+  double differ2 = 0, mean = 0, n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!is_finite(a[i]) || !is_finite(b[i])) continue;
+    const DVec3 differ = DVec3(a[i]) - DVec3(b[i]), light(b[i]);
+    differ2 += glm::dot(differ, differ) / 3, mean += (light.x + light.y + light.z) / 3, n += 1;
+  }
+  return mean > 0 ? differ2 * n / (mean * mean) : 0;
+}
+
 }  // namespace phos

@@ -1,6 +1,8 @@
 // How fast what lies within pixels shrinks as they do.
 #pragma once
 
+#include <string>
+
 #include "image/image.h"
 
 namespace phos {
@@ -13,5 +15,9 @@ namespace phos {
 /// times the first. From kLeastDetailPower (nothing is known, or detail is everywhere) to 1.
 double detail_power(const Image& a, const Image& b);
 inline constexpr double kLeastDetailPower = 0.125;
+
+/// Mean square by which a layer of two pictures differs, over that of its mean in the second: with few and
+/// with more samples in each pixel, what the few miss of what lies within pixels. 0 where it is dark.
+double differs_within_pixels(const Image& few, const Image& more, const std::string& layer);
 
 }  // namespace phos

@@ -151,8 +151,8 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   }
   const std::vector<double> counts =
       runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]}, kCountRays);
-  for (const Samples& s : kTimed)
-    if (task.image) runs.time_picture(with(caches[0], s));
+  double sampled_detail = 1;
+  if (task.image) sampled_detail = runs.time_pictures(with(caches[0], kTimed[0]), with(caches[0], kTimed[1]));
   const double places = (task.image ? kPlacesOfAPixel * static_cast<double>(task.width * task.height) : 0) +
                         static_cast<double>(pilot.sensors);
   pilot.records = count_of(kAccuracy[0], counts[0], kAccuracy[1], counts[1], places);
@@ -161,6 +161,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   if (task.image) {
     pilot.image_error = image_error_model(task, runs.detail());
     fit_errors(*pilot.image_error, image, options.seed + 20, "direct light and gloss");
+    add_missed_detail(*pilot.image_error, runs.detail(), sampled_detail, runs.growth());
     pilot.image_resolution = resolution_of(image.indirect_bias);
     pilot.image_reference.places = static_cast<double>(task.width * task.height);
   }

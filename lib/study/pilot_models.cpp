@@ -23,6 +23,7 @@ const Monomial kInterpolation{"interpolation between records", {{K::accuracy, 2}
 /// rays, accuracies 0.56 to 0.1: what noise is left goes as that number to a power of -0.7 to -0.9, and from
 /// 0.2 down, where places read no more of them, it stays.
 const std::pair<Knob, double> kBlended{K::read, -0.8};
+constexpr const char* kTextures = "textures and shadows within pixels";
 const Monomial kUnmended{"what no setting mends", {}};
 
 }  // namespace
@@ -65,7 +66,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   if (task.specular) seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
       // Finer pixels show more of a texture.
-      textures{"textures and shadows within pixels", {{K::pixel_samples, -1}, {K::pixels, -detail}}},
+      textures{kTextures, {{K::pixel_samples, -1}, {K::pixels, -detail}}},
       blur{"shadows that pixels share", {{K::light_rays, -1}, {K::pixels, -0.5}}};
   return {{{"direct light and gloss, noise", sum_of(seen)},
            {"direct light and gloss, bias", sum_of({edges, textures, blur})},
@@ -73,6 +74,14 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
                                              {"noise of gathered rays, fast part", {kBlended, {K::rays, -2}}},
                                              {"noise of photons", {{K::photons, -1}}}})},
            {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
+}
+
+void add_missed_detail(PlanModel& image_error, double detail, double sampled, double growth) {
+  const double missed = std::pow(growth, detail - std::clamp(sampled, 0.0, detail)) - 1;
+  if (!(missed > 0)) return;
+  for (auto& [name, p] : image_error.part)
+    p.extend(kTextures, {"textures within pixels, fast part", {{K::pixel_samples, -2}, {K::pixels, -detail}}},
+             missed);
 }
 
 PlanModel lux_error_model() {

@@ -61,7 +61,7 @@ void PilotRuns::set_out_sensors() {
 }
 
 Knobs PilotRuns::sized(Knobs knobs) const {
-  knobs[at(Knob::pixels)] = static_cast<double>(small_.width * small_.height);
+  knobs[at(Knob::pixels)] = pixels_of(small_);
   return knobs;
 }
 
@@ -179,12 +179,24 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   return out;
 }
 
-void PilotRuns::time_picture(const Knobs& knobs) {
-  Knobs k = knobs;
-  k[at(Knob::pixels)] = static_cast<double>(task_.width * task_.height);
-  timed(
-      "picture", k,
-      seeded(picture_command(task_, k, task_.scene, name("count-", 0), name("picture-", 0)), options_.seed));
+double PilotRuns::time_pictures(const Knobs& few, const Knobs& more) {
+  Image full[2], small[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    Knobs k = i == 0 ? few : more;
+    k[at(Knob::pixels)] = pixels_of(task_);
+    const auto drawn = [&](auto&& draw, const PlanTask& task) {
+      return seeded(draw(task, k, task.scene, name("count-", 0), name("picture-", i)), options_.seed);
+    };
+    const Command command = drawn(picture_command, task_);
+    timed("picture", k, command);
+    full[i] = read_image(command.output);
+    require(drawn(indirect_picture_command, small_));
+    small[i] = read_image(command.output);
+  }
+  const double of_full = differs_within_pixels(full[0], full[1], "indirect"),
+               of_small = differs_within_pixels(small[0], small[1], "indirect");
+  if (!(growth() > 1) || !(of_full > 0) || !(of_small > 0)) return 1;
+  return std::log(of_small / of_full) / std::log(growth());
 }
 
 std::vector<double> PilotRuns::lux_of(const std::string& path, const char* column) const {
@@ -223,7 +235,7 @@ std::vector<double> PilotRuns::count_records(double photons_count, const std::ve
     k[at(Knob::photons)] = photons_count, k[at(Knob::accuracy)] = a, k[at(Knob::rays)] = rays;
     const std::string photons = name("photons-", 0) + "-" + knob_word(k, Knob::photons);
     if (task_.image) {
-      k[at(Knob::pixels)] = static_cast<double>(task_.width * task_.height);
+      k[at(Knob::pixels)] = pixels_of(task_);
       count += records_run(k, seeded(view_records_command(task_, k, task_.scene, photons, name("count-", 0)),
                                      options_.seed + kCountSeed));
     }

@@ -37,19 +37,23 @@ class PilotRuns {
   SeparatedLayers lux_tables(const Knobs& knobs);
   /// Records that the whole task takes, at each accuracy.
   std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
-  /// The picture that is meant, in its own size, of the last records that were counted: edges are a smaller
-  /// share of more pixels.
-  void time_picture(const Knobs& knobs);
+  /// The picture that is meant, in its own size, of the last records that were counted, with few and with
+  /// more samples of pixels: edges are a smaller share of more pixels. Returns the power, as detail()'s, with
+  /// which what the few miss within pixels shrinks from the pilot's own size to this one.
+  double time_pictures(const Knobs& few, const Knobs& more);
 
   /// The knobs with the pilot's own number of pixels.
   Knobs sized(Knobs knobs) const;
   /// What was measured of a part of the time model.
   const std::vector<Observation>& times(const std::string& part) { return times_[part]; }
   std::size_t sensors() const { return sensors_; }
+  /// Pixels of the whole picture over the pilot's.
+  double growth() const { return pixels_of(task_) / pixels_of(small_); }
   /// Of the references' pictures.
   double detail() const { return detail_power(reference_[0], reference_[1]); }
 
  private:
+  static double pixels_of(const PlanTask& task) { return static_cast<double>(task.width * task.height); }
   /// Every program is run here.
   CommandRun require(const Command& command) const;
   CommandRun timed(const std::string& part, const Knobs& knobs, const Command& command);

@@ -59,6 +59,16 @@ void Posynomial::scale(std::size_t guess, double factor) {
   for (double& c : fit_.of(guess)) c *= factor;
 }
 
+void Posynomial::extend(const std::string& like, Monomial term, double factor) {
+  const auto found =
+      std::find_if(terms_.begin(), terms_.end(), [&](const Monomial& m) { return m.what == like; });
+  if (found == terms_.end()) return;
+  const auto i = static_cast<std::size_t>(found - terms_.begin());
+  terms_.push_back(std::move(term));
+  if (fit_.best.empty()) return;  // not fitted yet
+  for (std::size_t guess = 0; guess <= kDraws; ++guess) fit_.of(guess).push_back(factor * fit_.of(guess)[i]);
+}
+
 void Posynomial::add(std::size_t guess, std::size_t i, double more) { fit_.of(guess)[i] += more; }
 
 double Posynomial::value(const Knobs& knobs, std::size_t guess) const {

@@ -64,6 +64,8 @@ class Posynomial {
   void set(std::vector<double> coefficients);
   /// What a later measurement says, by one guess: a draw, or kBest. All coefficients times `factor`.
   void scale(std::size_t guess, double factor);
+  /// With another term, whose coefficient is `factor` times that of the term which is called `like`, if any.
+  void extend(const std::string& like, Monomial term, double factor);
   /// That term i is `more` larger than thought.
   void add(std::size_t guess, std::size_t i, double more);
 

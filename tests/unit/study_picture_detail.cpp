@@ -55,6 +55,34 @@ TEST(PictureDetail, OfGrainStays) {
   EXPECT_LT(power([](double x, double y) { return grain(x, y) + 0.02 * edge(x, y); }, 0.1), 0.2);
 }
 
+/// One point of each pixel of n samples, or the mean of several.
+Image sampled(int side, int samples) {
+  Image image(side, side);
+  std::vector<Rgb> values;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      double sum = 0;
+      for (int i = 0; i < samples; ++i) {
+        const double u = (i + 0.5) / samples, v = std::fmod(0.5 + i * 0.6180339887, 1);
+        sum += 2 + std::sin(300 * (x + u) / side) * std::sin(300 * (y + v) / side);
+      }
+      values.emplace_back(sum / samples);
+    }
+  image.set_rgb("light", values);
+  return image;
+}
+
+/// A wave of 21 mm in pictures of a metre: of a quarter of that in the wide one, and two waves in a pixel of
+/// the small, which sees all of it wrong.
+TEST(PictureDetail, SamplesDifferByWhatLiesWithinPixels) {
+  const double small = differs_within_pixels(sampled(24, 1), sampled(24, 64), "light"),
+               wide = differs_within_pixels(sampled(192, 1), sampled(192, 64), "light");
+  EXPECT_NEAR(small, 0.25 / 4, 0.02);  // variance 1/4, mean 2
+  EXPECT_LT(wide, small / 3);
+  EXPECT_GT(wide, small / 100);
+  EXPECT_EQ(differs_within_pixels(sampled(24, 4), sampled(24, 4), "light"), 0);
+}
+
 TEST(PictureDetail, OfNothingIsNotKnown) {
   EXPECT_EQ(power([](double, double) { return 1.0; }, 0), kLeastDetailPower);
 }

@@ -164,6 +164,38 @@ TEST(StudyPlanModel, NoiseThatCameOutLowIsNotBelievedMore) {
   EXPECT_NEAR(as_noise, 1, 0.12);
 }
 
+TEST(StudyPlanModel, ATermThatGoesWithAnotherHasItsDoubt) {
+  Posynomial p({{"light", {{Knob::rays, -1}}}});
+  p.fit(std::vector<Observation>{{knobs(1, 1, 4), 5, 1}}, 3);
+  Posynomial more = p;
+  more.extend("light", {"fast part", {{Knob::rays, -2}}}, 1.5);
+  more.extend("nothing", {"of nothing", {}}, 1);
+  ASSERT_EQ(more.terms().size(), 2u);
+  for (const std::size_t guess : {std::size_t{0}, std::size_t{7}, Posynomial::kBest})
+    for (const double rays : {1.0, 8.0})
+      EXPECT_NEAR(more.value(knobs(1, 1, rays), guess), p.value(knobs(1, 1, rays), guess) * (1 + 1.5 / rays),
+                  1e-9);
+}
+
+TEST(StudyPlanModel, FewSamplesThatMissMoreOfFinePixelsAreKnown) {
+  const auto part = [](double sampled, double pixel_samples) {
+    PlanModel model = image_error_model(PlanTask(), 0.5);
+    Posynomial& p = *model.find("indirect light, bias");
+    std::vector<double> c(p.terms().size(), 0);
+    c[1] = 1;
+    p.set(c);
+    add_missed_detail(model, 0.5, sampled, 16);
+    Knobs k = knobs(1, 1, 1);
+    k[at(Knob::pixels)] = 16, k[at(Knob::pixel_samples)] = pixel_samples;
+    return p.best(k);
+  };
+  EXPECT_NEAR(part(0.5, 1), 0.25, 1e-12);  // as detail says
+  EXPECT_NEAR(part(1, 1), 0.25, 1e-12);    // no less
+  EXPECT_NEAR(part(0.25, 1), 0.5, 1e-12);  // 16^-0.25
+  EXPECT_NEAR(part(0.25, 4), 0.25 / 4 + 0.25 / 16, 1e-12);
+  EXPECT_NEAR(part(-3, 1), 1, 1e-12);  // no more than is seen by the pilot
+}
+
 TEST(StudyPlanModel, ATermThatMayBeThereHasAShare) {
   // Two rows that the first term alone fits best, and the second just fits as well within their sigma.
   Posynomial p({{"all", {}}, {"rays", {{Knob::rays, 1}}}});
