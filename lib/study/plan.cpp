@@ -22,10 +22,21 @@ std::vector<double> doubling(double first, double last) {
   return out;
 }
 
+/// And what lies halfway, where it is whole.
+std::vector<double> half_doubling(double first, double last) {
+  std::vector<double> out;
+  for (const double v : doubling(first, last)) {
+    if (const double between = 0.75 * v; between > first && between == std::floor(between))
+      out.push_back(between);
+    out.push_back(v);
+  }
+  return out;
+}
+
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
-  groups.push_back({{Knob::photons}, {doubling(20000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, doubling(64, 16384)}};
+  groups.push_back({{Knob::photons}, {half_doubling(20000, 1e8)}});
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, half_doubling(64, 16384)}};
   records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
@@ -35,12 +46,13 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   if (task.image) {
     KnobGroup picture{{Knob::pixel_samples, Knob::edge_samples, Knob::light_rays, Knob::gloss_rays},
                       {doubling(1, 1024), doubling(1, 1024), doubling(1, 4096),
-                       task.gloss ? doubling(1, 4096) : std::vector<double>{1}}};
-    // Each sample of a pixel sends at least one ray of a kind.
+                       task.gloss ? half_doubling(1, 4096) : std::vector<double>{1}}};
+    // Each sample of a pixel sends as many rays of a kind, and at least one. (Shadow rays are evenest in
+    // powers of two.)
     picture.allowed = [gloss = task.gloss](const Knobs& k) {
       const double s = k[at(Knob::pixel_samples)];
       return k[at(Knob::edge_samples)] >= s && k[at(Knob::light_rays)] >= s &&
-             (!gloss || k[at(Knob::gloss_rays)] >= s);
+             (!gloss || std::fmod(k[at(Knob::gloss_rays)], s) == 0);
     };
     groups.push_back(picture);
   }
