@@ -19,8 +19,8 @@ constexpr double kCountRays = 32;  ///< of records that are made to be counted
 struct Samples {
   double pixel, edge, light, gloss;
 };
-constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},  {1, 16, 16, 16},
-                                {4, 4, 32, 32}, {4, 64, 64, 16}, {32, 64, 32, 32}};
+constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},   {1, 16, 16, 16},
+                                {4, 4, 32, 32}, {4, 64, 64, 256}, {32, 64, 32, 32}};
 constexpr Samples kFewInGloss = {1, 1, 2, 2};  ///< gloss finds lamps by rays of both kinds: few of both
 constexpr Samples kFine = {32, 64, 32, 32};
 constexpr Samples kTimed[] = {{1, 16, 8, 4}, {4, 16, 8, 4}};  ///< at the full size
@@ -85,7 +85,7 @@ double resolution_of(const std::vector<Observation>& bias_rows) {
 }
 
 struct Rows {
-  std::vector<Observation> seen_noise, seen_bias, indirect_noise, indirect_bias;
+  std::vector<Observation> direct_noise, gloss_noise, seen_bias, indirect_noise, indirect_bias;
 };
 
 /// `own_noise`: of the records, which all that is made with one pair of caches shares, this is the
@@ -94,17 +94,19 @@ void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_di
   if (own_noise) rows.indirect_noise.push_back(observed(k, s.indirect.noise2, s.indirect.noise2_sigma));
   rows.indirect_bias.push_back(observed(k, s.indirect.bias2, s.indirect.bias2_sigma));
   if (!with_direct) return;
-  rows.seen_noise.push_back(observed(k, s.seen.noise2, s.seen.noise2_sigma));
+  rows.direct_noise.push_back(observed(k, s.direct.noise2, s.direct.noise2_sigma));
+  rows.gloss_noise.push_back(observed(k, s.gloss.noise2, s.gloss.noise2_sigma));
   // What edges do to both kinds of light goes together: the whole less the indirect part.
   rows.seen_bias.push_back(
       observed(k, s.whole.bias2 - s.indirect.bias2, std::hypot(s.whole.bias2_sigma, s.indirect.bias2_sigma)));
 }
 
-void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const char* direct) {
-  fit(model, text(direct, ", noise"), rows.seen_noise, seed + 1);
-  fit(model, text(direct, ", bias"), rows.seen_bias, seed + 2);
+void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const char* seen) {
+  fit(model, "direct light, noise", rows.direct_noise, seed + 1);
+  fit(model, text(seen, ", bias"), rows.seen_bias, seed + 2);
   model.find("indirect light, noise")->fit_noise(rows.indirect_noise, seed + 3);
   fit(model, "indirect light, bias", rows.indirect_bias, seed + 4);
+  if (model.find("gloss, noise")) fit(model, "gloss, noise", rows.gloss_noise, seed + 5);
 }
 
 }  // namespace

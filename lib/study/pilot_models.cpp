@@ -54,26 +54,29 @@ double ReferenceCost::samples(double resolution) const {
 }
 
 PlanModel image_error_model(const PlanTask& task, double detail) {
-  std::vector<Monomial> seen = {
+  const std::vector<Monomial> direct = {
       {"noise of shadow rays", {{K::light_rays, -1}}},
       {"noise of shadow rays, fast part", {{K::light_rays, -2}}},
       {"noise of shadow rays at edges", {{K::edge_samples, -1}, {K::pixels, -0.5}}}};
-  if (task.gloss) {
-    seen.push_back({"noise of gloss rays", {{K::gloss_rays, -1}}});
-    seen.push_back({"noise of gloss rays, fast part", {{K::gloss_rays, -2}}});
-    seen.push_back({"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}});
-  }
-  if (task.specular) seen.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
+  std::vector<Monomial> gloss;
+  if (task.gloss)
+    gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
+             {"noise of gloss rays, fast part", {{K::gloss_rays, -2}}},
+             {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}}};
+  if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
       // Finer pixels show more of a texture.
       textures{kTextures, {{K::pixel_samples, -1}, {K::pixels, -detail}}},
       blur{"shadows that pixels share", {{K::light_rays, -1}, {K::pixels, -0.5}}};
-  return {{{"direct light and gloss, noise", sum_of(seen)},
-           {"direct light and gloss, bias", sum_of({edges, textures, blur})},
-           {"indirect light, noise", sum_of({{"noise of gathered rays", {kBlended, {K::rays, -1}}},
-                                             {"noise of gathered rays, fast part", {kBlended, {K::rays, -2}}},
-                                             {"noise of photons", {{K::photons, -1}}}})},
-           {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
+  PlanModel model{
+      {{"direct light, noise", sum_of(direct)},
+       {"direct light and gloss, bias", sum_of({edges, textures, blur})},
+       {"indirect light, noise", sum_of({{"noise of gathered rays", {kBlended, {K::rays, -1}}},
+                                         {"noise of gathered rays, fast part", {kBlended, {K::rays, -2}}},
+                                         {"noise of photons", {{K::photons, -1}}}})},
+       {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
+  if (!gloss.empty()) model.part.emplace_back("gloss, noise", sum_of(gloss));
+  return model;
 }
 
 void add_missed_detail(PlanModel& image_error, double detail, double sampled, double growth) {

@@ -170,7 +170,10 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   out.indirect = judged([&](const Image& image) { return layer(image, "indirect"); });
   if (!whole) return out;
   out.whole = judged([&](const Image& image) { return layer(image, ""); });
-  out.seen = judged([&](const Image& image) { return less(layer(image, ""), layer(image, "indirect")); });
+  out.direct = judged([&](const Image& image) { return layer(image, "direct"); });
+  out.gloss = judged([&](const Image& image) {
+    return less(less(layer(image, ""), layer(image, "indirect")), layer(image, "direct"));
+  });
   if (!task_.cached_direct) return out;
   // Records hold more than the reference calls indirect: bias is of all light, and put down to them.
   const Separated noise = out.indirect;
@@ -222,7 +225,7 @@ SeparatedLayers PilotRuns::lux_tables(const Knobs& knobs) {
   out.whole = separate(all[0], all[1], *p, *q, 1).over(lux_mean_);
   out.indirect = out.whole;
   out.indirect.noise2 = separate(indirect[0], indirect[1], *p, *q, 1).over(lux_mean_).noise2;
-  out.seen = separate(less(all[0], indirect[0]), less(all[1], indirect[1]), *p, *q, 1).over(lux_mean_);
+  out.direct = separate(less(all[0], indirect[0]), less(all[1], indirect[1]), *p, *q, 1).over(lux_mean_);
   return out;
 }
 

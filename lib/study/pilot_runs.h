@@ -21,7 +21,9 @@ struct ReferenceRun {
 
 /// Relative to the mean of the whole.
 struct SeparatedLayers {
-  Separated whole, seen, indirect;  ///< seen: all but indirect light
+  Separated whole, indirect;
+  /// Straight from the lamps, and what is neither that nor indirect (gloss, mirrors): their noise alone.
+  Separated direct, gloss;
 };
 
 class PilotRuns {
