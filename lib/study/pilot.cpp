@@ -102,11 +102,11 @@ void add_rows(Rows& rows, const Knobs& k, const SeparatedLayers& s, bool with_di
 }
 
 void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const char* seen) {
-  fit(model, "direct light, noise", rows.direct_noise, seed + 1);
+  model.find("direct light, noise")->fit_noise(rows.direct_noise, seed + 1);
   fit(model, text(seen, ", bias"), rows.seen_bias, seed + 2);
   model.find("indirect light, noise")->fit_noise(rows.indirect_noise, seed + 3);
   fit(model, "indirect light, bias", rows.indirect_bias, seed + 4);
-  if (model.find("gloss, noise")) fit(model, "gloss, noise", rows.gloss_noise, seed + 5);
+  if (Posynomial* gloss = model.find("gloss, noise")) gloss->fit_noise(rows.gloss_noise, seed + 5);
 }
 
 }  // namespace
