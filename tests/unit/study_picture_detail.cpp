@@ -55,7 +55,7 @@ TEST(PictureDetail, OfGrainStays) {
   EXPECT_LT(power([](double x, double y) { return grain(x, y) + 0.02 * edge(x, y); }, 0.1), 0.2);
 }
 
-/// One point of each pixel of n samples, or the mean of several.
+/// A wave along x and along y, about 2, of `samples` points in each pixel.
 Image sampled(int side, int samples) {
   Image image(side, side);
   std::vector<Rgb> values;
@@ -72,8 +72,8 @@ Image sampled(int side, int samples) {
   return image;
 }
 
-/// A wave of 21 mm in pictures of a metre: of a quarter of that in the wide one, and two waves in a pixel of
-/// the small, which sees all of it wrong.
+/// Two waves lie in a pixel of the small picture, so that one point of it tells nothing of their mean; in the
+/// wide one a quarter of a wave does.
 TEST(PictureDetail, SamplesDifferByWhatLiesWithinPixels) {
   const double small = differs_within_pixels(sampled(24, 1), sampled(24, 64), "light"),
                wide = differs_within_pixels(sampled(192, 1), sampled(192, 64), "light");
