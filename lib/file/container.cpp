@@ -171,7 +171,8 @@ bool is_container(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return false;  // looking would drain a pipe
   try {
-    return !phos_header_bytes(MappedFile(path).bytes()).empty();
+    const MappedFile file(path);
+    return !phos_header_bytes(file.bytes()).empty() || is_cut_in_header(file.bytes());
   } catch (const Error&) {
     return false;
   }

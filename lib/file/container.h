@@ -95,7 +95,8 @@ Json history_entry(const Provenance& provenance);
 /// The layout version of a kind that this library reads and writes.
 inline constexpr int kLayoutVersion = 1;
 
-/// Is this a phos file (by its content; false for a missing or unreadable one)?
+/// Is this a phos file, or the beginning of one, which readers call truncated (by its content; false for a
+/// missing or unreadable one)?
 bool is_container(const std::string& path);
 
 /// An open file, memory-mapped. Reading never trusts the file: sizes, offsets, overlaps and dtypes are

@@ -38,5 +38,7 @@ LayoutPlan plan_layout(const std::map<std::string, Tensor>& tensors, const Metad
 
 /// Length prefix and header of a phos container; empty for any other file.
 std::span<const std::byte> phos_header_bytes(std::span<const std::byte> file);
+/// Does the file begin as a phos container does, and end within its header?
+bool is_cut_in_header(std::span<const std::byte> file);
 
 }  // namespace phos

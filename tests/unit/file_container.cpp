@@ -226,6 +226,16 @@ TEST(Container, OtherFilesAreNotPhosFiles) {
   EXPECT_TRUE(is_container(written("a")));
 }
 
+TEST(Container, AFileCutInItsHeaderIsStillOne) {
+  const std::string folder = test::scratch("container-cut"), whole = read_text(written("a"));
+  for (const std::size_t bytes : {std::size_t{9}, std::size_t{20}, std::size_t{100}, whole.size() - 1}) {
+    test::spill(folder + "/x", whole.substr(0, bytes));
+    EXPECT_TRUE(is_container(folder + "/x")) << bytes;
+    EXPECT_NE(std::string(error_of([&] { Container::open(folder + "/x"); }).what()).find("truncated"),
+              std::string::npos);
+  }
+}
+
 struct ScenePart {
   const char* description;
   std::function<void(Json&)> change;
