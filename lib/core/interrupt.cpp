@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <deque>
+#include <mutex>
 
 #include "core/error.h"
 #include "core/last_words.h"
@@ -12,13 +14,13 @@ namespace {
 
 std::atomic<bool> asked_to_stop{false};
 std::atomic<int> not_to_be_stopped{0};  // calls that do not look whether they should stop
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
-
-constexpr const char* kSaid = "interrupted; nothing was written, what was there before is unchanged";
+std::atomic<const char*> said{"interrupted; nothing was written, what was there before is unchanged"};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+              std::atomic<const char*>::is_always_lock_free);
 
 void on_signal(int) {
   const bool again = asked_to_stop.exchange(true);
-  if (not_to_be_stopped.load() > 0) end_now(ExitCode::interrupted, kSaid);
+  if (not_to_be_stopped.load() > 0) end_now(ExitCode::interrupted, said.load());
   if (again) end_now(ExitCode::interrupted, "interrupted twice; what was there before is unchanged");
 }
 
@@ -35,7 +37,14 @@ void install_interrupt_handler() {
 bool interrupted() { return asked_to_stop.load(std::memory_order_relaxed); }
 
 void throw_if_interrupted() {
-  if (interrupted()) throw Error(ExitCode::interrupted, "", kSaid);
+  if (interrupted()) throw Error(ExitCode::interrupted, "", said.load());
+}
+
+void say_if_interrupted(std::string words) {
+  static std::mutex one_at_a_time;
+  static std::deque<std::string> kept;  // all of them: a handler may be reading what another thread replaces
+  const std::lock_guard lock(one_at_a_time);
+  said.store(kept.emplace_back(std::move(words)).c_str());
 }
 
 StopAtOnce::StopAtOnce() {

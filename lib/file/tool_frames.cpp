@@ -73,16 +73,11 @@ void Tool::run_frames(const std::function<void()>& body) {
   Progress progress("frames", static_cast<std::uint64_t>(range.count()), "frames");
   for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
     const auto start = std::chrono::steady_clock::now();
-    try {
-      begin_frame(frame, names);
-      throw_if_interrupted();
-      body();
-    } catch (const Error& e) {
-      if (e.code() != ExitCode::interrupted || frame == range.first) throw;
-      throw Error(e.code(), "",
-                  text("interrupted; frames ", range.first, " to ", frame - 1, " are done",
-                       keyed_ ? ", --reuse goes on from there" : ""));
-    }
+    begin_frame(frame, names);
+    throw_if_interrupted();
+    body();
+    say_if_interrupted(text("interrupted; frames ", range.first, " to ", frame, " are done",
+                            keyed_ ? ", --reuse goes on from there" : ""));
     stats_["frame"] = frame;
     stats_["seconds.total"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     stats_["counters"] = counts_of(counters_);

@@ -108,6 +108,29 @@ TEST(InterruptDeathTest, FirstSignalEndsACallThatDoesNotLook) {
   EXPECT_EXIT(before(), testing::ExitedWithCode(7), "");
 }
 
+TEST(InterruptDeathTest, SaysWhatIsDone) {
+  const auto within = [] {
+    install_interrupt_handler();
+    say_if_interrupted("interrupted; one is done");
+    const StopAtOnce stop;
+    std::raise(SIGINT);
+    _exit(2);
+  };
+  EXPECT_EXIT(within(), testing::ExitedWithCode(130), "interrupted; one is done");
+  const auto between = [] {
+    install_interrupt_handler();
+    say_if_interrupted("interrupted; one is done");
+    std::raise(SIGINT);
+    try {
+      throw_if_interrupted();
+    } catch (const Error& e) {
+      _exit(e.what() == std::string("interrupted; one is done") ? 7 : 1);
+    }
+    _exit(2);
+  };
+  EXPECT_EXIT(between(), testing::ExitedWithCode(7), "");
+}
+
 }  // namespace
 }  // namespace phos
 #endif
