@@ -76,8 +76,8 @@ class Shading {
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
   /// others. With `gloss_rays` > 0 the glossy lobe's share is weighted against gloss() (power heuristic,
-  /// Veach 1997 ch. 9). Without the Lambert part if options.cached_direct; without the environment if its
-  /// light is had another way.
+  /// Veach 1997 ch. 9, shadow rays counted twice for being even). Without the Lambert part if
+  /// options.cached_direct; without the environment if its light is had another way.
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                      int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
