@@ -242,12 +242,12 @@ std::span<const std::byte> phos_header_bytes(std::span<const std::byte> file) {
 }
 
 bool is_cut_in_header(std::span<const std::byte> file) {
-  constexpr std::string_view kBegin = "{\"__metadata__\":";
+  const std::string begin = text("{\"", kMetadataName, "\":");
   if (file.size() <= kPrefixBytes) return false;
   const std::uint64_t length = little_endian64(file);
   const std::string_view header = characters(file.subspan(kPrefixBytes));
   return length <= kMaxHeaderBytes && length > header.size() &&
-         header.substr(0, kBegin.size()) == kBegin.substr(0, header.size());
+         begin.starts_with(header.substr(0, begin.size()));
 }
 
 }  // namespace phos

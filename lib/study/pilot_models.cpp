@@ -57,13 +57,13 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   // Even points under an edge: the variance of a mean of n goes as n^-1.5; where all is smooth, faster.
   const std::vector<Monomial> direct = {
       {"noise of shadow rays", {{K::light_rays, -1}}},
-      {"noise of shadow rays under edges", {{K::light_rays, -1.5}}},
+      {"noise of penumbrae", {{K::light_rays, -1.5}}},
       {"noise of shadow rays, fast part", {{K::light_rays, -2}}},
       {"noise of shadow rays at edges", {{K::edge_samples, -1}, {K::pixels, -0.5}}}};
   std::vector<Monomial> gloss;
   if (task.gloss)
     gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
-             {"noise of gloss rays under edges", {{K::gloss_rays, -1.5}}},
+             {"noise of edges in gloss", {{K::gloss_rays, -1.5}}},
              {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}}};
   if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},

@@ -85,6 +85,20 @@ TEST(InterruptDeathTest, SecondSignalEndsAtOnceAndTidies) {
   EXPECT_FALSE(fs::exists(gone));
 }
 
+/// After a signal: ends with 7 if the call throws Error(interrupted) with these words, else with 1.
+template <class Call>
+[[noreturn]] void interrupted_in(const Call& call, const std::string& words) {
+  install_interrupt_handler();
+  std::raise(SIGTERM);
+  try {
+    call();
+  } catch (const Error& e) {
+    _exit(e.code() == ExitCode::interrupted && std::string(e.what()).find(words) != std::string::npos ? 7
+                                                                                                      : 1);
+  }
+  _exit(2);
+}
+
 TEST(InterruptDeathTest, FirstSignalEndsACallThatDoesNotLook) {
   const auto during = [] {
     install_interrupt_handler();
@@ -95,15 +109,8 @@ TEST(InterruptDeathTest, FirstSignalEndsACallThatDoesNotLook) {
   };
   EXPECT_EXIT(during(), testing::ExitedWithCode(130), "interrupted; nothing was written");
   const auto before = [] {
-    install_interrupt_handler();
     { const StopAtOnce over; }
-    std::raise(SIGTERM);
-    try {
-      const StopAtOnce stop;
-    } catch (const Error& e) {
-      _exit(e.code() == ExitCode::interrupted ? 7 : 1);
-    }
-    _exit(2);
+    interrupted_in([] { const StopAtOnce stop; }, "nothing was written");
   };
   EXPECT_EXIT(before(), testing::ExitedWithCode(7), "");
 }
@@ -118,15 +125,8 @@ TEST(InterruptDeathTest, SaysWhatIsDone) {
   };
   EXPECT_EXIT(within(), testing::ExitedWithCode(130), "interrupted; one is done");
   const auto between = [] {
-    install_interrupt_handler();
     say_if_interrupted("interrupted; one is done");
-    std::raise(SIGINT);
-    try {
-      throw_if_interrupted();
-    } catch (const Error& e) {
-      _exit(e.what() == std::string("interrupted; one is done") ? 7 : 1);
-    }
-    _exit(2);
+    interrupted_in(throw_if_interrupted, "interrupted; one is done");
   };
   EXPECT_EXIT(between(), testing::ExitedWithCode(7), "");
 }
