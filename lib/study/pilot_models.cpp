@@ -54,17 +54,21 @@ double ReferenceCost::samples(double resolution) const {
 }
 
 PlanModel image_error_model(const PlanTask& task, double detail) {
-  // Even points under an edge: the variance of a mean of n goes as n^-1.5; where all is smooth, faster.
-  const std::vector<Monomial> direct = {
+  // Samples at edges share the rays of their pixel: what each adds falls with the square of its own few, its
+  // share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under an
+  // edge, whose mean varies as n^-1.5.
+  std::vector<Monomial> direct = {
       {"noise of shadow rays", {{K::light_rays, -1}}},
-      {"noise of penumbrae", {{K::light_rays, -1.5}}},
       {"noise of shadow rays, fast part", {{K::light_rays, -2}}},
-      {"noise of shadow rays at edges", {{K::edge_samples, -1}, {K::pixels, -0.5}}}};
+      {"noise of shadow rays at edges", {{K::light_rays, -2}, {K::edge_samples, 1}, {K::pixels, -0.5}}}};
   std::vector<Monomial> gloss;
-  if (task.gloss)
+  if (task.gloss) {
+    direct.push_back({"noise of lamps that gloss rays find", {{K::gloss_rays, -1.5}}});
     gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
              {"noise of edges in gloss", {{K::gloss_rays, -1.5}}},
-             {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}}};
+             {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}},
+             {"noise of records seen in gloss", {kBlended, {K::rays, -1}}}};
+  }
   if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
       // Finer pixels show more of a texture.
