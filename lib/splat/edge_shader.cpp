@@ -66,12 +66,28 @@ EdgeShader::Sorted EdgeShader::sort(const Samples& samples) const {
   return sorted;
 }
 
+SurfacePoint EdgeShader::middle_of(const Samples& samples, const Surface& surface) const {
+  const auto place = [&](std::uint32_t s) {
+    return samples.ray[s].origin + samples.hit[s].distance_m * samples.ray[s].direction;
+  };
+  Vec3 sum(0);
+  for (const std::uint32_t s : surface.sample) sum += place(s);
+  const Vec3 mean = sum / static_cast<float>(surface.sample.size());
+  const std::uint32_t nearest =
+      *std::min_element(surface.sample.begin(), surface.sample.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return glm::distance(place(a), mean) < glm::distance(place(b), mean);
+      });
+  SurfacePoint middle = rays_.surface(samples.ray[nearest], samples.hit[nearest]);
+  middle.position = mean;
+  return middle;
+}
+
 void EdgeShader::find_light(const Samples& samples, Sorted& sorted) const {
   EdgeLight::Scratch scratch;
   for (std::uint32_t k = 0; k < sorted.surface.size(); ++k) {
     Surface& surface = sorted.surface[k];
     const std::optional<std::size_t> about = nearest_alike(surface.seen, picture_.gbuffer, samples.pixel);
-    if (about) surface.splat = {picture_.splats.at(*about)};
+    surface.splat.found = shader_.from_records(middle_of(samples, surface));
     if (!diffuse_[static_cast<std::size_t>(surface.seen.material)]) continue;
     surface.direct = &surface.light;
     if (cached_direct_) continue;

@@ -16,14 +16,13 @@ namespace phos {
 /// What one sample of each pixel sees.
 struct SeenPicture {
   GBuffer gbuffer;
-  SplatBuffer splats;
   std::vector<SharedLight> shared;  ///< of pixels that share their shadow rays; else empty
 };
 
-/// Where pixels share their shadow rays: light is taken from a pixel about the sample that shows the same
-/// surface; else it is looked up: splatting pays for whole pictures only. Samples on one diffuse surface
-/// share theirs (EdgeLight); on a face that is the same all over they share everything. Where pixels share
-/// nothing, each sample is shaded by itself. Const, usable from any thread; holds references.
+/// Where pixels share their shadow rays: samples on one surface have the records' light of the middle
+/// between them, and share shadow rays if it is diffuse (EdgeLight); on a face that is the same all over they
+/// share everything. Where pixels share nothing, each sample is shaded by itself. Const, usable from any
+/// thread; holds references.
 class EdgeShader {
  public:
   /// `cached_direct`: the cache holds direct light too.
@@ -60,6 +59,7 @@ class EdgeShader {
   };
   Samples trace(std::size_t pixel) const;
   Sorted sort(const Samples& samples) const;
+  SurfacePoint middle_of(const Samples& samples, const Surface& surface) const;
   void find_light(const Samples& samples, Sorted& sorted) const;
   PixelSample sample(const Samples& samples, std::size_t s, const Surface* surface,
                      ShadingResult& result) const;

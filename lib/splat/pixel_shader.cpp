@@ -45,6 +45,13 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   return light;
 }
 
+Interpolated PixelShader::from_records(const SurfacePoint& point) const {
+  ShadingLog log;
+  const Interpolated found =
+      Bsdf(rays_.scene(), point).has_diffuse() ? shading_.cached(point, log) : Interpolated();
+  return log.misses.empty() ? found : Interpolated();
+}
+
 PixelSample PixelShader::background(const Ray& ray) const {
   PixelSample light;
   light.emission = background_luminance(rays_.scene(), ray.direction);

@@ -46,6 +46,8 @@ class PixelShader {
   /// `shared`: direct light of a diffuse surface that is known already; null: rays find it.
   PixelSample shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                     const Splat& splat, const SharedLight* shared, ShadingResult& result) const;
+  /// What the records give a point; weight 0: too little, the samples about it are to look for themselves.
+  Interpolated from_records(const SurfacePoint& point) const;
   /// Where no surface is seen.
   PixelSample background(const Ray& ray) const;
 

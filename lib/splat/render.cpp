@@ -206,9 +206,9 @@ class Painter {
     for (int s = 0; s < samples_; ++s) {
       pass_.gbuffer = see(s);
       if (s == 0 && options_.edge_samples > 0) find_edges(pass_.gbuffer);
-      pass_.splats = light_from_cache(pass_.gbuffer);
+      const SplatBuffer splats = light_from_cache(pass_.gbuffer);
       pass_.shared = shared_light(s, pass_.gbuffer);
-      shade(s, pass_.gbuffer, pass_.splats, gloss_from_cache(s, pass_.gbuffer), pass_.shared);
+      shade(s, pass_.gbuffer, splats, gloss_from_cache(s, pass_.gbuffer), pass_.shared);
     }
     if (!edges_.empty()) shade_edges();
     finish();

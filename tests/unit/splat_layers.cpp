@@ -141,6 +141,39 @@ TEST(Render, EdgeSamplesSmoothEdges) {
   EXPECT_NEAR(error(1, 15, truth) / sixteen, 1, 0.15) << "as many, the centre among them";
 }
 
+/// Light of the records that doubles within a pixel of a crease, in proportion to the place: samples at edges
+/// bring its mean, whichever places of pixels were seen before.
+TEST(Render, EdgeSamplesHaveTheLightOfTheirOwnPlace) {
+  Scene scene;
+  begin_instance(scene, "floor", add_lambert(scene, "floor", 0.5f));
+  add_quad(scene, {-2, 0, 0}, {0, 0, 2}, {4, 0, 0});
+  begin_instance(scene, "wall", add_lambert(scene, "wall", 0.8f));
+  add_quad(scene, {-2, 0, 0}, {4, 0, 0}, {0, 2, 0});
+  const Camera camera = look_at({0, 1.9f, 1.9f}, {0, 0.03f, 0}, {0, 1, 0}, 2 * std::atan(0.1f));
+  scene.camera.push_back(camera);
+  finalize(scene);
+  const RayScene rays(scene);
+  IrradianceCache cache = empty_cache(Quantity::indirect, 1);
+  for (const Vec3& up : {Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    IrradianceRecord r;
+    r.normal = up, r.irradiance = Rgb(1), r.radius_m = 10;
+    for (Vec3& g : r.translation_gradient) g = 10.f * (Vec3(0, 1, 1) - up);
+    cache.records.push_back(r);
+  }
+  RenderOptions options = picture_of(cache, camera, 8);  // a pixel is 7 cm
+  options.direct = DirectBy::interleaved;
+  const auto light = [&](std::int64_t samples, std::int64_t at_edges) {
+    options.pixel_samples = samples, options.edge_samples = at_edges;
+    return render_scene(rays, cache, options).image.channels().at("indirect.G");
+  };
+  const std::vector<float> truth = light(1024, 0);
+  for (const auto& [samples, at_edges] : {std::pair{1, 255}, {2, 254}, {4, 252}, {16, 240}}) {
+    const std::vector<float> found = light(samples, at_edges);
+    for (std::size_t i = 24; i < 40; ++i)  // the crease goes through these two rows
+      EXPECT_NEAR(found[i] / truth[i], 1, 0.02) << i << ": " << samples << " + " << at_edges;
+  }
+}
+
 TEST(Render, EdgeSamplesCannotHaveShadowMaps) {
   const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
   RenderOptions options;
