@@ -9,7 +9,6 @@
 #include "splat/layers.h"
 #include "splat/pixel_shader.h"
 #include "splat/same_surface.h"
-#include "splat/splatter.h"
 
 namespace phos {
 

@@ -143,6 +143,19 @@ TEST(StudyPlan, TakesEnoughRaysWhereTheyAreCheap) {
   EXPECT_GT(make_plan(picture(), cheap, {0.02, {}}).chosen.knobs[at(K::light_rays)], 16);
 }
 
+/// Samples at edges share the shadow rays of their pixel: more of them than those light makes noise, and is
+/// not taken, though it costs nothing.
+TEST(StudyPlan, LeavesSamplesThatWouldAddToTheError) {
+  for (const bool shared : {false, true}) {
+    Pilot pilot = synthetic_pilot();
+    if (shared)
+      *pilot.image_error->find("direct light and gloss, noise") =
+          known({{"shadow rays at edges", {{K::light_rays, -2}, {K::edge_samples, 1}}}}, {0.02});
+    const Knobs k = make_plan(picture(), pilot, {0.2, {}}).chosen.knobs;
+    EXPECT_EQ(k[at(K::edge_samples)], shared ? k[at(K::pixel_samples)] : 16);
+  }
+}
+
 TEST(StudyPlan, KeepsTheTimeWithTheLeastError) {
   const Pilot pilot = synthetic_pilot();
   double before = 1;
