@@ -135,13 +135,16 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   Rows image, lux;
   for (std::size_t c = 0; c < caches.size(); ++c) {
     runs.make_caches(caches[c]);
-    const bool last = c + 1 == caches.size();  // its own errors are the least, and the picture's show best
     if (task.image) {
       const Knobs fine = runs.sized(with(caches[c], kFine));
-      if (!last) add_rows(image, fine, runs.pictures(fine, false), false, true);
-      for (const Samples& s : pictures) {
-        const Knobs k = runs.sized(with(caches[c], s));
-        if (last) add_rows(image, k, runs.pictures(k, true), true, k == fine);
+      // The last have the least errors of their own: the picture's show best with them.
+      if (c + 1 < caches.size()) {
+        add_rows(image, fine, runs.pictures(fine, false), false, true);
+      } else {
+        for (const Samples& s : pictures) {
+          const Knobs k = runs.sized(with(caches[c], s));
+          add_rows(image, k, runs.pictures(k, true), true, k == fine);
+        }
       }
     }
     if (!task.lux) continue;

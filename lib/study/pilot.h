@@ -63,11 +63,11 @@ struct PilotOptions {
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
 };
 
-/// Runs the pipeline twice each at four settings of photons and records and six of the picture's samples (a
-/// seventh with gloss), at a size of at most kPilotPixels and for at most kPilotSensors sensors; counts
-/// records, and times two pictures (drawn small too, to see what finer pixels show), at the full size; and
-/// fits models to what comes out. Throws Error(bad_input) where nothing that is looked at is lit, or a
-/// program fails.
+/// Runs the pipeline twice each at four settings of photons and records and, with the last of them, six of
+/// the picture's samples (a seventh with gloss), at a size of at most kPilotPixels and for at most
+/// kPilotSensors sensors; counts records, and times two pictures (drawn small too, to see what finer pixels
+/// show), at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that is
+/// looked at is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
 /// Photons and records of those runs: each term of indirect light follows another way through them.
 std::vector<Knobs> pilot_caches();
