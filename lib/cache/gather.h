@@ -30,7 +30,7 @@ struct GatherSource {
   const GlossCache* gloss = nullptr;
   // The noise of that light (SourceNoise).
   double photon_lm = 0;     ///< luminance that one photon of it carries, lm; 0: it is taken as exact
-  double zone_photons = 0;  ///< that its zones hold
+  double zone_photons = 0;  ///< that its zones hold; with photon_lm: how wide they are
   double common = 0;        ///< relative variance of all of it together
   double usual_lx = 0;      ///< luminance of `indirect`, mean over surfaces; 0: unknown
 
@@ -51,7 +51,9 @@ struct GatherSource {
 /// diffuse place ends a path by what the source knows, gloss too where radiance records tell of it, and
 /// mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place: caustics
 /// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
-/// their caustics are in the source alone.
+/// their caustics are in the source alone. A diffuse place nearer than half the radius of the source's zones
+/// there is not read but followed by one more ray, cosine-weighted (Jensen 1996, of corners),
+/// eight times at most: zones tell little of what lies within them.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -70,10 +72,11 @@ class HitLight {
     };
     std::vector<OtherLight> other_light;
     bool tell_noise = false;  ///< of unstructured rays it is not known
-    /// Of the last ray: light read from the source, f E, the part f^2 E of its noise, and E (luminance).
+    /// Of the last ray: light read from the source, f E, the part f^2 E of its noise; and where last, E
+    /// (luminance), how far from the place before and at what cosine.
     struct Read {
       Rgb radiance{0}, noise{0};
-      float lux = 0;
+      float lux = 0, distance_m = 0, cosine = 0;
     } read;
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0

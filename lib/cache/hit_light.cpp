@@ -6,6 +6,7 @@
 #include "cache/lamp_sampler.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "core/sampling.h"
 #include "scene/bsdf.h"
 #include "scene/texture.h"
 
@@ -21,6 +22,13 @@ constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
+/// A place nearer than this part of the radius of the zone that tells of its light is not read but followed.
+/// Narrow mouldings beside the record share such zones with what is lit otherwise: of 29 places about those
+/// of Sponza, a million photons, irradiance was 8 % off where all is read, 1.3 % by 1/2, 1.2 % by 1 and 2,
+/// 1.2 % being the noise.
+constexpr double kNear = 0.5;
+/// So often at most, from one such place to the next.
+constexpr std::uint32_t kMostFollowed = 8;
 /// One hit in so many is lit from other places too, to tell their noise.
 constexpr std::uint32_t kOfWhichOneTells = 4;
 
@@ -77,15 +85,14 @@ class ReadNoise {
         common_(source.common) {}
 
   /// What was read along one ray.
-  void add(const HitLight::Worker::Read& read, float distance_m, float cos_hit, float projected_sr,
-           float cosine) {
-    const auto lux = static_cast<double>(read.lux), d = static_cast<double>(distance_m);
+  void add(const HitLight::Worker::Read& read, float projected_sr, float cosine) {
+    const auto lux = static_cast<double>(read.lux), d = static_cast<double>(read.distance_m);
     const auto projected = static_cast<double>(projected_sr), c = static_cast<double>(cosine);
     const double spread = c * (d * d * lux + half_zone_);
     if (!(lux > 0) || !(spread > 0)) return;  // of a source without noise
     irradiance_ += projected * DVec3(read.radiance);
     const DVec3 white =
-        photon_lm_ * lux * static_cast<double>(cos_hit) * projected / spread * DVec3(read.noise);
+        photon_lm_ * lux * static_cast<double>(read.cosine) * projected / spread * DVec3(read.noise);
     variance_ += c * c * white, white_ += white;
   }
   SourceNoise all() const { return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common_}; }
@@ -135,14 +142,13 @@ struct HitLight::Impl {
   bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
-  /// Light f E that has been read from the source.
-  static void note(const Rgb& f, const Rgb& lux, Worker& worker) {
-    worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
-    worker.read.lux = luminance(lux);
-  }
-  Rgb from_diffuse(const SurfacePoint& point, const LampSequence& lamp_points, const RayName& ray,
-                   Worker& worker) const;
-  Rgb from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const;
+  bool is_near(const SurfacePoint& point, const Rgb& lux) const;
+  Rgb indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
+               std::uint32_t followed, Worker& worker) const;
+  Rgb from_diffuse(const SurfacePoint& point, const Vec3& wo, const LampSequence& lamp_points,
+                   const RayName& ray, Worker& worker) const;
+  Rgb from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const RayName& ray, std::uint32_t followed,
+               Worker& worker) const;
 
   struct Step;
   std::optional<Rgb> recorded(const SurfacePoint& point, const Vec3& wo, std::int64_t bounces_left,
@@ -172,6 +178,40 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   return source.fallback->make(site, *worker.fallback).record.irradiance;
 }
 
+/// Is a place that a ray found, of indirect light `lux`, too near for what is read there?
+bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
+  // A zone of n photons of photon_lm each has the area n photon_lm / E.
+  const double zone_lm = kNear * kNear * source.zone_photons * source.photon_lm;
+  const auto distance_m = static_cast<double>(point.distance_m);
+  return kPi * distance_m * distance_m * static_cast<double>(luminance(lux)) < zone_lm;
+}
+
+/// Indirect light that a diffuse lobe f sends on to wo: as it is read, or, near by, by one more ray.
+Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
+                             std::uint32_t followed, Worker& worker) const {
+  const std::uint64_t item = ray.key();
+  const Rgb lux = cached_lx(point, item, worker);
+  if (followed == kMostFollowed || !is_near(point, lux)) {
+    worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
+    worker.read.lux = luminance(lux);
+    worker.read.distance_m = point.distance_m;
+    worker.read.cosine = std::fabs(glm::dot(point.geometric_normal, wo));
+    return f * lux;
+  }
+  RandomStream random(seed, Stage::near_light, item);
+  Rgb throughput = kPi * f;
+  if (followed > 0) {
+    const float survival = std::min(kMostSurvival, max_component(glm::abs(throughput)));
+    if (!(random.uniform() < survival)) return Rgb(0);
+    throughput /= survival;
+  }
+  const Vec3 direction = make_frame(point.normal).to_world(sample_cosine_hemisphere(random.uniform2()));
+  if (!(glm::dot(direction, point.geometric_normal) > 0)) return Rgb(0);
+  SurfacePoint next;
+  if (!trace(rays, {point.leave(direction), direction}, next)) return Rgb(0);
+  return from_any(next, -direction, throughput, {item, followed, 0}, followed + 1, worker);
+}
+
 /// Of a material that is diffuse alone.
 Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
   const Surface& own = surface[point.material];
@@ -181,11 +221,10 @@ Rgb HitLight::Impl::reflectance(const SurfacePoint& point) const {
 }
 
 /// Light straight from a lamp that something may hide is left in worker.sights instead.
-Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const LampSequence& lamp_points,
+Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const Vec3& wo, const LampSequence& lamp_points,
                                  const RayName& ray, Worker& worker) const {
   const Rgb f = reflectance(point) * (1 / kPi);
   if (!positive(f)) return Rgb(0);
-  Rgb sum(0);
   const bool cached = reads_cache(bounces);
   const std::uint32_t samples = cached && source.holds_direct ? 0 : lamps.samples();
   const std::size_t first = worker.sight_count;
@@ -205,12 +244,7 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const LampSequence& 
     }
     worker.other_light.push_back(other);
   }
-  if (cached) {
-    const Rgb lux = cached_lx(point, ray.key(), worker);
-    note(f, lux, worker);
-    sum += f * lux;
-  }
-  return sum;
+  return cached ? indirect(point, wo, f, ray, 0, worker) : Rgb(0);
 }
 
 /// The next ray of a walk over gloss, mirrors and glass.
@@ -294,10 +328,11 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
 
 /// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
 /// Every light is counted once: unbiased but for the cache.
-Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Worker& worker) const {
+Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const RayName& ray,
+                             std::uint32_t followed, Worker& worker) const {
   const std::uint64_t item = ray.key();
   RandomStream random(seed, Stage::specular, item);
-  Rgb sum(0), throughput(1);
+  Rgb sum(0);
   std::int64_t left = bounces;
   for (std::uint32_t reflection = 0;; ++reflection) {
     random.start_bounce(reflection);
@@ -309,11 +344,7 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, const RayName& ray, Wo
     if (bsdf.has_diffuse()) {
       const Rgb f = throughput * bsdf.diffuse_reflectance() / kPi;
       const bool cached = reads_cache(left);
-      if (cached) {
-        const Rgb lux = cached_lx(point, item + reflection, worker);
-        note(f, lux, worker);
-        sum += f * lux;
-      }
+      if (cached) sum += indirect(point, wo, f, {item, followed, reflection}, followed, worker);
       if (!(cached && source.holds_direct)) {
         ArrivingLight light;
         lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
@@ -393,11 +424,10 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
     worker.read = {};
     h.radiance[i] = impl_->surface[point.material].diffuse
-                        ? impl_->from_diffuse(point, lamp_points, ray, worker)
-                        : impl_->from_any(point, -h.direction[i], ray, worker);
+                        ? impl_->from_diffuse(point, -h.direction[i], lamp_points, ray, worker)
+                        : impl_->from_any(point, -h.direction[i], Rgb(1), ray, 0, worker);
     if (impl_->source.photon_lm > 0)
-      noise.add(worker.read, hits[i].distance_m, std::fabs(glm::dot(point.geometric_normal, h.direction[i])),
-                h.projected_sr[i], glm::dot(h.direction[i], h.frame.z));
+      noise.add(worker.read, h.projected_sr[i], glm::dot(h.direction[i], h.frame.z));
   }
   h.source = noise.all();
   for (LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {

@@ -22,6 +22,7 @@ enum class Stage : std::uint32_t {
   reference = 8,
   pilot = 9,
   edge_light = 10,
+  near_light = 11,
   test = 1000,
 };
 

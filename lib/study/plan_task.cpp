@@ -27,9 +27,12 @@ Words gathered(const Knobs& k) {
       "--estimate", "gather", "--accuracy", knob_word(k, Knob::accuracy), "--rays", knob_word(k, Knob::rays)};
 }
 
-/// Of the scene's diagonal: smallest radius of records of a picture. Half the usual one: on Sponza, 400
-/// pixels wide, the same time gives 4.6 instead of 5.3 % of indirect light; a quarter gave nothing more.
-constexpr float kLeastRadius = 1 / 200.f;
+/// Of the scene's diagonal: smallest radius of records of a picture. A quarter of the usual one: on Sponza,
+/// 400 pixels wide, the mean square error that more rays do not lessen is 2.1e-4 of the mean's square by 8.9
+/// s of records of accuracy 0.4, 1.4e-4 by 10.1 s of 0.28 and by 13.1 s of 0.14; with twice that
+/// radius 4.5e-4 by 7.7 s, 2.7e-4 by 8.6 s and 1.9e-4 by 12.1 s; with next to none 1.2e-4 by 9.9 s, 1.0e-4 by
+/// 11 s and 1.3e-4 by 13.5 s.
+constexpr float kLeastRadius = 1 / 400.f;
 
 }  // namespace
 

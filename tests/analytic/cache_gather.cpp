@@ -48,6 +48,29 @@ TEST(Furnace, OneBounceAndDirect) {
   expect_unbiased(g.trial(check.position, check.normal, options, {}, truth), truth, s.name);
 }
 
+/// Zones of the source that are wider than the room: rays are followed to nine places, each lit by the lamps
+/// (M = 1) and reflecting rho of that, and what the source says there, three times the truth, is seen through
+/// the nine: sum of rho^k, k = 1 to 9, + 3 rho^10 / (1 - rho). Zones without photons: it is read at once.
+TEST(Furnace, PlacesWithinAZoneOfTheSourceAreFollowed) {
+  for (const float albedo : {0.5f, 0.9f}) {
+    const test::AnalyticScene s = test::furnace(albedo);
+    test::Gathered g(s.scene);
+    const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, -1, 256);
+    const double rho = static_cast<double>(albedo), after = rho / (1 - rho);
+    const RecordTree indirect = test::uniform_tree(Vec3(0), {2, 1, 1.5f}, static_cast<float>(3 * after));
+    GatherSource source;
+    source.indirect = &indirect;
+    const test::Check& check = s.checks[0];
+    const test::Trial read =
+        g.trial(check.position, check.normal, options, source, rho + 3 * rho * after, 400);
+    EXPECT_NEAR(read.mean, rho + 3 * rho * after, 3.5 * read.stderr_of_mean) << s.name;
+    source.photon_lm = 1, source.zone_photons = 1e6;
+    double truth = 3 * std::pow(rho, 9) * after;
+    for (int k = 1; k <= 9; ++k) truth += std::pow(rho, k);
+    expect_unbiased(g.trial(check.position, check.normal, options, source, truth, 400), truth, s.name);
+  }
+}
+
 /// All bounces, of which the exact cache knows all but the last: rho (1 + rho / (1 - rho)) = rho / (1 - rho).
 /// One that holds direct light says 1 / (1 - rho), and leaves no noise at all.
 TEST(Furnace, AllBouncesFromAnExactCache) {
