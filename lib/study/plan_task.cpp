@@ -27,12 +27,12 @@ Words gathered(const Knobs& k) {
       "--estimate", "gather", "--accuracy", knob_word(k, Knob::accuracy), "--rays", knob_word(k, Knob::rays)};
 }
 
-/// Of the scene's diagonal: smallest radius of records of a picture. A quarter of the usual one: on Sponza,
-/// 400 pixels wide, the mean square error that more rays do not lessen is 2.1e-4 of the mean's square by 8.9
-/// s of records of accuracy 0.4, 1.4e-4 by 10.1 s of 0.28 and by 13.1 s of 0.14; with twice that
-/// radius 4.5e-4 by 7.7 s, 2.7e-4 by 8.6 s and 1.9e-4 by 12.1 s; with next to none 1.2e-4 by 9.9 s, 1.0e-4 by
-/// 11 s and 1.3e-4 by 13.5 s.
-constexpr float kLeastRadius = 1 / 400.f;
+/// Of accuracy times the scene's diagonal: smallest radius of records of a picture, so that what they leave
+/// out falls with their noise. On Sponza, 400 pixels wide, 1/200 of the diagonal leaves 4.5e-4, 2.7e-4
+/// and 1.9e-4 of the mean's square, in mean square, by 7.7, 8.6 and 12.1 s of records of accuracy 0.4, 0.28
+/// and 0.14; half of that radius 2.1e-4, 1.4e-4 and 1.4e-4 by 8.9, 10.1 and 13.1 s; the noise of their 128
+/// rays is 14e-4, 7e-4 and 4e-4.
+constexpr double kLeastRadius = 1 / 80.;
 
 }  // namespace
 
@@ -62,7 +62,8 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   if (task.cached_direct)
     add(words, {"--direct", "cached", "--footprint", "adaptive"});
   else if (task.diagonal_m > 0)
-    add(words, {"--min-radius", shortest(kLeastRadius * task.diagonal_m)});
+    add(words, {"--min-radius",
+                shortest(static_cast<float>(kLeastRadius * knobs[at(Knob::accuracy)]) * task.diagonal_m)});
   if (task.pixels_of_final < 1)
     add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
   return {"phos-irradiance", words, out};

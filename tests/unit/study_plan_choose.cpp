@@ -294,8 +294,12 @@ TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   k[at(K::pixel_samples)] = 4, k[at(K::edge_samples)] = 4;
   EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
             std::string::npos);
-  const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
-  EXPECT_NE(records.find("--min-radius 0.125 "), std::string::npos) << records;
+  for (const auto& [accuracy, least] :
+       {std::pair{0.4, "--min-radius 0.125 "}, {0.2, "--min-radius 0.0625 "}}) {
+    k[at(K::accuracy)] = accuracy;
+    const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
+    EXPECT_NE(records.find(least), std::string::npos) << records;
+  }
   task.cached_direct = true;  // whose zones are adaptive
   EXPECT_EQ(shell_line(view_records_command(task, k, "s.glb", "p", "c")).find("--min-radius"),
             std::string::npos);
