@@ -53,7 +53,9 @@ struct GatherSource {
 /// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
 /// their caustics are in the source alone. A diffuse place nearer than half the radius of the source's zones
 /// there is not read but followed by one more ray, cosine-weighted (Jensen 1996, of corners),
-/// eight times at most: zones tell little of what lies within them.
+/// eight times at most: zones tell little of what lies within them. Not so where light would be lost: of a
+/// source that holds light straight from the lamps, and with lamps without area where there are mirrors or
+/// glass.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

@@ -115,6 +115,7 @@ struct HitLight::Impl {
   std::uint64_t seed;
   std::int64_t bounces;
   LampSampler lamps;
+  bool follow_near;  // what is read near by is followed instead
   /// What is known of a material before any point of it.
   struct Surface {
     bool diffuse = false;   // it has no other lobe
@@ -134,6 +135,13 @@ struct HitLight::Impl {
         lamps(r, l) {
     for (const Material& m : scene.material)
       surface.push_back({m.diffuse_alone(), !m.base_colour.used(), m.kd});
+    // Light of lamps that no ray finds, by way of mirrors, is in the source alone; so is light straight from
+    // lamps, where it holds that.
+    bool mirrors = false;
+    for (std::uint32_t m = 0; m < scene.material.size(); ++m) mirrors |= Bsdf(scene, m).has_specular();
+    const bool unseen = std::any_of(scene.light.begin(), scene.light.end(),
+                                    [](const Light& light) { return !light.extended(); });
+    follow_near = !source.holds_direct && !(mirrors && unseen);
   }
 
   bool reads_cache(std::int64_t bounces_left) const {
@@ -178,12 +186,12 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   return source.fallback->make(site, *worker.fallback).record.irradiance;
 }
 
-/// Is a place that a ray found, of indirect light `lux`, too near for what is read there?
+/// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for what is read there?
 bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
   // A zone of n photons of photon_lm each has the area n photon_lm / E.
   const double zone_lm = kNear * kNear * source.zone_photons * source.photon_lm;
   const auto distance_m = static_cast<double>(point.distance_m);
-  return kPi * distance_m * distance_m * static_cast<double>(luminance(lux)) < zone_lm;
+  return follow_near && kPi * distance_m * distance_m * static_cast<double>(luminance(lux)) < zone_lm;
 }
 
 /// Indirect light that a diffuse lobe f sends on to wo: as it is read, or, near by, by one more ray.

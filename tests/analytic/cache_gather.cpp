@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "support/gathered.h"
+#include "support/one_material.h"
 #include "support/records.h"
 
 namespace phos {
@@ -68,7 +69,30 @@ TEST(Furnace, PlacesWithinAZoneOfTheSourceAreFollowed) {
     double truth = 3 * std::pow(rho, 9) * after;
     for (int k = 1; k <= 9; ++k) truth += std::pow(rho, k);
     expect_unbiased(g.trial(check.position, check.normal, options, source, truth, 400), truth, s.name);
+    source.holds_direct = true;  // which would be lost
+    const test::Trial all = g.trial(check.position, check.normal, options, source, 3 * rho * after, 4);
+    EXPECT_NEAR(all.mean, 3 * rho * after, 2e-6 * all.mean) << s.name;
   }
+}
+
+/// Where a mirror could send on light of a lamp that no ray finds, places are read, however wide zones are.
+TEST(Gather, LightOfPointsByWayOfMirrorsIsNotLost) {
+  Scene scene;
+  test::begin_instance(scene, "room", test::add_lambert(scene, "grey", 0.5f));
+  test::add_room(scene, Vec3(0), {2, 1, 1.5f});
+  test::add_point_light(scene, {1.2f, 0.8f, 0.5f}, 10);
+  finalize(scene);
+  const RecordTree indirect = test::uniform_tree(Vec3(0), {2, 1, 1.5f}, 7);
+  const auto found = [&](const Scene& room, double zone_photons) {
+    test::Gathered g(room);
+    GatherSource source;
+    source.indirect = &indirect, source.photon_lm = 1, source.zone_photons = zone_photons;
+    const RecordOptions options = test::gather_options(room, Quantity::indirect, -1, 256);
+    return g.records({1, 0, 0.7f}, {0, 1, 0}, options, source, 1)[0].irradiance;
+  };
+  EXPECT_NE(found(scene, 0), found(scene, 1e6));
+  scene.material.push_back(test::make_material(Model::mirror, Rgb(0), Rgb(1)));
+  EXPECT_EQ(found(scene, 0), found(scene, 1e6));
 }
 
 /// All bounces, of which the exact cache knows all but the last: rho (1 + rho / (1 - rho)) = rho / (1 - rho).
