@@ -114,7 +114,8 @@ void declare_gather_options(Options& options, RecordOptions& r) {
       "gather-from", r.gather_from, kSources,
       "indirect light where rays land: a coarse cache made from the photons first, or the "
       "photons there (ten times the work); a cache among the inputs is read instead; where rays land nearer "
-      "than half a zone's radius, another ray is followed from there");
+      "than half a zone's radius, another ray is followed from there, unless lamps without area meet mirrors "
+      "or glass");
   options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
   options.integer("source-photons", r.source_photons, "N",
                   "photons that a zone of the coarse cache should hold at least", {16, 1e6});
