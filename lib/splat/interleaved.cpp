@@ -21,12 +21,16 @@ constexpr std::size_t kChunk = 1024;
 // pixel holds each part of the set once.
 constexpr float kShare[kReach + 1] = {1, 1, 0.5f};
 /// Rays of a pixel to a lamp, all passes counted, from which on those of the pixels next to it do, without
-/// the others about it, and from which on its own alone do: the more, the less is blurred. Of a lamp without
-/// a closed form, whose noise is everywhere, so many times as many.
-constexpr int kNextDo = 16, kOwnDo = 512, kNoisy = 8;
+/// the others about it, and from which on its own alone do: the more, the less is blurred.
+struct Enough {
+  int next, own;
+};
+constexpr Enough kEnough = {16, 64};
+/// Of a lamp without a closed form, whose noise is everywhere.
+constexpr Enough kNoisyEnough = {128, 4096};
 /// One in so many, and at least one, shows where a shadow's edge may be.
 constexpr int kPerTest = 16;
-/// Of one pass, that alone tell a share of a lamp.
+/// Of one pass, that alone tell the variance of their mean.
 constexpr int kTelling = 16;
 /// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
 constexpr float kDoubt = 2;
@@ -123,8 +127,10 @@ class Interleaved {
 
  private:
   std::size_t reach(const LampForm& form) const {
-    const std::int64_t rays = std::int64_t{share_.rays} * share_.passes / (form.closed() ? 1 : kNoisy);
-    return rays >= kOwnDo && share_.rays >= kTelling ? kOwn : rays >= kNextDo ? kNext : kAll;
+    const std::int64_t rays = std::int64_t{share_.rays} * share_.passes;
+    const Enough enough = form.closed() ? kEnough : kNoisyEnough;
+    if (rays >= enough.own && (form.closed() || share_.rays >= kTelling)) return kOwn;
+    return rays >= enough.next ? kNext : kAll;
   }
 
   static std::uint8_t state(const Sight& s) {
@@ -227,6 +233,10 @@ class Interleaved {
     }
     const std::array<Finding, kReaches> found = found_about(i);
     std::size_t reach = this->reach(form);
+    if (reach == kOwn) {
+      add_own_share(form, i, found);
+      return;
+    }
     while (reach < kAll && !(found[reach].sent > 0)) ++reach;
     if (!(found[reach].seen > 0)) return;
     const float share = found[reach].share();
@@ -237,6 +247,17 @@ class Interleaved {
     }
     shared_[i].add_share(form.luminance() * unoccluded(form, i), found[reach].share(),
                          found[reach].variance_of(share));
+  }
+
+  /// By the pixel's own rays. A few of them, of one pass, see the lamp's parts in proportions that are not
+  /// right, so that seen / sent would be biased: what they saw is divided by what there is to see, with the
+  /// share about the pixel as control variate, so that there is no noise where all see it or none does.
+  void add_own_share(const LampForm& form, std::size_t i, const std::array<Finding, kReaches>& found) {
+    const float whole = unoccluded(form, i);
+    if (!(found[kAll].sent > 0) || !(whole > 0)) return;
+    const float about = found[kAll].share();
+    const float share = about + (found[kOwn].seen - about * found[kOwn].sent) / (found[kOwn].rays * whole);
+    shared_[i].add_share(form.luminance() * whole, share, about * (1 - about) / found[kOwn].rays);
   }
 
   /// The light of a lamp without one, at all pixels.

@@ -59,7 +59,7 @@ Layers::Layers(int width, int height, const LayerSet& wanted, int most_samples, 
     if (wanted.has(layer)) (makes.emplace_back([&sums, n] { sums.resize(n); }), ...);
   };
   make(Layer::beauty, beauty_);
-  make(Layer::direct, direct_);
+  make(wanted.has(Layer::direct) ? Layer::direct : Layer::beauty, direct_);  // see image()
   make(Layer::indirect, indirect_);
   make(Layer::glossy, glossy_);
   make(Layer::specular, specular_);
@@ -122,8 +122,13 @@ Image Layers::image(std::span<const std::uint16_t> samples) const {
     if (sums.empty() || (!even_if_black && black(sums))) return;
     put(name, [&](std::size_t i) { return sums[i] / static_cast<float>(samples[i]); });
   };
-  put_mean("", beauty_, true);
-  put_mean("direct", direct_, true);
+  // Estimates of a lamp in half shadow that are right in the mean may come out below no light.
+  const auto lacks = [&](std::size_t i) { return glm::min(direct_[i], Rgb(0)); };
+  const auto put_lit = [&](const char* name, const std::vector<Rgb>& sums) {
+    put(name, [&](std::size_t i) { return (sums[i] - lacks(i)) / static_cast<float>(samples[i]); });
+  };
+  if (!beauty_.empty()) put_lit("", beauty_);
+  if (wanted_.has(Layer::direct)) put_lit("direct", direct_);
   put_mean("indirect", indirect_, true);
   put_mean("emission", emission_, true);
   put_mean("albedo", albedo_, true);
@@ -136,7 +141,7 @@ Image Layers::image(std::span<const std::uint16_t> samples) const {
     parallel_for(pixels, kChunk, [&](std::size_t i) { channel[i] = value(i); });
   };
   put_channel("illuminance.Y", !illuminance_.empty(),
-              [&](std::size_t i) { return illuminance_[i] / static_cast<float>(samples[i]); });
+              [&](std::size_t i) { return std::max(illuminance_[i], 0.f) / static_cast<float>(samples[i]); });
   put_channel("weight.Y", !weight_.empty(),
               [&](std::size_t i) { return weight_[i] / static_cast<float>(samples[i]); });
   put_channel("Z", !depth_.empty(), [&](std::size_t i) { return depth_[i]; });
