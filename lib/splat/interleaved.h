@@ -24,10 +24,10 @@ struct RayShare {
 /// pixels, which is the price; over 2 from 16 rays a pixel on, all passes counted, and not at all from 64 on
 /// (without a closed form: 128, and 4096 of which 16 are of each pass), so that the error goes to zero with
 /// more rays, but for what the rays that look for shadows miss: of a lamp seen almost whole, or almost not,
-/// up to 1.5 % of it, and nothing where passes are of one ray. That of one pass may lie a little below 0. The
-/// variance of a mean is that of independent rays times the share of it that pixels 4 apart, whose rays go to
-/// one part of the lamp, show to be left. Lamps without an area: one ray, not shared. One entry per pixel;
-/// zero where nothing is visible. Same bytes for any number of threads.
+/// up to 1.5 % of it, and nothing where passes are of one ray. The light of one pass may lie a little below
+/// 0. The variance of a mean is that of independent rays times the share of it that pixels 4 apart, whose
+/// rays go to one part of the lamp, show to be left. Lamps without an area: one ray, not shared. One entry
+/// per pixel; zero where nothing is visible. Same bytes for any number of threads.
 std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaires& lights,
                                            const GBuffer& gbuffer, const PixelRays& pixel_rays,
                                            const Vec2& subpixel, const RayShare& share, std::uint64_t seed);

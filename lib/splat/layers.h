@@ -66,7 +66,7 @@ class Layers {
   void add(std::size_t pixel, const PixelSample& sample, int times = 1);
   /// What does not average: seen through the pixel's first sample.
   void set_surface(std::size_t pixel, const Vec3& position, const Vec3& normal, float depth_m);
-  /// Divided by samples[pixel]; direct light and illuminance are 0 at least.
+  /// Divided by samples[pixel]; direct light (in beauty, too) and illuminance are 0 at least.
   Image image(std::span<const std::uint16_t> samples) const;
 
  private:

@@ -57,6 +57,31 @@ TEST(Render, LayersOneByOne) {
   EXPECT_TRUE(render_scene(rays, cache, options).image.has_layer("glossy")) << "asked for, although black";
 }
 
+/// An estimate of direct light may lie below 0; a picture does not, and is the sum of its layers all the
+/// same.
+TEST(Layers, AreNotBelowNoLight) {
+  for (const auto& names : {std::vector<std::string>{"all"}, std::vector<std::string>{"beauty"}}) {
+    Layers layers(2, 1, LayerSet(names), 2, 2);
+    PixelSample dark, bright;
+    dark.direct = Rgb(-3, 1, -1), dark.indirect = Rgb(2), dark.illuminance_lx = -3;
+    bright.direct = Rgb(1), bright.illuminance_lx = 1;
+    layers.add(0, dark), layers.add(0, bright);
+    layers.add(1, bright, 2);
+    const Image image = layers.image(std::vector<std::uint16_t>{2, 2});
+    const auto at = [&](const char* channel, std::size_t i) { return image.channels().at(channel)[i]; };
+    EXPECT_EQ(at("R", 0), 1) << "indirect light alone";
+    EXPECT_EQ(at("G", 0), 2) << "and direct light";
+    EXPECT_EQ(at("B", 0), 1);
+    EXPECT_EQ(at("R", 1), 1);
+    if (names[0] != "all") continue;
+    EXPECT_EQ(at("direct.R", 0), 0);
+    EXPECT_EQ(at("direct.G", 0), 1);
+    EXPECT_EQ(at("direct.B", 0), 0);
+    EXPECT_EQ(at("illuminance.Y", 0), 0);
+    EXPECT_EQ(at("illuminance.Y", 1), 1);
+  }
+}
+
 TEST(Edges, WhereSurfacesMeet) {
   const AnalyticScene s = furnace(0.5f);
   const RayScene rays(s.scene);
