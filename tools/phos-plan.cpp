@@ -2,8 +2,10 @@
 #include <cstdio>
 
 #include "cache/gloss_report.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "file/atomic_file.h"
+#include "file/folder.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "scene/picture.h"
@@ -94,13 +96,19 @@ int main(int argc, char** argv) {
     run.folder = plan.output, run.seed = tool.seed(), run.common = piloted.common;
     run.reference_seconds = plan.reference_s, run.rounds = static_cast<int>(plan.rounds);
     run.say = [&](const std::string& line) { tool.say(line); };
+    const auto write = [&](const Json& j, const std::string& s) {
+      print(run.folder + "/plan.json", j.dump(2) + "\n");
+      print(run.folder + "/plan.sh", s);
+    };
+    make_folder(run.folder);
+    write(json(chosen), script(chosen, ""));
+    say_if_interrupted(text("interrupted; the plan as first predicted is in ", run.folder, "/plan.sh"));
     const PlanReport report = run_plan(way, pilot, goal, chosen, run);
     Plan last = chosen;  // whose pictures are in the folder
     last.chosen = report.rounds.back().predicted;
     Json with_run = json(last);
     with_run["run"] = to_json(report);
-    print(run.folder + "/plan.json", with_run.dump(2) + "\n");
-    print(run.folder + "/plan.sh", script(last, report.verdict));
+    write(with_run, script(last, report.verdict));
     if (report.met) return tool.say(report.verdict);
     tool.warn(report.verdict);
     tool.set_exit(ExitCode::check_failed);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "file/folder.h"
 
 namespace phos {
 
@@ -93,6 +94,7 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   if (p.json && p.script) throw Error(ExitCode::usage, "--json", "and --sh exclude each other; give one");
   if (p.run && p.output.empty())
     throw Error(ExitCode::usage, "--run", "needs a folder for its files: -o folder");
+  if (p.run) check_folder(p.output);
   if (p.run && (p.json || p.script))
     throw Error(ExitCode::usage, "--run",
                 "writes plan.sh and plan.json into its folder; leave out --sh and --json");

@@ -13,7 +13,7 @@
 namespace phos {
 
 struct PlanRunOptions {
-  std::string folder;  ///< where the files go
+  std::string folder;  ///< that is there, where the files go
   std::uint64_t seed = 0;
   std::vector<std::string> common;  ///< words for every program
   double reference_seconds =

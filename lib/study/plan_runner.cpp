@@ -33,9 +33,6 @@ PlanRunner::PlanRunner(const PlanTask& task, const PlanRunOptions& options)
 
 /// Seconds that they took; `samples` of the picture and of sensors are set.
 double PlanRunner::make_references(const Pilot& pilot, double error, double seconds) {
-  std::error_code failed;
-  std::filesystem::create_directories(options_.folder, failed);
-  if (failed) throw Error(ExitCode::bad_input, options_.folder, "cannot be made: " + failed.message());
   double took = 0;
   for (const bool lux : {false, true}) {
     if (!(lux ? task_.lux : task_.image)) continue;

@@ -1,9 +1,8 @@
 #include "study/study.h"
 
-#include <filesystem>
-
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "file/folder.h"
 #include "study/html.h"
 #include "study/plan.h"
 #include "study/results.h"
@@ -18,14 +17,6 @@ void write(const std::string& path, const std::string& bytes) {
   AtomicFile file(path);
   file.write(bytes);
   file.commit();
-}
-
-void make_folder(const std::string& path) {
-  std::error_code failed;
-  std::filesystem::create_directories(path, failed);
-  if (failed || !std::filesystem::is_directory(path))
-    throw Error(ExitCode::bad_input, path,
-                text("cannot be a folder", failed ? ": " + failed.message() : "", "; name another with -o"));
 }
 
 CommandRunner runner_of(const StudyFile& study) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/progress.h"
 
 namespace phos {
@@ -122,13 +123,19 @@ Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJourn
     if (said.insert(without_digits(line)).second) warn(line);
   };
   Progress progress("study", left.size(), "commands");
+  std::size_t done = 0;
   for (const std::size_t i : left) {
+    say_if_interrupted(text("interrupted; ", done, " of ", left.size(),
+                            " commands are done, the same command goes on from there"));
     const StageRun& stage = work.stages[i];
     std::string failure;
     for (const std::size_t input : stage.inputs)
       if (failures.contains(input)) failure = failures.at(input);
     if (failure.empty()) failure = run_stage(stage, runner, journal, warn_once);
-    if (!failure.empty()) failures.emplace(i, failure);
+    if (failure.empty())
+      ++done;
+    else
+      failures.emplace(i, failure);
     if (discard) readers.discard_inputs(stage);
     progress.advance();
   }

@@ -2,8 +2,11 @@
 // judged.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "core/error.h"
 #include "file/json_parse.h"
@@ -42,6 +45,7 @@ TEST(PlanTool, RefusesBadCommandLines) {
     expect_refused("plan", {kBox, "--error", none}, 2, "--error");
   expect_refused("plan", {kBox, "--seconds", "-1"}, 2, "seconds");
   expect_refused("plan", {kBox, "--error", "5%", "--run"}, 2, "-o");
+  expect_refused("plan", {kBox, "--error", "5%", "--run", "-o", kBox}, 3, "is not a folder");
   expect_refused("plan", {kBox, "--error", "5%", "--sh", "--json"}, 2, "--sh");
   expect_refused("plan", {kBox, "--error", "5%", "--rounds", "2"}, 2, "--run");
   expect_refused("plan", {kBox, "--error", "5%", "--quantity", "lux"}, 2, "--sensors");
@@ -166,6 +170,23 @@ TEST(PlanTool, ARunIsMeasuredAndJudged) {
   const auto again = run_shell({"bash", out + "plan.sh", "again"}, folder);
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(slurp(folder + "/again/image.exr") == slurp(out + "image.exr"));
+}
+
+TEST(PlanTool, AnInterruptedRunLeavesThePlan) {
+  const std::string folder = scratch("plan-interrupted");
+  std::vector<std::string> words =
+      plan_of({"--error", "25%", "--run", "-o", folder + "/out", "--reference-seconds", "600"});
+  const Process process(words);
+  for (int i = 0; i < 6000 && !std::filesystem::exists(folder + "/out/plan.sh"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.signal(SIGINT);
+  const auto stopped = process.wait();
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  EXPECT_NE(stopped.err.find("the plan as first predicted is in " + folder + "/out/plan.sh"),
+            std::string::npos)
+      << stopped.err;
+  EXPECT_NE(slurp(folder + "/out/plan.sh").find("phos-photons"), std::string::npos);
+  EXPECT_NE(parse_json(slurp(folder + "/out/plan.json"), "plan.json").find("stages"), nullptr);
 }
 
 /// References that tell nothing of what is asked for: one round, and the reason.

@@ -195,7 +195,11 @@ TEST(StudyRuns, GoesOnWhereItWasInterrupted) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   process.signal(SIGINT);
-  EXPECT_EQ(process.wait().code, 130);
+  const auto stopped = process.wait();
+  EXPECT_EQ(stopped.code, 130);
+  EXPECT_NE(stopped.err.find(" of 22 commands are done, the same command goes on from there"),
+            std::string::npos)
+      << stopped.err;
   EXPECT_FALSE(fs::exists(cut + "/out/results.csv"));
   const std::string before = slurp(cut + "/out/journal.jsonl");
   const auto rest = study(cut);
