@@ -2,11 +2,9 @@
 #include <cstdio>
 
 #include "cache/gloss_report.h"
-#include "core/interrupt.h"
 #include "core/parallel.h"
-#include "file/atomic_file.h"
-#include "file/folder.h"
 #include "file/tool.h"
+#include "file/write_text.h"
 #include "scene/load.h"
 #include "scene/picture.h"
 #include "study/plan_direct.h"
@@ -14,19 +12,8 @@
 #include "study/plan_run.h"
 #include "study/plan_text.h"
 
-namespace {
-
-using namespace phos;
-
-void print(const std::string& path, const std::string& s) {
-  AtomicFile file(path.empty() ? "/dev/stdout" : path);
-  file.write(s);
-  file.commit();
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
+  using namespace phos;
   Tool tool(
       "phos-plan", "chooses the pipeline and its settings for an error or a time",
       text("Finds what the scene requires, makes a few small runs (the pilot) that tell noise from bias and "
@@ -86,29 +73,16 @@ int main(int argc, char** argv) {
         plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
     tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
-    const auto script = [&](const Plan& p, const std::string& measured) {
-      return plan_script(way, needs, pilot, goal, p, tool.seed(), measured);
-    };
-    const auto json = [&](const Plan& p) { return plan_json(way, needs, pilot, goal, p, tool.seed()); };
-    if (!plan.run) return print(plan.output, plan.json ? json(chosen).dump(2) + "\n" : script(chosen, ""));
+    if (!plan.run)
+      return write_text(plan.output.empty() ? "/dev/stdout" : plan.output,
+                        plan.json ? plan_json(way, needs, pilot, goal, chosen, tool.seed()).dump(2) + "\n"
+                                  : plan_script(way, needs, pilot, goal, chosen, tool.seed()));
 
     PlanRunOptions run;
     run.folder = plan.output, run.seed = tool.seed(), run.common = piloted.common;
     run.reference_seconds = plan.reference_s, run.rounds = static_cast<int>(plan.rounds);
     run.say = [&](const std::string& line) { tool.say(line); };
-    const auto write = [&](const Json& j, const std::string& s) {
-      print(run.folder + "/plan.json", j.dump(2) + "\n");
-      print(run.folder + "/plan.sh", s);
-    };
-    make_folder(run.folder);
-    write(json(chosen), script(chosen, ""));
-    say_if_interrupted(text("interrupted; the plan as first predicted is in ", run.folder, "/plan.sh"));
-    const PlanReport report = run_plan(way, pilot, goal, chosen, run);
-    Plan last = chosen;  // whose pictures are in the folder
-    last.chosen = report.rounds.back().predicted;
-    Json with_run = json(last);
-    with_run["run"] = to_json(report);
-    write(with_run, script(last, report.verdict));
+    const PlanReport report = run_plan(way, needs, pilot, goal, chosen, run);
     if (report.met) return tool.say(report.verdict);
     tool.warn(report.verdict);
     tool.set_exit(ExitCode::check_failed);

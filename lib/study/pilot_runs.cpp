@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "file/csv.h"
+#include "file/write_text.h"
 #include "study/plan.h"
 
 namespace phos {
@@ -23,12 +24,6 @@ std::vector<std::string> quiet(std::vector<std::string> words) {
 double number(const Json& stats, const char* key) {
   const Json* v = stats.find(key);
   return v && v->is_number() ? v->as_number() : 0;
-}
-
-void write(const std::string& path, const std::string& s) {
-  AtomicFile file(path);
-  file.write(s);
-  file.commit();
 }
 
 std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
@@ -53,8 +48,8 @@ void PilotRuns::set_out_sensors() {
   if (all.grid.empty()) all.grid = {"--points", task_.points};
   require(points_command(all, task_.scene, folder_.file("all.csv")));
   const std::string all_path = folder_.file("all.csv");
-  write(folder_.file("some.csv"),
-        thinned_rows(read_text(all_path), all_path, kSensorColumns, kPilotSensors, &sensors_));
+  write_text(folder_.file("some.csv"),
+             thinned_rows(read_text(all_path), all_path, kSensorColumns, kPilotSensors, &sensors_));
   if (sensors_ == 0)
     throw Error(ExitCode::bad_input, task_.points.empty() ? "--grid" : task_.points,
                 "there is no sensor; give other points, or a finer grid");

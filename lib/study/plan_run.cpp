@@ -4,7 +4,11 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/interrupt.h"
+#include "file/folder.h"
+#include "file/write_text.h"
 #include "study/plan_runner.h"
+#include "study/plan_text.h"
 
 namespace phos {
 namespace {
@@ -137,10 +141,21 @@ std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, dou
   return {};
 }
 
-PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
-                    const PlanRunOptions& options) {
-  PlanRunner runner(task, options);
+PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& first, const PlanGoal& goal,
+                    const Plan& plan, const PlanRunOptions& options) {
+  make_folder(options.folder);
+  say_if_interrupted(text("interrupted; the plan as first predicted is in ", options.folder, "/plan.sh"));
   PlanReport report;
+  const auto write_plan = [&](const Plan& p) {
+    Json json = plan_json(task, needs, first, goal, p, options.seed);
+    if (!report.rounds.empty()) json["run"] = to_json(report);
+    write_text(options.folder + "/plan.json", json.dump(2) + "\n");
+    write_text(options.folder + "/plan.sh",
+               plan_script(task, needs, first, goal, p, options.seed, report.verdict));
+  };
+  write_plan(plan);
+  PlanRunner runner(task, options);
+  Pilot pilot = first;  // and what is learnt
   const double aim = goal.error.value_or(plan.chosen.error());
   const double most_s = options.reference_seconds > 0
                             ? options.reference_seconds
@@ -183,6 +198,9 @@ PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, con
     }
   }
   report.verdict = verdict(goal, report, why);
+  Plan last = plan;  // whose pictures are in the folder
+  last.chosen = report.rounds.back().predicted;
+  write_plan(last);
   return report;
 }
 

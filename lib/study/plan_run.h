@@ -13,7 +13,7 @@
 namespace phos {
 
 struct PlanRunOptions {
-  std::string folder;  ///< that is there, where the files go
+  std::string folder;  ///< where the files go; made if it is missing
   std::uint64_t seed = 0;
   std::vector<std::string> common;  ///< words for every program
   double reference_seconds =
@@ -47,9 +47,10 @@ struct PlanReport {
 /// Makes two references (their time is stated apart), then runs the pipeline of `plan` in the folder. Where
 /// its error is more than was asked for, the parts of the pilot's model are scaled to what was measured, and
 /// the settings chosen anew, until the error is met, the seconds of the goal are spent, or nothing better can
-/// be had. The files of the last round stay.
-PlanReport run_plan(const PlanTask& task, Pilot pilot, const PlanGoal& goal, const Plan& plan,
-                    const PlanRunOptions& options);
+/// be had. The files of the last round stay. plan.sh and plan.json are there from the start, as predicted,
+/// and at the end as measured; interrupted, the first ones stay, and the tool says so.
+PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& pilot, const PlanGoal& goal,
+                    const Plan& plan, const PlanRunOptions& options);
 
 /// What a measurement says of the model of errors, of direct and of indirect light apart, both mean squares
 /// relative: every guess of the model, the best and each draw of its measurements, is made to say the same at

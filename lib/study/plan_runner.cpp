@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "file/write_text.h"
 
 namespace phos {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kClear = 0.7;  ///< of the error asked for: what references sho
 std::vector<std::string> words(std::vector<std::string> common) {
   common.insert(common.end(), {"--quiet", "--progress", "never"});
   return common;
-}
-
-void write(const std::string& path, const std::string& s) {
-  AtomicFile out(path);
-  out.write(s);
-  out.commit();
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ void PlanRunner::measure(PlanRound& round) const {
   }
   if (task_.lux) {
     const std::string some = file("measured-lux.csv");
-    write(some, thinned_rows(read_text(file(kPlanLux)), file(kPlanLux), kLuxColumns, kPilotSensors));
+    write_text(some, thinned_rows(read_text(file(kPlanLux)), file(kPlanLux), kLuxColumns, kPilotSensors));
     const LuxTable second = read_lux(reference(true, 1));
     round.lux = measure_lux(read_lux(some), read_lux(reference(true, 0)), &second);
     std::filesystem::remove(some);
@@ -101,7 +96,7 @@ double PlanRunner::set_out_sensors() const {
   if (all.grid.empty()) all.grid = {"--points", task_.points};
   const std::string path = file("reference-sensors.csv");
   const double took = runner_.require(points_command(all, task_.scene, path)).wall_s;
-  write(path, thinned_rows(read_text(path), path, kSensorColumns, kPilotSensors));
+  write_text(path, thinned_rows(read_text(path), path, kSensorColumns, kPilotSensors));
   return took;
 }
 double PlanRunner::make_pair(bool lux, double samples) {

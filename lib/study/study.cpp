@@ -1,8 +1,8 @@
 #include "study/study.h"
 
 #include "core/error.h"
-#include "file/atomic_file.h"
 #include "file/folder.h"
+#include "file/write_text.h"
 #include "study/html.h"
 #include "study/plan.h"
 #include "study/results.h"
@@ -12,12 +12,6 @@
 namespace phos {
 
 namespace {
-
-void write(const std::string& path, const std::string& bytes) {
-  AtomicFile file(path);
-  file.write(bytes);
-  file.commit();
-}
 
 CommandRunner runner_of(const StudyFile& study) {
   return CommandRunner({"--threads", std::to_string(study.threads), "--quiet", "--progress", "never"});
@@ -67,16 +61,16 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
     if (!p.failed.empty()) ++outcome.failed;
   for (const std::string& sentence : doubts(results)) warn(sentence);
 
-  write(options.folder + "/results.csv", results_csv(study, work, results));
-  write(options.folder + "/results.json", results_json(study, work, journal, results).dump(2) + "\n");
+  write_text(options.folder + "/results.csv", results_csv(study, work, results));
+  write_text(options.folder + "/results.json", results_json(study, work, journal, results).dump(2) + "\n");
   const std::vector<NamedPlot> plots = plots_of(study, work, results);
   for (const NamedPlot& plot : plots) {
     constexpr int kScale = 2;
-    write(text(options.folder, "/", plot.name, ".svg"), plot_svg(plot.plot));
+    write_text(text(options.folder, "/", plot.name, ".svg"), plot_svg(plot.plot));
     write_png(text(options.folder, "/", plot.name, ".png"), plot_picture(plot.plot, kScale));
   }
-  write(options.folder + "/index.html",
-        study_page({study, work, results, plots, static_cast<std::size_t>(options.pictures)}));
+  write_text(options.folder + "/index.html",
+             study_page({study, work, results, plots, static_cast<std::size_t>(options.pictures)}));
   for (const auto& line : {front_of(study, work, results, &PointResult::picture, "pictures"),
                            front_of(study, work, results, &PointResult::lux, "lux")})
     if (!line.empty()) say(line);

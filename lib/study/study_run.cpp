@@ -124,16 +124,19 @@ Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJourn
   };
   Progress progress("study", left.size(), "commands");
   std::size_t done = 0;
-  for (const std::size_t i : left) {
+  const auto tell_done = [&] {
     say_if_interrupted(text("interrupted; ", done, " of ", left.size(),
                             " commands are done, the same command goes on from there"));
+  };
+  tell_done();
+  for (const std::size_t i : left) {
     const StageRun& stage = work.stages[i];
     std::string failure;
     for (const std::size_t input : stage.inputs)
       if (failures.contains(input)) failure = failures.at(input);
     if (failure.empty()) failure = run_stage(stage, runner, journal, warn_once);
     if (failure.empty())
-      ++done;
+      ++done, tell_done();
     else
       failures.emplace(i, failure);
     if (discard) readers.discard_inputs(stage);

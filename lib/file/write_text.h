@@ -1,0 +1,11 @@
+// Small files that are written at once.
+#pragma once
+
+#include <string>
+
+namespace phos {
+
+/// The whole of it, or nothing: see AtomicFile, with its errors.
+void write_text(const std::string& path, const std::string& bytes);
+
+}  // namespace phos
