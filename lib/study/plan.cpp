@@ -36,8 +36,9 @@ std::vector<double> half_doubling(double first, double last) {
 
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
-  groups.push_back({{Knob::photons}, {half_doubling(20000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, half_doubling(64, 16384)}};
+  // From half of what the pilot's least cache has.
+  groups.push_back({{Knob::photons}, {half_doubling(10000, 1e8)}});
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, half_doubling(32, 16384)}};
   records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
