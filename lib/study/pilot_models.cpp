@@ -56,8 +56,8 @@ double ReferenceCost::samples(double resolution) const {
 PlanModel image_error_model(const PlanTask& task, double detail) {
   // Samples at edges share the rays of their pixel: what each adds falls with the square of its own few, its
   // share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under an
-  // edge, whose mean varies as n^-1.5. Half shadows narrower than a pixel of the pilot: of four scenes, 92 and
-  // 400 pixels wide, the noise at 400 is 0.35 to 0.78 of that at 92.
+  // edge, whose mean varies as n^-1.5. Half shadows narrower than a pixel of the pilot: of four scenes, 92
+  // and 400 pixels wide, the noise at 400 is 0.35 to 0.78 of that at 92.
   const std::pair<Knob, double> narrow{K::pixels, -0.1};
   std::vector<Monomial> direct = {
       {"noise of shadow rays", {narrow, {K::light_rays, -1}}},
