@@ -2,8 +2,9 @@
 // collection lies beside the project, and each estimator, over many seeds: the share of estimates within two
 // stated standard errors of the truth (95 % of normal ones), the true over the stated root mean square error,
 // and the mean error in stated ones. CSV.
-//   build/tests/cache_calibration_table [SEEDS [SCENE [small|full [FIRST]]]] > calibration.csv
-// small: with as few photons and records as the test has. Seeds from FIRST (1) on.
+//   build/tests/cache_calibration_table [SEEDS [SCENE [full|small|sensors [FIRST]]]] > calibration.csv
+// small: with as few photons and records as the test has; sensors: so, and sensors alone. Seeds from FIRST
+// (1) on.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
   using namespace phos;
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::string only = argc > 2 ? argv[2] : "";
-  const bool small = argc > 3 && std::string(argv[3]) == "small";
+  const std::string size = argc > 3 ? argv[3] : "full";
   const int first = argc > 4 ? std::atoi(argv[4]) : 1;
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
   std::vector<test::KnownLight> scenes;
@@ -23,10 +24,11 @@ int main(int argc, char** argv) {
   if (std::optional<test::KnownLight> sponza = test::sponza()) scenes.push_back(std::move(*sponza));
   for (test::KnownLight& known : scenes) {
     if (known.name.find(only) == std::string::npos) continue;
-    const test::CalibrationOptions options = !small ? test::CalibrationOptions()
-                                             : known.name == "Sponza"
-                                                 ? test::CalibrationOptions::small_of_real_scene()
-                                                 : test::CalibrationOptions::small();
+    test::CalibrationOptions options;
+    if (size != "full")
+      options = known.name == "Sponza" ? test::CalibrationOptions::small_of_real_scene()
+                                       : test::CalibrationOptions::small();
+    if (size == "sensors") options.photons = options.gathering = options.radiance = false;
     const test::CalibratedScene scene(std::move(known), options);
     test::CalibrationTable table;
     for (int seed = first; seed < first + seeds; ++seed)
