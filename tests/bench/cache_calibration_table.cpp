@@ -18,6 +18,11 @@ int main(int argc, char** argv) {
   const std::string only = argc > 2 ? argv[2] : "";
   const std::string size = argc > 3 ? argv[3] : "full";
   const int first = argc > 4 ? std::atoi(argv[4]) : 1;
+  if (size != "full" && size != "small" && size != "sensors") {
+    std::fprintf(stderr, "cache_calibration_table: \"%s\" is not one of: full, small, sensors\n",
+                 size.c_str());
+    return 2;
+  }
   std::printf("scene,estimator,estimates,exact_percent,share_percent,true_over_stated,bias_in_errors\n");
   std::vector<test::KnownLight> scenes;
   for (const test::AnalyticScene& s : test::all_point_scenes()) scenes.push_back(test::known_light(s));
