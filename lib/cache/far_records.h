@@ -17,8 +17,13 @@ class FarRecords {
   explicit FarRecords(const RecordTree& records) : records_(records) {}
   /// weight 0: nothing there either.
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// The irradiance of interpolate() alone, as RecordTree::irradiance().
+  Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
 
  private:
+  /// The tree of factor i.
+  const RecordTree& wide(std::size_t i) const;
+
   static constexpr std::array<double, 2> kFactors{2, 4};
   const RecordTree& records_;
   mutable std::array<std::once_flag, kFactors.size()> once_;

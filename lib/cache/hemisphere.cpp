@@ -10,8 +10,8 @@ constexpr float kSin10Degrees = 0.17364818f;
 
 /// Of n places on lamps, even in three dimensions: the variance of their mean is kEven n^-kBetter of that of
 /// random ones, and no less than kLeft. Measured in a furnace, by 16 to 2048 rays: on the mean over its
-/// places a sixth less, at the worst of them this.
-constexpr double kEven = 2.6, kBetter = 0.3, kLeft = 0.3;
+/// places a twentieth less, at the worst of them an eighth more.
+constexpr double kEven = 2.3, kBetter = 0.3, kLeft = 0.3;
 /// Those of rays next to each other are farther apart than random ones are: what differences between strata
 /// hold of their variance (1.0 to 1.4).
 constexpr double kInStrata = 1.2;

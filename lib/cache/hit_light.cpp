@@ -174,16 +174,16 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
     const Rgb cached = source.indirect->irradiance(point.position, point.smooth_normal, weight);
     if (weight > 0) return cached;
     if (source.far) {
-      const Interpolated beyond = source.far->interpolate(point.position, point.smooth_normal);
+      const Rgb beyond = source.far->irradiance(point.position, point.smooth_normal, weight);
       ++worker.beyond_reach;
-      if (beyond.weight > 0) return beyond.irradiance;
+      if (weight > 0) return beyond;
     }
     ++worker.without_record;
   }
   if (!source.fallback) return Rgb(0);
   if (!worker.fallback) worker.fallback = source.fallback->make_worker();
   const RecordSite site{point.position, point.smooth_normal, item};
-  return source.fallback->make(site, *worker.fallback).record.irradiance;
+  return source.fallback->irradiance_lx(site, *worker.fallback);
 }
 
 /// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for what is read there?

@@ -10,6 +10,7 @@
 namespace phos {
 namespace {
 
+constexpr const char* kWithoutPhotons = "records without photons";
 // A record reaches at least this part of the zone whose photons it has, as far as its surroundings let it:
 // nearer records would tell the same tale.
 constexpr float kReach = 0.75f;
@@ -69,26 +70,25 @@ RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const R
 RecordMaker::~RecordMaker() = default;
 
 /// The zone's estimate; a zone with a caustic in it is made smaller while it has photons to spare (C3).
-ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, const LeftOut& left_out,
-                                  Scratch& s) const {
+ZoneEstimate RecordMaker::by_hull(Zone& at, Scratch& s) const {
+  ZonePlace& place = at.place;
   const OnSurface probe = [&](const Vec2& offset) { return gatherer_.on_surface(place, offset); };
   const DensityOptions density{.probes = static_cast<int>(options_.probes),
                                .dark_photons = kDarkPhotons,
-                               .centre_lit = left_out.own != kNoPhoton};
+                               .centre_lit = at.left_out.own != kNoPhoton};
   const ZonePhotons& photons = s.gathered.zone;
   bool shrunk = false;
   for (;;) {
-    gatherer_.limit_slab(place, radius_m);
     place.parted = false;
-    gatherer_.gather(place, radius_m, left_out, s.gathered);
     ZoneEstimate zone =
-        zone_irradiance(photons.offset_m, photons.flux_lm, radius_m, probe, density, s.density);
+        zone_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, probe, density, s.density);
     if (place.parted) {
       gatherer_.drop_hidden(place, s.gathered);
-      zone = zone_irradiance(photons.offset_m, photons.flux_lm, radius_m, probe, density, s.density);
+      zone = zone_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, probe, density, s.density);
     }
     if (zone.clustered && photons.size() >= kLeastClustered) {
-      radius_m /= 2, shrunk = true;
+      at.radius_m /= 2, shrunk = true;
+      gather(at, s);
       continue;
     }
     const auto count = [&](bool happened, const char* event) {
@@ -100,7 +100,7 @@ ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, const LeftO
     count(zone.kind == ZoneKind::dark, "records in the dark");
     count(zone.degenerate, "records with degenerate hull");
     count(shrunk, "records with shrunk zone");
-    count(photons.size() == 0, "records without photons");
+    count(photons.size() == 0, kWithoutPhotons);
     count(zone.probed, "records probed");
     count(place.parted, "records beside a wall");
     count(std::isfinite(zone.edge_m), "records at a shadow edge");
@@ -108,14 +108,11 @@ ZoneEstimate RecordMaker::by_hull(ZonePlace& place, float& radius_m, const LeftO
   }
 }
 
-ZoneEstimate RecordMaker::by_kernel(ZonePlace& place, float radius_m, const LeftOut& left_out,
-                                    Scratch& s) const {
-  gatherer_.limit_slab(place, radius_m);
-  gatherer_.gather(place, radius_m, left_out, s.gathered);
+ZoneEstimate RecordMaker::by_kernel(const Zone& at, Scratch& s) const {
   const ZonePhotons& photons = s.gathered.zone;
   s.counters.count("records from a kernel");
-  if (photons.size() == 0) s.counters.count("records without photons");
-  return kernel_irradiance(photons.offset_m, photons.flux_lm, radius_m, options_.kernel, s.density);
+  if (photons.size() == 0) s.counters.count(kWithoutPhotons);
+  return kernel_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, options_.kernel, s.density);
 }
 
 /// Adds what counts of the photon that the record sits on; it covers photons within reach_m.
@@ -279,23 +276,46 @@ void RecordMaker::fill(const ZonePlace& place, const ZoneEstimate& zone, float z
   }
 }
 
-Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
-  auto& s = static_cast<Scratch&>(worker);
+RecordMaker::Zone RecordMaker::zone_about(const RecordSite& at, Scratch& s) const {
   const Vec3 p = at.position;
   const float diagonal = rays_.scene().bounds.diagonal_m();
-  ZonePlace place{p, make_frame(at.normal), kRounding * std::max({scale_of(p), 1e-3f * diagonal, 1e-30f})};
+  const ZonePlace place{p, make_frame(at.normal),
+                        kRounding * std::max({scale_of(p), 1e-3f * diagonal, 1e-30f})};
   float distance = surroundings_.distance_m(place, at.item, at.photon, s.near);
   if (!(distance < kInfinity)) distance = kInfinity;
-
-  IrradianceRecord record;
-  record.position = p, record.normal = at.normal;
-  record.distance_m = distance;
-  record.radius_m = std::min(distance, static_cast<float>(*options_.max_radius_m));
   const ZoneRadius chosen = surroundings_.zone_radius(place, s.near, distance);
-  const LeftOut left_out{at.photon, chosen.decided_by};
-  float narrow = chosen.radius_m;
-  ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(place, narrow, left_out, s)
-                                                            : by_hull(place, narrow, left_out, s);
+  Zone zone{place, chosen.radius_m, {at.photon, chosen.decided_by}, distance};
+  gather(zone, s);
+  return zone;
+}
+
+void RecordMaker::gather(Zone& zone, Scratch& s) const {
+  gatherer_.limit_slab(zone.place, zone.radius_m);
+  gatherer_.gather(zone.place, zone.radius_m, zone.left_out, s.gathered);
+}
+
+Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
+  auto& s = static_cast<Scratch&>(worker);
+  return make_of(at, zone_about(at, s), s);
+}
+
+Rgb RecordMaker::irradiance_lx(const RecordSite& at, Worker& worker) const {
+  auto& s = static_cast<Scratch&>(worker);
+  const Zone zone = zone_about(at, s);
+  if (s.gathered.zone.size() > 0 || at.photon != kNoPhoton) return make_of(at, zone, s).record.irradiance;
+  s.counters.count(kWithoutPhotons);
+  return Rgb(0);
+}
+
+/// The record at a site, of the photons that were gathered in its zone.
+Made RecordMaker::make_of(const RecordSite& at, Zone about, Scratch& s) const {
+  const ZonePlace& place = about.place;
+  IrradianceRecord record;
+  record.position = place.p, record.normal = at.normal;
+  record.distance_m = about.distance_m;
+  record.radius_m = std::min(about.distance_m, static_cast<float>(*options_.max_radius_m));
+  ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(about, s) : by_hull(about, s);
+  const float narrow = about.radius_m;
   s.others = s.gathered.zone.size() > 0;
   count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
   s.frame = place.frame, s.zone = zone, s.moved_m = Vec2(0);
@@ -304,7 +324,8 @@ Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
   if (s.gathered.zone.size() > 0) record.radius_m = std::min(record.radius_m, seen);
   fill(place, zone, narrow, s, record);
   const float least = std::min(record.radius_m, kReach * seen);
-  const float next_m = height_over_next_m(rays_, p, place.frame.z, 4 * place.rounding_m, record.radius_m);
+  const float next_m =
+      height_over_next_m(rays_, place.p, place.frame.z, 4 * place.rounding_m, record.radius_m);
   record.radius_m = std::max(least, std::min(record.radius_m, next_m * (1 / kNextSurface)));
   record.radius_m = std::max(record.radius_m, std::numeric_limits<float>::min());
   return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};

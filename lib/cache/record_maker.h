@@ -47,6 +47,8 @@ class RecordMaker : public Estimator {
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
+  /// Without a photon in its zone nothing else of the record is looked for.
+  Rgb irradiance_lx(const RecordSite& site, Worker& worker) const override;
 
   /// Does this photon count?
   bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, options_.paths); }
@@ -57,8 +59,18 @@ class RecordMaker : public Estimator {
   }
 
  private:
-  ZoneEstimate by_hull(ZonePlace& place, float& radius_m, const LeftOut& left_out, Scratch& scratch) const;
-  ZoneEstimate by_kernel(ZonePlace& place, float radius_m, const LeftOut& left_out, Scratch& scratch) const;
+  /// Where a record's photons are.
+  struct Zone {
+    ZonePlace place;
+    float radius_m;
+    LeftOut left_out;
+    float distance_m;  ///< of the surroundings
+  };
+  Zone zone_about(const RecordSite& at, Scratch& scratch) const;
+  void gather(Zone& zone, Scratch& scratch) const;
+  Made make_of(const RecordSite& at, Zone zone, Scratch& scratch) const;
+  ZoneEstimate by_hull(Zone& zone, Scratch& scratch) const;
+  ZoneEstimate by_kernel(const Zone& zone, Scratch& scratch) const;
   void count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
                  ZoneEstimate& zone, Scratch& scratch) const;
   void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,

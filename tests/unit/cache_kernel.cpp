@@ -110,6 +110,32 @@ TEST(Kernel, TheKthPhotonDecidesTheDiscAndDoesNotCount) {
   }
 }
 
+/// What rays ask of places without a record is what a record would say there, dark or lit, and at a border.
+TEST(RecordMaker, LightAloneIsThatOfTheRecord) {
+  const test::AnalyticScene s = test::emitting_environment();
+  const Vec3 u(1, 0.25f, 0), v = glm::cross(glm::normalize(Vec3(-0.25f, 1, 0.5f)), glm::normalize(u));
+  const Vec3 n = glm::normalize(glm::cross(v, u));
+  for (const Estimate estimate : {Estimate::hull, Estimate::kernel}) {
+    RecordOptions options = test::all_light(s.scene);
+    options.estimate = estimate;
+    options.max_radius_m = 0.02;  // so that some zones have no photon
+    int lit_places = 0, dark = 0;
+    for (const std::int64_t paths : {300, 100000}) {
+      const test::Lit lit = test::light_up(s.scene, paths);
+      const RecordMaker maker(lit.photons, *lit.rays, options, 1);
+      const auto worker = maker.make_worker();
+      for (int i = 0; i < 50; ++i) {
+        const RecordSite at{0.01f * static_cast<float>(i) * u, n, static_cast<std::uint64_t>(i)};
+        const Rgb expected = maker.make(at, *worker).record.irradiance;
+        EXPECT_EQ(maker.irradiance_lx(at, *worker), expected);
+        expected.y > 0 ? ++lit_places : ++dark;
+      }
+    }
+    EXPECT_GT(lit_places, 10);
+    EXPECT_GT(dark, 10);
+  }
+}
+
 /// Records: right well inside of a surface, half at its border, and of the hull's zone and gradients.
 TEST(KernelRecord, InsideRightAtTheBorderHalf) {
   const test::AnalyticScene s = test::emitting_environment();

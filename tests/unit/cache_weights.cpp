@@ -64,6 +64,11 @@ TEST(RecordWeights, AloneIsItsOwn) {
   const FarRecords far(all);
   const Interpolated beyond = far.interpolate({0, 1.5f, 0}, kUp);
   EXPECT_FLOAT_EQ(beyond.irradiance.x, (10 + 0.25f * 50) / 1.25f);
+  float weight = 0;
+  EXPECT_EQ(far.irradiance({0, 1.5f, 0}, kUp, weight), beyond.irradiance);
+  EXPECT_EQ(weight, beyond.weight);
+  EXPECT_EQ(far.irradiance({0, 9, 0}, kUp, weight), Rgb(0));  // beyond four times their reach
+  EXPECT_EQ(weight, 0.f);
 }
 
 /// Radiance records of the same light: a constant, which comes out of any lobe by the same share.
