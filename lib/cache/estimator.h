@@ -58,7 +58,7 @@ class Estimator {
   /// The record at a site; `worker` is of this estimator. Depends on the site and the seed alone. Always
   /// finite. Throws Error(numerical) where a value exceeds the range of numbers.
   virtual Made make(const RecordSite& site, Worker& worker) const = 0;
-  /// The irradiance of that record alone, lx.
+  /// The irradiance of that record alone, lx: what it does not need is neither looked for nor counted.
   virtual Rgb irradiance_lx(const RecordSite& site, Worker& worker) const {
     return make(site, worker).record.irradiance;
   }

@@ -47,7 +47,7 @@ class RecordMaker : public Estimator {
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
-  /// Without a photon in its zone nothing else of the record is looked for.
+  /// Of a zone without a photon nothing else is looked for.
   Rgb irradiance_lx(const RecordSite& site, Worker& worker) const override;
 
   /// Does this photon count?
@@ -66,6 +66,7 @@ class RecordMaker : public Estimator {
     LeftOut left_out;
     float distance_m;  ///< of the surroundings
   };
+  /// Its photons are left in scratch.gathered, where what follows expects them.
   Zone zone_about(const RecordSite& at, Scratch& scratch) const;
   void gather(Zone& zone, Scratch& scratch) const;
   Made make_of(const RecordSite& at, Zone zone, Scratch& scratch) const;
