@@ -1,6 +1,7 @@
 // Irradiance by gathered rays against every scene whose light is known in closed form (derivations:
 // tests/support/scenes.h): no bias over many random numbers, and an honest standard error. What is stated may
-// exceed the true error: lamps are sampled by low-discrepancy points, whose gain it does not know.
+// exceed the true error, or fall short by a sixth: lamps are sampled by low-discrepancy points, whose gain it
+// knows in the mean over places only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@
 namespace phos {
 namespace {
 
-constexpr double kNotBelow = 0.5, kNotAbove = 1.1;  // of true / stated error
+/// Of true / stated error at one place. More than 1.2 of it would leave fewer than 90 % of values within two.
+constexpr double kNotBelow = 0.5, kNotAbove = 1.2;
 
 /// The mean is the truth to within 3.5 of its standard errors and the rounding of sums.
 void expect_unbiased(const test::Trial& t, double truth, const std::string& what) {
@@ -226,7 +228,7 @@ TEST(Mirror, ShowsTheLampOnceMore) {
       const test::Trial t = g.trial(p, {0, 1, 0}, options, {}, truth);
       expect_unbiased(t, truth, "mirror");
       EXPECT_GT(t.stated, 0.7);
-      EXPECT_LT(t.stated, kNotAbove);
+      EXPECT_LT(t.stated, 1.1);
     }
   }
 }

@@ -67,7 +67,7 @@ TEST(Power, OfTheLamps) {
       const test::Check& check = s.checks[0];
       const test::Trial t = g.trial(check.position, check.normal, options, {}, truth, 50);
       EXPECT_NEAR(t.mean / truth, 1, 4 * t.stderr_of_mean / truth);
-      EXPECT_LT(t.stated, 1.1);
+      EXPECT_LT(t.stated, 1.2);  // as of lamps of ordinary power, analytic/cache_gather.cpp
     }
   }
   for (const float candela : {1e-12f, 1e12f}) {
