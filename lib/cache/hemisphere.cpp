@@ -26,11 +26,12 @@ double brightness(const DVec3& v) { return glm::dot(v, DVec3(0.2126, 0.7152, 0.0
 
 int slices_for(int rings) { return static_cast<int>(std::lround(std::numbers::pi * rings)); }
 
+std::int64_t cells_of(int rings) { return std::int64_t{rings} * slices_for(rings); }
+
 int rings_for(std::int64_t rays) {
-  const auto cells = [](int rings) { return std::int64_t{rings} * slices_for(rings); };
   const double wanted = std::sqrt(static_cast<double>(std::max<std::int64_t>(rays, 1)) / std::numbers::pi);
   int rings = static_cast<int>(std::clamp(wanted, 1.0, 2e4)) + 1;
-  while (rings > 1 && cells(rings) > rays) --rings;
+  while (rings > 1 && cells_of(rings) > rays) --rings;
   return rings;
 }
 

@@ -79,7 +79,9 @@ struct Hemisphere {
 
 /// Slices to so many rings, round(pi rings): cells are about square (Ward and Heckbert 1992).
 int slices_for(int rings);
-/// Most rings (at least one) whose cells, rings x slices_for(rings), are no more than `rays`.
+/// Cells of so many rings, and so the rays of a stratified hemisphere: rings x slices_for(rings).
+std::int64_t cells_of(int rings);
+/// Most rings (at least one) with no more cells than `rays`.
 int rings_for(std::int64_t rays);
 
 /// E = sum of radiance x projected solid angle, lx; in double, in order.

@@ -107,7 +107,9 @@ void declare_photon_options(Options& options, RecordOptions& r) {
 }
 
 void declare_gather_options(Options& options, RecordOptions& r) {
-  options.integer("rays", r.rays, "N", "rays of a hemisphere, at most", {16, 1048576});
+  options.integer("rays", r.rays, "N",
+                  "rays of a hemisphere, at most: those of whole rings (27, 52, 80, 114, ...)",
+                  {16, 1048576});
   options.integer("gather-bounces", r.gather_bounces, "N",
                   "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
   options.choice<GatherFrom>(

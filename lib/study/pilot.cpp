@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "cache/hemisphere.h"
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "study/pilot_runs.h"
@@ -14,8 +15,8 @@ namespace {
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
 constexpr double kPhotons[] = {20000, 160000};
 constexpr double kAccuracy[] = {0.4, 0.2};
-constexpr double kRays[] = {64, 256, 128};
-constexpr double kCountRays = 32;  ///< of records that are made to be counted
+constexpr int kRings[] = {4, 9, 6};  ///< of records' rays: 52, 252, 114
+constexpr int kCountRings = 3;       ///< of records that are made to be counted
 struct Samples {
   double pixel, edge, light, gloss;
 };
@@ -34,9 +35,10 @@ constexpr double kMostSamples = 1 << 22;
 constexpr double kReferenceShare = 0.5;  ///< of the pilot's time, for references
 constexpr double kOwnDoubt = 0.1;        ///< relative, of any measured mean square: what the terms leave out
 
-Knobs knobs_of(double photons, double accuracy, double rays) {
+Knobs knobs_of(double photons, double accuracy, int rings) {
   Knobs k{};
-  k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = accuracy, k[at(Knob::rays)] = rays;
+  k[at(Knob::photons)] = photons, k[at(Knob::accuracy)] = accuracy;
+  k[at(Knob::rays)] = static_cast<double>(cells_of(rings));
   k[at(Knob::read)] = records_read(accuracy);
   for (const Knob knob :
        {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays, Knob::gloss_rays, Knob::sensor_rays})
@@ -112,8 +114,8 @@ void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const ch
 }  // namespace
 
 std::vector<Knobs> pilot_caches() {
-  return {knobs_of(kPhotons[0], kAccuracy[0], kRays[0]), knobs_of(kPhotons[0], kAccuracy[0], kRays[1]),
-          knobs_of(kPhotons[1], kAccuracy[0], kRays[1]), knobs_of(kPhotons[1], kAccuracy[1], kRays[2])};
+  return {knobs_of(kPhotons[0], kAccuracy[0], kRings[0]), knobs_of(kPhotons[0], kAccuracy[0], kRings[1]),
+          knobs_of(kPhotons[1], kAccuracy[0], kRings[1]), knobs_of(kPhotons[1], kAccuracy[1], kRings[2])};
 }
 
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
@@ -155,8 +157,8 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
       if (c == 0 || most) add_rows(lux, k, runs.lux_tables(k), true, most);
     }
   }
-  const std::vector<double> counts =
-      runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]}, kCountRays);
+  const std::vector<double> counts = runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]},
+                                                        static_cast<double>(cells_of(kCountRings)));
   double sampled_detail = 1;
   if (task.image) sampled_detail = runs.time_pictures(with(caches[0], kTimed[0]), with(caches[0], kTimed[1]));
   const double places = (task.image ? kPlacesOfAPixel * static_cast<double>(task.width * task.height) : 0) +

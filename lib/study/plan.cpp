@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cache/hemisphere.h"
 #include "core/error.h"
 
 namespace phos {
@@ -23,6 +24,18 @@ std::vector<double> doubling(double first, double last) {
   return out;
 }
 
+/// Rays of records that are all shot: a hemisphere has whole rings of them, and 48 asked for are the 27 of
+/// three rings.
+std::vector<double> rays_of_rings(int least, double most) {
+  constexpr double kStep = 1.25;
+  std::vector<double> out;
+  for (int rings = least;; ++rings) {
+    const auto rays = static_cast<double>(cells_of(rings));
+    if (rays > most) return out;
+    if (out.empty() || rays >= kStep * out.back()) out.push_back(rays);
+  }
+}
+
 /// And what lies halfway, where it is whole.
 std::vector<double> half_doubling(double first, double last) {
   std::vector<double> out;
@@ -38,7 +51,7 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
   // From half of what the pilot's least cache has.
   groups.push_back({{Knob::photons}, {half_doubling(10000, 1e8)}});
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, half_doubling(32, 16384)}};
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, rays_of_rings(3, 16384)}};
   records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);

@@ -1,8 +1,9 @@
 """Is what phos-plan chose the best there is? Settings around those of its last round, by phos-study:
-    tests/bench/plan_best.py [--whole] FOLDER SCENE PERCENT...
+    tests/bench/plan_best.py [--whole | --alone] FOLDER SCENE PERCENT...
 FOLDER is that of plan_table.sh, which ran the plans and made the references. All settings of photons and records are tried with the
 plan's picture, and all of the picture with the plan's records; mean squares of errors and seconds of the two add up, and of the
-settings that this promises to be faster the first few are run until one holds. --whole: every setting with every other (hours).
+settings that this promises to be faster the first few are run until one holds. --whole: every setting with every other (hours). --alone: each setting by itself (a third
+of the time), and what the sum of their gains promises.
 A line for each error asked for: how many settings were run; error and seconds of the plan's; those of the fastest that was seen to
 meet what was asked; and how many times its seconds the plan's settings took there, and all rounds of the plan when it ran. Programs
 from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
@@ -10,6 +11,7 @@ from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
 import csv
 import itertools
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -34,8 +36,15 @@ def number(word):
         return float(word)
 
 
+def whole_rings(rays):
+    """The number next to it of rays that fill the rings of a hemisphere, but the 16 that phos-irradiance asks for at least."""
+    return max(16, min((n * round(math.pi * n) for n in range(2, 200)), key=lambda cells: abs(cells - rays)))
+
+
 def near(key, value):
-    return sorted({float(f"{v:.4g}") if key == "accuracy" else max(1, round(v)) for v in (f * value for f in LEVELS[key])})
+    if key == "accuracy":
+        return sorted({float(f"{f * value:.4g}") for f in LEVELS[key]})
+    return sorted({whole_rings(f * value) if key == "rays" else max(1, round(f * value)) for f in LEVELS[key]})
 
 
 class Case:
@@ -90,35 +99,40 @@ def single(values):
     return values[0] if isinstance(values, list) else values
 
 
-def search(case, asked):
+def search(case, asked, alone):
     """All settings that were run, and the plan's own."""
     own = tuple(float(v) for v in case.own.values())
-    of_picture = [tool == "splat" for tool, key in case.own]
     levels = {which: near(which[1], v) for which, v in case.own.items()}
-    part = lambda picture: {w: v for (w, v), p in zip(levels.items(), of_picture) if p == picture}
-    records, pictures = case.study("_records", part(False)), case.study("_picture", part(True))
-    found = records | pictures | {own: records[own]}
-    error0, seconds0 = [sum(x) / 2 for x in zip(records[own], pictures[own])]
+    kinds = [which if alone else which[0] == "splat" for which in levels]
+    studies = []  # of each kind: what was found, with the rest as the plan has it
+    for kind in dict.fromkeys(kinds):
+        values = {which: v for (which, v), k in zip(levels.items(), kinds) if k == kind}
+        suffix = f"_{kind[1]}" if alone else "_picture" if kind else "_records"
+        studies.append(case.study(suffix, values))
+    found = {own: studies[0][own]}
+    for study in studies:
+        found |= {at: result for at, result in study.items() if at != own}
     promised = []
-    for a, b in itertools.product(records, pictures):
-        at = tuple(y if p else x for x, y, p in zip(a, b, of_picture))
-        square = records[a][0] ** 2 + pictures[b][0] ** 2 - error0**2
-        if square <= asked**2:
-            promised.append((records[a][1] + pictures[b][1] - seconds0, at))
-    for tries, (seconds, at) in enumerate(sorted(p for p in promised if p[1] not in found)[:MOST_TRIES]):
+    for combined in itertools.product(*studies):
+        at = tuple(combined[list(dict.fromkeys(kinds)).index(kind)][i] for i, kind in enumerate(kinds))
+        gains = [(s[c][0] ** 2 - s[own][0] ** 2, s[c][1] - s[own][1]) for s, c in zip(studies, combined)]
+        error2, seconds = found[own][0] ** 2 + sum(g[0] for g in gains), found[own][1] + sum(g[1] for g in gains)
+        if error2 <= asked**2 and at not in found:
+            promised.append((seconds, at))
+    for tries, (seconds, at) in enumerate(sorted(promised)[:MOST_TRIES]):
         if seconds > min((s for e, s in found.values() if e <= asked), default=float("inf")):
             break
         found |= case.study(f"_try{tries}", {which: [number(f"{v:g}")] if v != round(v) else [round(v)] for which, v in zip(case.own, at)})
     return found, own
 
 
-def judge(folder, scene, percent, whole):
+def judge(folder, scene, percent, mode):
     case, asked = Case(folder, scene, percent), float(percent) / 100
-    if whole:
+    if mode == "--whole":
         own = tuple(float(v) for v in case.own.values())
         found = case.study("", {which: near(which[1], v) for which, v in case.own.items()})
     else:
-        found, own = search(case, asked)
+        found, own = search(case, asked, mode == "--alone")
     chosen = found[own]
     at, best = min(((k, v) for k, v in found.items() if v[0] <= asked), key=lambda x: x[1][1], default=(own, chosen))
     rounds = [r["seconds"] for r in case.plan["run"]["rounds"]]
@@ -132,11 +146,10 @@ def judge(folder, scene, percent, whole):
 
 if __name__ == "__main__":
     arguments = sys.argv[1:]
-    whole = arguments[:1] == ["--whole"]
-    arguments = arguments[whole:]
+    mode = arguments.pop(0) if arguments[:1] in (["--whole"], ["--alone"]) else ""
     if len(arguments) < 3:
         sys.exit(__doc__)
     os.environ["PATH"] += os.pathsep + str(pathlib.Path(__file__).resolve().parents[2] / "build/release/bin")
     print(f"{'scene':28} asked     n             plan               best   last   all  the best's")
     for percent in arguments[2:]:
-        judge(pathlib.Path(arguments[0]).resolve(), arguments[1], percent, whole)
+        judge(pathlib.Path(arguments[0]).resolve(), arguments[1], percent, mode)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cache/hemisphere.h"
 #include "core/error.h"
 #include "study/plan_direct.h"
 #include "study/plan_run.h"
@@ -124,6 +125,17 @@ TEST(StudyPlan, MeetsTheErrorAtTheLeastCost) {
                   (1 + kNextToNothing) * q.seconds.value >= plan.chosen.seconds.value);
     }
   }
+}
+
+/// The rays of a plan's records, and of a pilot's, are those that are shot: whole rings of a hemisphere. Of
+/// 48 asked for 27 are, and a model would take their noise for that of 48.
+TEST(StudyPlan, NoRayOfARecordIsPromisedThatIsNotShot) {
+  const auto shot = [](const Knobs& k) {
+    return static_cast<double>(cells_of(rings_for(std::llround(k[at(K::rays)]))));
+  };
+  for (const PlanPoint& p : front_of(picture(), synthetic_pilot()))
+    EXPECT_EQ(p.knobs[at(K::rays)], shot(p.knobs));
+  for (const Knobs& k : pilot_caches()) EXPECT_EQ(k[at(K::rays)], shot(k));
 }
 
 /// A few rays more than the model asks for, where they cost next to nothing: small pilots do not see rare
