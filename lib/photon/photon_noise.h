@@ -1,6 +1,8 @@
 // What all photons of a map have to do with each other: how far their number alone tells their noise.
 #pragma once
 
+#include <algorithm>
+
 #include "photon/photon_map.h"
 
 namespace phos {
@@ -9,16 +11,16 @@ struct PhotonNoise {
   double photons = 0;    ///< that count
   double photon_lm = 0;  ///< luminance that one of them carries, weighted by itself: sum of squares / sum
   /// Photons of one path are not independent: sum over paths of N (N - 1), over the square of all photons.
-  /// Where paths land anywhere (a room, an atrium), a zone that holds the part f of all photons has pairs x f
-  /// x photons times the variance of independent ones more.
   double pairs = 0;
   /// Relative variance that all light over many places has in common: that of the number of photons that
   /// paths leave, for their own number is no chance. 1 / paths below pairs, and below 0 where each path
   /// leaves as many.
   double common = 0;
 
-  /// Factor on the variance of the light of a zone of n photons, at least 1.
-  double spread(double n) const { return 1 + pairs * n; }
+  /// Factor on the variance of the light of a zone of n photons, where paths land anywhere (a room, an
+  /// atrium): pairs of one path add pairs x n, and that as many paths leave the lamps each time takes away
+  /// n / paths. At least 1.
+  double spread(double n) const { return 1 + std::max(common, 0.0) * n; }
 };
 
 /// Of all photons, or of those that did not come straight from a lamp. In one pass over the map: the photons

@@ -37,8 +37,14 @@ TEST(PhotonNoise, CountsPairsOfAPath) {
   EXPECT_NEAR(all.common, -1.0 / (kPaths * kEach), 1e-12);
   EXPECT_EQ(indirect.photons, kPaths * (kEach - 1));
   EXPECT_NEAR(indirect.pairs, double(kEach - 2) / (kPaths * (kEach - 1)), 1e-12);
-  EXPECT_NEAR(all.spread(400), kEach, 1e-9);  // all of them: N times the variance
-  EXPECT_EQ(all.spread(0), 1);
+  EXPECT_EQ(all.spread(400), 1);  // each path leaves as many, each time
+}
+
+TEST(PhotonNoise, SpreadIsWhatPathsOfUnlikeLengthsAdd) {
+  PhotonNoise noise;
+  noise.pairs = 0.03, noise.common = 0.02;  // of 100 paths
+  EXPECT_EQ(noise.spread(0), 1);
+  EXPECT_DOUBLE_EQ(noise.spread(50), 2);
 }
 
 TEST(PhotonNoise, OfNoPhotonsThereIsNone) {
