@@ -10,7 +10,7 @@ constexpr float kSin10Degrees = 0.17364818f;
 
 /// Of n places on lamps, even in three dimensions: the variance of their mean is kEven n^-kBetter of that of
 /// random ones, and no less than kLeft. Measured in a furnace, ten places by 16 to 2048 rays: true errors are
-/// .95 of those so stated in the mean, .65 to 1.22 of them in 19 cases of 20, at the worst 1.56.
+/// .95 of those so stated in the mean, .65 to 1.23 of them in 19 cases of 20, at the worst 1.56.
 constexpr double kEven = 2.3, kBetter = 0.3, kLeft = 0.3;
 /// Those of rays next to each other are farther apart than random ones are: what differences between strata
 /// hold of their variance (1.0 to 1.4).

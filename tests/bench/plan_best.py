@@ -2,8 +2,8 @@
     tests/bench/plan_best.py [--whole | --alone] FOLDER SCENE PERCENT...
 FOLDER is that of plan_table.sh, which ran the plans and made the references. All settings of photons and records are tried with the
 plan's picture, and all of the picture with the plan's records; mean squares of errors and seconds of the two add up, and of the
-settings that this promises to be faster the first few are run until one holds. --whole: every setting with every other (hours). --alone: each setting by itself (a third
-of the time), and what the sum of their gains promises.
+settings that this promises to be faster the first few are run until one holds. --whole: every setting with every other (hours).
+--alone: each setting by itself (a third of the time), and then what their gains together promise.
 A line for each error asked for: how many settings were run; error and seconds of the plan's; those of the fastest that was seen to
 meet what was asked; and how many times its seconds the plan's settings took there, and all rounds of the plan when it ran. Programs
 from PATH or build/release/bin; studies stay in FOLDER and are not run again."""
@@ -104,8 +104,9 @@ def search(case, asked, alone):
     own = tuple(float(v) for v in case.own.values())
     levels = {which: near(which[1], v) for which, v in case.own.items()}
     kinds = [which if alone else which[0] == "splat" for which in levels]
+    order = list(dict.fromkeys(kinds))
     studies = []  # of each kind: what was found, with the rest as the plan has it
-    for kind in dict.fromkeys(kinds):
+    for kind in order:
         values = {which: v for (which, v), k in zip(levels.items(), kinds) if k == kind}
         suffix = f"_{kind[1]}" if alone else "_picture" if kind else "_records"
         studies.append(case.study(suffix, values))
@@ -114,7 +115,7 @@ def search(case, asked, alone):
         found |= {at: result for at, result in study.items() if at != own}
     promised = []
     for combined in itertools.product(*studies):
-        at = tuple(combined[list(dict.fromkeys(kinds)).index(kind)][i] for i, kind in enumerate(kinds))
+        at = tuple(combined[order.index(kind)][i] for i, kind in enumerate(kinds))
         gains = [(s[c][0] ** 2 - s[own][0] ** 2, s[c][1] - s[own][1]) for s, c in zip(studies, combined)]
         error2, seconds = found[own][0] ** 2 + sum(g[0] for g in gains), found[own][1] + sum(g[1] for g in gains)
         if error2 <= asked**2 and at not in found:
@@ -147,7 +148,7 @@ def judge(folder, scene, percent, mode):
 if __name__ == "__main__":
     arguments = sys.argv[1:]
     mode = arguments.pop(0) if arguments[:1] in (["--whole"], ["--alone"]) else ""
-    if len(arguments) < 3:
+    if len(arguments) < 3 or arguments[0].startswith("-"):
         sys.exit(__doc__)
     os.environ["PATH"] += os.pathsep + str(pathlib.Path(__file__).resolve().parents[2] / "build/release/bin")
     print(f"{'scene':28} asked     n             plan               best   last   all  the best's")

@@ -10,20 +10,25 @@
 namespace phos::test {
 namespace {
 
+constexpr int kSeeds = 200;
+
+PhotonMap traced(const RayScene& rays, std::uint64_t seed) {
+  PhotonOptions options;
+  options.paths = 400;
+  PhotonTotals totals;
+  Counters counters;
+  return PhotonMap::build(trace_photons(rays, options, seed, totals, counters), totals);
+}
+
 /// Of a closed room, where each path leaves a number of photons that only roulette decides: how far the flux
 /// of all of them varies.
 TEST(PhotonNoise, IsThatOfAllFluxTogether) {
-  constexpr int kSeeds = 200;
   for (const float albedo : {0.5f, 0.9f, 0.99f}) {
     const AnalyticScene s = furnace(albedo);
     const RayScene rays(s.scene);
-    PhotonOptions options;
-    options.paths = 400;
     double mean = 0, squares = 0, stated = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      PhotonTotals totals;
-      Counters counters;
-      const PhotonMap map = PhotonMap::build(trace_photons(rays, options, seed, totals, counters), totals);
+      const PhotonMap map = traced(rays, seed);
       double flux = 0;
       for (std::size_t i = 0; i < map.size(); ++i)
         if (map.path[i] != static_cast<std::uint8_t>(PhotonPath::direct))
@@ -35,6 +40,29 @@ TEST(PhotonNoise, IsThatOfAllFluxTogether) {
     }
     const double relative = std::sqrt(squares - mean * mean) / mean;
     EXPECT_NEAR(relative / std::sqrt(stated), 1, 3.5 / std::sqrt(2.0 * kSeeds)) << albedo;
+  }
+}
+
+/// Of half of that room: what a zone's own photons, their number and its common noise make of it.
+TEST(PhotonNoise, IsThatOfTheLightOfAZone) {
+  for (const float albedo : {0.9f, 0.99f}) {
+    const AnalyticScene s = furnace(albedo);
+    const RayScene rays(s.scene);
+    const float middle = s.scene.bounds.centre().x;
+    double mean = 0, squares = 0, stated = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const PhotonMap map = traced(rays, seed);
+      double flux = 0, own = 0, photons = 0;
+      for (std::size_t i = 0; i < map.size(); ++i) {
+        if (map.path[i] == static_cast<std::uint8_t>(PhotonPath::direct) || map.position[i].x > middle)
+          continue;
+        const auto one = static_cast<double>(map.flux[i].y);
+        flux += one, own += one * one, photons += 1;
+      }
+      mean += flux / kSeeds, squares += flux * flux / kSeeds;
+      stated += own * photon_noise(map, false).spread(photons) / kSeeds;
+    }
+    EXPECT_NEAR(std::sqrt((squares - mean * mean) / stated), 1, 3.5 / std::sqrt(2.0 * kSeeds)) << albedo;
   }
 }
 
