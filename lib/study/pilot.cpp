@@ -23,7 +23,7 @@ struct Samples {
 constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},   {1, 16, 16, 16},
                                 {4, 4, 32, 32}, {4, 64, 64, 256}, {32, 64, 32, 32}};
 /// Gloss finds lamps by rays of both kinds: few of both; and many of both, shared by many samples.
-constexpr Samples kInGloss[] = {{1, 1, 2, 2}, {32, 1, 256, 64}};
+constexpr Samples kInGloss[] = {{1, 1, 2, 2}, {32, 64, 256, 64}};
 constexpr Samples kFine = {32, 64, 32, 32};
 constexpr Samples kTimed[] = {{1, 16, 8, 4}, {4, 16, 8, 4}};  ///< at the full size
 /// For records, as far as they go: of 8,000 in Sponza at a = 0.5 and 21,000 at 0.25, a power foretells 72,000
