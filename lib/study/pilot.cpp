@@ -21,7 +21,7 @@ struct Samples {
   double pixel, edge, light, gloss;
 };
 constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},   {1, 16, 16, 16},
-                                {4, 4, 32, 32}, {4, 64, 64, 256}, {32, 64, 32, 32}};
+                                {4, 4, 32, 32}, {1, 64, 64, 256}, {32, 64, 32, 32}};
 /// Gloss finds lamps by rays of both kinds: few of both; and many of both, shared by many samples.
 constexpr Samples kInGloss[] = {{1, 1, 2, 2}, {32, 64, 256, 64}};
 constexpr Samples kFine = {32, 64, 32, 32};
@@ -119,6 +119,14 @@ std::vector<Knobs> pilot_caches() {
           knobs_of(kPhotons[1], kAccuracy[0], kRings[1]), knobs_of(kPhotons[1], kAccuracy[1], kRings[2])};
 }
 
+std::vector<Knobs> pilot_pictures(bool gloss) {
+  std::vector<Samples> samples(std::begin(kSamples), std::end(kSamples));
+  if (gloss) samples.insert(samples.end(), std::begin(kInGloss), std::end(kInGloss));
+  std::vector<Knobs> pictures;
+  for (const Samples& s : samples) pictures.push_back(with(pilot_caches().back(), s));
+  return pictures;
+}
+
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   PilotRuns runs(task, options);
@@ -133,8 +141,6 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   if (task.lux) pilot.sensors = runs.sensors();
 
   const std::vector<Knobs> caches = pilot_caches();
-  std::vector<Samples> pictures(std::begin(kSamples), std::end(kSamples));
-  if (task.gloss) pictures.insert(pictures.end(), std::begin(kInGloss), std::end(kInGloss));
   Rows image, lux;
   for (std::size_t c = 0; c < caches.size(); ++c) {
     runs.make_caches(caches[c]);
@@ -144,8 +150,8 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
       if (c + 1 < caches.size()) {
         add_rows(image, fine, runs.pictures(fine, false), false, true);
       } else {
-        for (const Samples& s : pictures) {
-          const Knobs k = runs.sized(with(caches[c], s));
+        for (const Knobs& picture : pilot_pictures(task.gloss)) {
+          const Knobs k = runs.sized(picture);
           add_rows(image, k, runs.pictures(k, true), true, k == fine);
         }
       }

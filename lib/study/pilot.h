@@ -64,13 +64,15 @@ struct PilotOptions {
 };
 
 /// Runs the pipeline twice each at four settings of photons and records and, with the last of them, six of
-/// the picture's samples (a seventh with gloss), at a size of at most kPilotPixels and for at most
+/// the picture's samples (eight with gloss), at a size of at most kPilotPixels and for at most
 /// kPilotSensors sensors; counts records, and times two pictures (drawn small too, to see what finer pixels
 /// show), at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that is
 /// looked at is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
 /// Photons and records of those runs: each term of indirect light follows another way through them.
 std::vector<Knobs> pilot_caches();
+/// The picture's samples of those runs, all with the last of those caches.
+std::vector<Knobs> pilot_pictures(bool gloss);
 inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
 

@@ -112,6 +112,51 @@ TEST(StudyPlanModel, APilotTellsTheTermsOfIndirectLightApart) {
   }
 }
 
+/// Where gloss curves, many rays shared by many samples find a lamp as unevenly as few do, where it is flat
+/// they do not. The pictures of a pilot tell which it is, in noise of a quarter.
+TEST(StudyPlanModel, APilotTellsLampsInFlatGlossFromThoseInCurvedGloss) {
+  PlanTask task;
+  task.gloss = true;
+  const PlanModel model = image_error_model(task, 0.5);
+  const std::vector<Monomial>& terms = model.find("direct light, noise")->terms();
+  const auto with_one = [&](const char* what, double coefficient) {
+    std::vector<double> truth(terms.size(), 0);
+    truth[0] = 0.01;  // shadow rays
+    const auto at =
+        std::find_if(terms.begin(), terms.end(), [&](const Monomial& m) { return m.what == what; });
+    truth.at(static_cast<std::size_t>(at - terms.begin())) = coefficient;
+    Posynomial known(terms);
+    known.set(truth);
+    return known;
+  };
+  const Posynomial flat = with_one("noise of lamps that gloss rays find", 0.08),
+                   curved = with_one("noise of lamps that gloss rays find, curved surfaces", 0.01);
+  Knobs fine = pilot_pictures(true).back();
+  fine[at(Knob::pixels)] = kPilotPixels;
+  fine[at(Knob::pixel_samples)] = 128, fine[at(Knob::light_rays)] = fine[at(Knob::gloss_rays)] = 512;
+  // Median over pilots of what is predicted there, over what is true.
+  const auto told = [&](const Posynomial& truth) {
+    std::vector<double> ratio;
+    for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+      RandomStream random(seed, Stage::test, 0);
+      std::vector<Observation> rows;
+      for (Knobs k : pilot_pictures(true)) {
+        k[at(Knob::pixels)] = kPilotPixels;
+        const double seen = truth.best(k) * std::exp(0.25 * normal(random));
+        rows.push_back({k, seen, 0.25 * seen});
+      }
+      Posynomial fitted(terms);
+      fitted.fit_noise(rows, seed);
+      ratio.push_back(fitted.best(fine) / truth.best(fine));
+    }
+    std::nth_element(ratio.begin(), ratio.begin() + 7, ratio.end());
+    return ratio[7];
+  };
+  EXPECT_GT(curved.best(fine), 5 * flat.best(fine));
+  EXPECT_NEAR(told(flat), 1, 0.5);
+  EXPECT_NEAR(told(curved), 1, 0.35);
+}
+
 TEST(StudyPlanModel, IntervalsHoldTheTruthNineTimesInTen) {
   const Knobs far = knobs(1e6, 0.3, 512);
   const auto truth = [](const Knobs& k) {
