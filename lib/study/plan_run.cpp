@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
 constexpr double kPatience = 4;    ///< times the usual seconds for references, where those cannot judge
+constexpr double kClear = 0.7;     ///< of the error asked for: what references should tell from none
+constexpr double kNear = 3;        ///< standard errors of a measured error, to what was asked for
 
 /// Makes a guess of these parts say `found`: see correct().
 void agree(std::span<Posynomial* const> parts, const Knobs& knobs, std::size_t guess, double found) {
@@ -95,6 +97,14 @@ double PlanRound::resolution() const {
 
 bool PlanRound::judged(double asked) const {
   return resolution() <= asked || error() > std::max(resolution(), asked);
+}
+
+double times_as_many(const MeasuredError& e, double asked) {
+  const double resolution = e.resolution.value_or(0), doubt = kNear * e.rmse_stderr.value_or(0);
+  double times = 1;
+  if (resolution > kClear * asked) times = std::pow(resolution / (0.5 * asked), 2);
+  if (std::fabs(e.relative_rmse - asked) < doubt) times = std::max(times, 4.0);
+  return times;
 }
 
 void correct(PlanModel& model, const Knobs& knobs, double whole2, double indirect2) {

@@ -52,6 +52,12 @@ struct PlanReport {
 PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& pilot, const PlanGoal& goal,
                     const Plan& plan, const PlanRunOptions& options);
 
+/// How many times as many samples the references should have, which their resolution falls with the root of:
+/// so that they tell half of the error asked for, where they do not nearly; four times where the measured one
+/// is within three standard errors of it, so that it is not their noise that calls a round met or missed; 1:
+/// they will do.
+double times_as_many(const MeasuredError& measured, double asked);
+
 /// What a measurement says of the model of errors, of direct and of indirect light apart, both mean squares
 /// relative: every guess of the model, the best and each draw of its measurements, is made to say the same at
 /// those settings, so that the next prediction doubts only what differs from them. Where less was found, all

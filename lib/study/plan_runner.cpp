@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint64_t kReferenceSeed = 201;
 constexpr double kLeastSamples = 4;
 constexpr double kPixelSamples = 64, kSensorPaths = 16384;  ///< of references, where time allows
-constexpr double kClear = 0.7;  ///< of the error asked for: what references should tell from none
 
 std::vector<std::string> words(std::vector<std::string> common) {
   common.insert(common.end(), {"--quiet", "--progress", "never"});
@@ -41,16 +40,15 @@ double PlanRunner::make_references(const Pilot& pilot, double error, double seco
   return took;
 }
 
-/// Better ones where those that are there do not tell `error` from none and time is left. Seconds that they
-/// took; 0: none.
+/// Better ones where more samples are wanted (times_as_many()) and time is left. Seconds that they took; 0:
+/// none.
 double PlanRunner::better_references(const PlanRound& round, double error, double seconds) {
   double took = 0;
   for (const bool lux : {false, true}) {
     const std::optional<MeasuredError>& e = lux ? round.lux : round.image;
-    const double resolution = e ? e->resolution.value_or(0) : 0;
-    if (resolution <= kClear * error) continue;
-    // The resolution falls with the root of the samples; the pair before tells what one takes.
-    const double times = std::min(std::pow(resolution / (0.5 * error), 2), (seconds - took) / pair_s_[lux]);
+    if (!e) continue;
+    // The pair before tells what a sample takes.
+    const double times = std::min(times_as_many(*e, error), (seconds - took) / pair_s_[lux]);
     if (times >= 2) took += make_pair(lux, std::floor(samples_[lux] * times));
   }
   return took;

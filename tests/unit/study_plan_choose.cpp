@@ -501,5 +501,20 @@ TEST(PlanRound, CoarseReferencesJudgeOnlyThatAnErrorIsLarge) {
   EXPECT_FALSE(judged(0.01, 0.03, 0.02)) << "met, or luck";
 }
 
+/// More samples of references for what they cannot tell, or not surely enough.
+TEST(PlanRound, ReferencesAreMadeBetterWhereTheirNoiseWouldDecide) {
+  const auto times = [](double error, double stderr_of_it, double resolution) {
+    MeasuredError e;
+    e.relative_rmse = error, e.rmse_stderr = stderr_of_it, e.resolution = resolution;
+    return times_as_many(e, 0.02);
+  };
+  EXPECT_EQ(times(0.015, 0.001, 0.01), 1) << "met";
+  EXPECT_EQ(times(0.03, 0.001, 0.01), 1) << "missed";
+  EXPECT_EQ(times(0.022, 0.001, 0.01), 4) << "missed, perhaps";
+  EXPECT_EQ(times(0.019, 0.001, 0.01), 4) << "met, perhaps";
+  EXPECT_DOUBLE_EQ(times(0.05, 0.001, 0.04), 16) << "they cannot tell it";
+  EXPECT_DOUBLE_EQ(times(0.02, 0.001, 0.03), 9) << "nor that it is near";
+}
+
 }  // namespace
 }  // namespace phos
