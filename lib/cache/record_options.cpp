@@ -108,8 +108,7 @@ void declare_photon_options(Options& options, RecordOptions& r) {
 
 void declare_gather_options(Options& options, RecordOptions& r) {
   options.integer("rays", r.rays, "N",
-                  "rays of a hemisphere, at most: those of whole rings (27, 52, 80, 114, ...)",
-                  {16, 1048576});
+                  "rays of a hemisphere, at most: those of whole rings (12, 27, 52, 80, ...)", {12, 1048576});
   options.integer("gather-bounces", r.gather_bounces, "N",
                   "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
   options.choice<GatherFrom>(

@@ -37,8 +37,8 @@ def number(word):
 
 
 def whole_rings(rays):
-    """The number next to it of rays that fill the rings of a hemisphere, but the 16 that phos-irradiance asks for at least."""
-    return max(16, min((n * round(math.pi * n) for n in range(2, 200)), key=lambda cells: abs(cells - rays)))
+    """The number next to it of rays that fill the rings of a hemisphere."""
+    return min((n * round(math.pi * n) for n in range(2, 200)), key=lambda cells: abs(cells - rays))
 
 
 def near(key, value):
