@@ -15,7 +15,7 @@ namespace {
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
 constexpr double kPhotons[] = {20000, 160000};
 constexpr double kAccuracy[] = {0.4, 0.2};
-constexpr int kRings[] = {4, 9, 6};  ///< of records' rays: 52, 252, 114
+constexpr int kRings[] = {3, 9, 6};  ///< of records' rays: 27, 252, 114
 constexpr int kCountRings = 3;       ///< of records that are made to be counted
 struct Samples {
   double pixel, edge, light, gloss;

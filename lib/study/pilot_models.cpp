@@ -85,7 +85,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
       {{"direct light, noise", sum_of(direct)},
        {"direct light and gloss, bias", sum_of({edges, textures, blur})},
        {"indirect light, noise", sum_of({{"noise of gathered rays", {kBlended, {K::rays, -1}}},
-                                         {"noise of gathered rays, fast part", {kBlended, {K::rays, -2}}},
+                                         {"noise of gathered rays, fast part", {kBlended, {K::rays, -1.5}}},
                                          {"noise of photons", {{K::photons, -1}}}})},
        {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
   if (!gloss.empty()) model.part.emplace_back("gloss, noise", sum_of(gloss));
