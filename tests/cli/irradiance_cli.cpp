@@ -68,6 +68,19 @@ TEST(Irradiance, ReuseDoesNothingTwice) {
   EXPECT_NE(std::filesystem::last_write_time(out), before);
 }
 
+/// Two rings of rays, the least that plans ask for.
+TEST(Irradiance, TwelveRaysAreTheLeast) {
+  const std::string out = folder() + "/few.irradiance";
+  const auto with_rays = [&](const char* rays) {
+    return irradiance({scene(), photons(), "--estimate", "gather", "--rays", rays, "-o", out});
+  };
+  expect_failure(with_rays("11"), 2, "--rays");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const auto run = with_rays("12");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_GT(records_in(out), 50u);
+}
+
 TEST(Irradiance, PointsAreAddedToAFileThatKeepsItsRecords) {
   const std::string first = folder() + "/first.irradiance", csv = folder() + "/p.csv";
   ASSERT_EQ(

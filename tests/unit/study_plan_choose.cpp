@@ -133,8 +133,9 @@ TEST(StudyPlan, NoRayOfARecordIsPromisedThatIsNotShot) {
   const auto shot = [](const Knobs& k) {
     return static_cast<double>(cells_of(rings_for(std::llround(k[at(K::rays)]))));
   };
-  for (const PlanPoint& p : front_of(picture(), synthetic_pilot()))
-    EXPECT_EQ(p.knobs[at(K::rays)], shot(p.knobs));
+  const std::vector<PlanPoint> front = front_of(picture(), synthetic_pilot());
+  for (const PlanPoint& p : front) EXPECT_EQ(p.knobs[at(K::rays)], shot(p.knobs));
+  EXPECT_EQ(front.front().knobs[at(K::rays)], 12) << "two rings, as few as may be asked for";
   for (const Knobs& k : pilot_caches()) EXPECT_EQ(k[at(K::rays)], shot(k));
 }
 
