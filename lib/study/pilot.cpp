@@ -15,8 +15,9 @@ namespace {
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
 constexpr double kPhotons[] = {20000, 160000};
 constexpr double kAccuracy[] = {0.4, 0.2};
-constexpr int kRings[] = {3, 9, 6};  ///< of records' rays: 27, 252, 114
-constexpr int kCountRings = 3;       ///< of records that are made to be counted
+constexpr double kLuxAccuracy = 0.1;  ///< the finer one, without a picture
+constexpr int kRings[] = {3, 9, 6};   ///< of records' rays: 27, 252, 114
+constexpr int kCountRings = 3;        ///< of records that are made to be counted
 struct Samples {
   double pixel, edge, light, gloss;
 };
@@ -114,16 +115,17 @@ void fit_errors(PlanModel& model, const Rows& rows, std::uint64_t seed, const ch
 
 }  // namespace
 
-std::vector<Knobs> pilot_caches() {
+std::vector<Knobs> pilot_caches(bool image) {
   return {knobs_of(kPhotons[0], kAccuracy[0], kRings[0]), knobs_of(kPhotons[0], kAccuracy[0], kRings[1]),
-          knobs_of(kPhotons[1], kAccuracy[0], kRings[1]), knobs_of(kPhotons[1], kAccuracy[1], kRings[2])};
+          knobs_of(kPhotons[1], kAccuracy[0], kRings[1]),
+          knobs_of(kPhotons[1], image ? kAccuracy[1] : kLuxAccuracy, kRings[2])};
 }
 
 std::vector<Knobs> pilot_pictures(bool gloss) {
   std::vector<Samples> samples(std::begin(kSamples), std::end(kSamples));
   if (gloss) samples.insert(samples.end(), std::begin(kInGloss), std::end(kInGloss));
   std::vector<Knobs> pictures;
-  for (const Samples& s : samples) pictures.push_back(with(pilot_caches().back(), s));
+  for (const Samples& s : samples) pictures.push_back(with(pilot_caches(true).back(), s));
   return pictures;
 }
 
@@ -140,7 +142,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   }
   if (task.lux) pilot.sensors = runs.sensors();
 
-  const std::vector<Knobs> caches = pilot_caches();
+  const std::vector<Knobs> caches = pilot_caches(task.image);
   Rows image, lux;
   for (std::size_t c = 0; c < caches.size(); ++c) {
     runs.make_caches(caches[c]);

@@ -70,7 +70,9 @@ struct PilotOptions {
 /// looked at is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
 /// Photons and records of those runs: each term of indirect light follows another way through them.
-std::vector<Knobs> pilot_caches();
+/// Sensors read records of accuracies 0.4 and 0.2 alike (reading_accuracy()), so those of a pilot without a
+/// picture go to 0.1.
+std::vector<Knobs> pilot_caches(bool image);
 /// The picture's samples of those runs, all with the last of those caches.
 std::vector<Knobs> pilot_pictures(bool gloss);
 inline constexpr double kPilotPixels = 4800;

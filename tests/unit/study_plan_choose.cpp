@@ -136,7 +136,8 @@ TEST(StudyPlan, NoRayOfARecordIsPromisedThatIsNotShot) {
   const std::vector<PlanPoint> front = front_of(picture(), synthetic_pilot());
   for (const PlanPoint& p : front) EXPECT_EQ(p.knobs[at(K::rays)], shot(p.knobs));
   EXPECT_EQ(front.front().knobs[at(K::rays)], 12) << "two rings, as few as may be asked for";
-  for (const Knobs& k : pilot_caches()) EXPECT_EQ(k[at(K::rays)], shot(k));
+  for (const bool image : {false, true})
+    for (const Knobs& k : pilot_caches(image)) EXPECT_EQ(k[at(K::rays)], shot(k));
 }
 
 /// A few rays more than the model asks for, where they cost next to nothing: small pilots do not see rare
