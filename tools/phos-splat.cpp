@@ -125,6 +125,8 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});
     }();
+    if (render.direct == DirectBy::shadow_map && rays.has_panes())
+      tool.say("light comes through panes, which shadow maps do not show: shadow rays stand in for them");
     const PictureGloss gloss = [&] {
       const auto timer = tool.time("gloss tables");
       return gloss_of_picture(rays, caches, render, allow_mismatch, tool.counters());

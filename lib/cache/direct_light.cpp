@@ -4,6 +4,7 @@
 
 #include "core/sampling.h"
 #include "core/sequence_error.h"
+#include "scene/mirror_images.h"
 
 namespace phos {
 
@@ -21,6 +22,38 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
   point.error_m = kRoundoff * (16 * largest + 32 * scene.bounds.diagonal_m());
   return point;
 }
+
+namespace {
+
+/// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
+void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
+                   RandomStream& random, std::vector<LampSample>& out) {
+  const MirrorPlanes& mirrors = lights.mirrors();
+  for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (!has_images(lights[i])) continue;
+      const int n = lights[i].extended() ? std::max(samples, 1) : 1;
+      const float shift = random.uniform();
+      const Vec2 shift2 = random.uniform2();
+      for (int k = 0; k < n; ++k) {
+        Illumination light;
+        const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
+        if (!illuminate_by_mirrors(rays, lights, mirrors, chain, i, receiver, std::min(u_triangle, kBelowOne),
+                                   r2_point(k, shift2), light))
+          continue;
+        const float cosine = glm::dot(receiver.normal, light.direction);
+        if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
+        const float density = light.density > 0 ? light.density * static_cast<float>(n) : 1.f;
+        const bool area = lights[i].kind == Light::Kind::area;
+        out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction,
+                       light.value * (cosine / density), static_cast<std::uint32_t>(i),
+                       static_cast<std::uint32_t>(k), static_cast<std::int32_t>(chain)});
+      }
+    }
+  }
+}
+
+}  // namespace
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out) {
@@ -46,7 +79,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
       if (!(max_component(irradiance) > 0)) continue;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
-                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
+                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1});
       way.push_back(shadow_ray(receiver, light));
     }
     share.resize(way.size());
@@ -59,17 +92,19 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     }
     out.resize(kept);
   }
+  if (!lights.mirrors().empty()) sample_images(rays, lights, receiver, samples, random, out);
 }
 
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights) {
   LampSum sum;
   std::vector<DVec3> part;
   for (std::size_t i = 0; i < lamps.size();) {
-    // The samples of one light follow each other; those that are dark or hidden are zeros.
+    // The samples of one light, or image, follow each other; those that are dark or hidden are zeros.
     const std::uint32_t light = lamps[i].light;
+    const std::int32_t mirrors = lamps[i].mirrors;
     const bool extended = lights[light].extended();
     part.assign(extended ? static_cast<std::size_t>(std::max(samples, 1)) : 1, DVec3(0));
-    for (; i < lamps.size() && lamps[i].light == light; ++i) {
+    for (; i < lamps.size() && lamps[i].light == light && lamps[i].mirrors == mirrors; ++i) {
       part[lamps[i].number] = DVec3(lamps[i].irradiance);
       sum.irradiance += part[lamps[i].number];
     }

@@ -17,14 +17,16 @@ struct LampSample {
   Vec3 normal{0};     ///< of the lamp's surface, on the side that shines; minus direction for lamps without
   Rgb irradiance{0};  ///< what it adds: cosine, density and number of samples included; they sum to E, lx
   std::uint32_t light = 0;
-  std::uint32_t number = 0;  ///< of this sample among the light's, from 0
+  std::uint32_t number = 0;   ///< of this sample among the light's, from 0
+  std::int32_t mirrors = -1;  ///< chain of flat mirrors that the light came over (MirrorPlanes); -1: none
 };
 
 /// The point at p that faces n (unit), lifted off surfaces by the rounding of positions in this scene.
 SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 
-/// Samples of every lamp that can be seen from the receiver: `samples` low-discrepancy ones of each area
-/// light and of the environment, one of each other. Replaces `out`.
+/// Samples of every lamp that can be seen from the receiver, straight or through panes: `samples`
+/// low-discrepancy ones of each area light and of the environment, one of each other; and the same of the
+/// images that lamps have in flat mirrors. Replaces `out`.
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
 

@@ -273,6 +273,7 @@ struct HitLight::Impl::Step {
   float gloss_probability = 0;  // with which the glossy lobes are followed
   bool taken = false;
   bool straight = false;  // through a pane: no event
+  bool mirror = false;    // reflected without a lobe
 };
 
 /// Light through the glossy lobes but for the lamps', from radiance records; nothing: it is to be followed.
@@ -312,7 +313,7 @@ bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, bool follow_g
     if (!(share[b] > 0)) return true;
     step.direction = branch[b].direction;
     step.weight = branch[b].weight * (sum / share[b]);
-    step.straight = branch[b].straight;
+    step.straight = branch[b].straight, step.mirror = !branch[b].transmitted;
   }
   step.taken = true;
   return true;
@@ -362,6 +363,17 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
   // The last event: where the way began, and how it was chosen. None yet: the record's own.
   std::optional<SurfacePoint> from;
   Step last;
+  // Flat mirrors since the record, from which direct light sees the images of lamps in them.
+  std::vector<std::pair<std::uint32_t, bool>> mirrors;
+  bool mirrors_alone = followed == 0 && !lights.mirrors().empty();
+  const auto has_image = [&] {
+    std::int32_t chain = MirrorPlanes::kNone;
+    for (auto m = mirrors.rbegin(); m != mirrors.rend(); ++m) {
+      chain = lights.mirrors().follow(chain, m->first, m->second);
+      if (chain == MirrorPlanes::kNone) return false;
+    }
+    return true;
+  };
   for (std::uint32_t reflection = 0;; ++reflection) {
     if (landing && !from) landing->distance_m = point.distance_m, landing->normal = point.geometric_normal;
     random.start_bounce(reflection);
@@ -390,6 +402,8 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
       throughput /= survival;
     }
     if (!step.straight) {
+      mirrors_alone = mirrors_alone && step.mirror;
+      if (mirrors_alone) mirrors.emplace_back(point.triangle, point.front);
       from = point, last = step;
       way = Way(rays, {point.leave(step.direction), step.direction});
       wo = -step.direction;
@@ -402,7 +416,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     }
     const Rgb emitted = from ? emitted_luminance(scene, next, wo) : Rgb(0);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
-    if (lamp >= 0) {
+    if (lamp >= 0 && !(mirrors_alone && has_image())) {
       float weight = 1;
       if (last.density > 0) {
         const auto i = static_cast<std::size_t>(lamp);

@@ -4,6 +4,7 @@
 
 #include "core/sampling.h"
 #include "core/sequence_error.h"
+#include "scene/mirror_images.h"
 
 namespace phos {
 
@@ -120,6 +121,31 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   return sum;
 }
 
+DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                              RandomStream& sequence) const {
+  DirectLight sum;
+  const MirrorPlanes& mirrors = lights_.mirrors();
+  for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      if (!has_images(lights_[i])) continue;
+      const float u_triangle = sequence.uniform();
+      const Vec2 u = sequence.uniform2();
+      Illumination light;
+      if (!illuminate_by_mirrors(rays_, lights_, mirrors, chain, i, point, u_triangle, u, light)) continue;
+      const float cosine = glm::dot(point.normal, light.direction);
+      if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
+      const Rgb arriving = light.value * (cosine / (light.density > 0 ? light.density : 1.f));
+      sum.illuminance += arriving;
+      const bool lambert = !options_.cached_direct && bsdf.has_diffuse(), gloss = !lights_[i].extended();
+      Rgb f(0);
+      if (lambert) f += bsdf.diffuse_reflectance() / kPi;
+      if (gloss) f += bsdf.evaluate_gloss(wo, light.direction);
+      sum.radiance += f * arriving;
+    }
+  }
+  return sum;
+}
+
 GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                           const SampleRange& samples, int light_samples, int depth, RandomStream& sequence,
                           RandomStream& random, ShadingLog& log, bool environment) const {
@@ -200,7 +226,8 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   if (known) light += known->radiance;
   const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
-    light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance;
+    light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance +
+             mirrored(point, bsdf, wo, random).radiance;
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
     const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);

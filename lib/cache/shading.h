@@ -81,6 +81,11 @@ class Shading {
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                      int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
+  /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each, none of the
+  /// environment. Of area lights the glossy lobes' share is left to gloss(), whose rays find them in mirrors.
+  DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                       RandomStream& sequence) const;
+
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
   /// they land. `light_samples` is what direct() was called with; 0 if it was not, so that lamps count whole.
   GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,

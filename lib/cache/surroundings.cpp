@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "photon/density.h"
+#include "scene/passage.h"
 
 namespace phos {
 namespace {
@@ -45,12 +46,13 @@ float Surroundings::by_rays_m(const ZonePlace& place, std::uint64_t item) const 
   const double turn = 2 * std::numbers::pi * random.uniform_double();
   const auto least = static_cast<float>(*options_.min_radius_m);
   double sum = 0;
+  std::vector<Crossing> crossings;
   for (int i = 0; i < n; ++i) {
     const double r2 = (i + 0.5) / n, r = std::sqrt(r2), t = turn + i * 2.399963229728653;
     const Vec3 local(r * std::cos(t), r * std::sin(t), std::sqrt(1 - r2));
     const Ray ray{place.p + 4 * place.rounding_m * place.frame.z, place.frame.to_world(local), 0, kInfinity};
-    Hit hit;
-    if (rays_.intersect(ray, hit)) sum += 1 / static_cast<double>(std::max(hit.distance_m, least));
+    Hit hit;  // behind panes: they do not make records about windows small
+    if (rays_.through(ray, hit, crossings)) sum += 1 / static_cast<double>(std::max(hit.distance_m, least));
   }
   return sum > 0 ? static_cast<float>(n / sum) : kInfinity;
 }

@@ -32,6 +32,8 @@ class Emitter {
   /// after any number of paths each light has had its share to within a few paths, so that the choice adds no
   /// noise.
   std::size_t light_of(std::uint64_t path) const;
+  const Light& light(std::uint64_t path) const { return luminaires_[light_of(path)]; }
+  const MirrorPlanes& mirrors() const { return luminaires_.mirrors(); }
   /// Probability of a light.
   double share(std::size_t light) const { return share_[light]; }
 

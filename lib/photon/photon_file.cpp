@@ -103,7 +103,7 @@ const char* what_is_wrong(const PhotonColumns& c, std::size_t i) {
   if (!KdTree::in_range(c.position[i])) return "a position that is not finite or too far away for a tree";
   if (!is_finite(c.flux[i])) return "a flux that is not finite";
   if (!(c.distance[i] >= 0)) return "a distance that is not positive";
-  if (c.path[i] > static_cast<std::uint8_t>(PhotonPath::caustic)) return "a path of no known kind";
+  if (c.path[i] > static_cast<std::uint8_t>(PhotonPath::mirrored)) return "a path of no known kind";
   return nullptr;
 }
 

@@ -18,6 +18,7 @@ enum class PhotonPath : std::uint8_t {
   direct = 0,    ///< straight from a light
   indirect = 1,  ///< last left a non-specular surface, or further back did so
   caustic = 2,   ///< light, then only specular surfaces
+  mirrored = 3,  ///< the same over flat mirrors in which the light has images: shadow rays find it too
 };
 
 /// Columns, one row per stored photon. Directions and normals are octahedral (core/vector.h).

@@ -13,6 +13,7 @@
 #include "photon/emission.h"
 #include "photon/photon_file.h"
 #include "scene/bsdf.h"
+#include "scene/mirror_images.h"
 #include "scene/passage.h"
 
 namespace phos {
@@ -53,10 +54,14 @@ struct Flight {
   std::uint32_t events = 0;  // bounces and panes passed straight: numbers the random draws
   bool from_infinity = false;
   bool specular_only = true;  // since the light
+  // Flat mirrors since a light that has images in them (MirrorPlanes).
+  bool mirrored = false;
+  std::int32_t chain = MirrorPlanes::kNone;
 
   PhotonPath path() const {
     if (bounce == 0) return PhotonPath::direct;
-    return specular_only ? PhotonPath::caustic : PhotonPath::indirect;
+    if (!specular_only) return PhotonPath::indirect;
+    return mirrored ? PhotonPath::mirrored : PhotonPath::caustic;
   }
 };
 
@@ -78,6 +83,7 @@ class PathTracer {
   PathTracer(const RayScene& rays, const Emitter& emitter, std::uint64_t seed, bool log)
       : rays_(rays),
         emitter_(emitter),
+        mirrors_(emitter.mirrors()),
         seed_(seed),
         log_(log),
         units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {}
@@ -93,6 +99,7 @@ class PathTracer {
     Flight flight;
     flight.ray = start.ray, flight.flux_lm = start.flux_lm, flight.units = units(start.flux_lm);
     flight.source_normal = start.source_normal, flight.from_infinity = start.from_infinity;
+    flight.mirrored = !mirrors_.empty() && has_images(emitter_.light(path));
     part.emitted += flight.units;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
@@ -159,11 +166,18 @@ class PathTracer {
                                                                                    : -point.geometric_normal;
     flight.from_infinity = false;
     flight.specular_only = flight.specular_only && sample.specular;
+    if (flight.mirrored) {
+      const bool reflected = sample.specular && !sample.transmitted;
+      flight.chain =
+          reflected ? mirrors_.follow(flight.chain, point.triangle, point.front) : MirrorPlanes::kNone;
+      flight.mirrored = flight.chain != MirrorPlanes::kNone;
+    }
     return After::scattered;
   }
 
   const RayScene& rays_;
   const Emitter& emitter_;
+  const MirrorPlanes& mirrors_;
   std::uint64_t seed_;
   bool log_;
   double units_per_lm_;

@@ -4,6 +4,7 @@
 
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/mirror_images.h"
 #include "scene/passage.h"
 
 namespace phos {
@@ -39,8 +40,17 @@ struct PathTracer::Walk {
   float density = 0;         // of the ray's direction, per sr; 0: camera ray or specular, which next-event
                              // estimation cannot make
   bool every_light = false;  // how next-event estimation chose where the ray started
-  bool mirrored = false;     // the visible surface is a mirror or glass
-  Rgb glossy{0};             // share of what comes along the path that the visible surface's gloss reflects
+  // Flat mirrors since the last event that was none: images of lamps are sampled from there too.
+  struct Mirror {
+    std::uint32_t triangle;
+    bool front;
+  };
+  std::vector<Mirror> mirrors;
+  float density_before =
+      0;                  // of the ray that left that event; 0: no event, or light has gone another way since
+  float travelled_m = 0;  // from there to where the ray starts
+  bool mirrored = false;  // the visible surface is a mirror or glass
+  Rgb glossy{0};          // share of what comes along the path that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int64_t events = 0;  // scatterings and panes passed: numbers the random draws
 };
@@ -66,7 +76,7 @@ template <class Scatter>
 Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scatter& scatter,
                          RandomStream& random) const {
   Rgb sum(0);
-  const auto add = [&](std::size_t i, float probability) {
+  const auto add_straight = [&](std::size_t i, float probability) {
     Illumination light;
     const float u_triangle = random.uniform();
     if (!luminaires_->illuminate(i, point.position, u_triangle, random.uniform2(), light)) return;
@@ -80,6 +90,24 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
       sum += share * f_cos * light.value * (power_weight(density, scatter_density) / density);
     else
       sum += share * f_cos * light.value / probability;
+  };
+  const auto add = [&](std::size_t i, float probability) {
+    add_straight(i, probability);
+    if (!has_images((*luminaires_)[i])) return;
+    const MirrorPlanes& mirrors = luminaires_->mirrors();
+    for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+      Illumination light;
+      const float u_triangle = random.uniform();
+      if (!illuminate_by_mirrors(*rays_, *luminaires_, mirrors, chain, i, point, u_triangle,
+                                 random.uniform2(), light))
+        continue;
+      float scatter_density = 0;
+      const Rgb f_cos = scatter(light.direction, scatter_density);
+      if (!positive(f_cos)) continue;
+      const float density = light.density * probability;
+      sum += f_cos * light.value *
+             (light.density > 0 ? power_weight(density, scatter_density) / density : 1 / probability);
+    }
   };
   if (every_light) {
     for (std::size_t i = 0; i < share_.size(); ++i) add(i, 1);
@@ -95,15 +123,25 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
 /// ray began.
 Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
   const Rgb luminance = emitted_luminance(rays_->scene(), point, -walk.ray.direction);
-  if (!positive(luminance) || walk.density <= 0) return luminance;
+  const float own = walk.density > 0 ? walk.density : walk.density_before;
+  if (!positive(luminance) || !(own > 0)) return luminance;
   const std::int32_t light = luminaires_->light_of(point.triangle);
   if (light < 0) return luminance;
   const auto i = static_cast<std::size_t>(light);
   const float cos_light = std::fabs(glm::dot(walk.ray.direction, point.geometric_normal));
   const float chosen = walk.every_light ? 1 : share_[i];
+  Vec3 from = walk.from;
+  if (!(walk.density > 0)) {
+    std::int32_t chain = MirrorPlanes::kNone;
+    for (auto m = walk.mirrors.rbegin(); m != walk.mirrors.rend(); ++m) {
+      chain = luminaires_->mirrors().follow(chain, m->triangle, m->front);
+      if (chain == MirrorPlanes::kNone) return luminance;  // no image tells of it
+    }
+    from = luminaires_->mirrors().image(chain, walk.from);
+  }
   const float density =
-      chosen * luminaires_->density(i, walk.from, point.triangle, point.distance_m, cos_light);
-  return luminance * power_weight(walk.density, density);
+      chosen * luminaires_->density(i, from, point.triangle, walk.travelled_m + point.distance_m, cos_light);
+  return luminance * power_weight(own, density);
 }
 
 /// The same of the environment, for a walk whose ray left the scene.
@@ -127,6 +165,19 @@ void PathTracer::add_indirect(const Rgb& light, const Walk& walk, PathSample& su
 }
 
 /// Adds the light scattered at `point` once, and turns the walk into its next ray, or lets it pass straight.
+/// Keeps where densities count from: the last event that was no flat mirror.
+void PathTracer::note_mirror(const SurfacePoint& point, const BsdfSample& next, Walk& walk) const {
+  if (!next.specular) {
+    walk.from = point.position, walk.travelled_m = 0;
+    walk.mirrors.clear(), walk.density_before = 0;
+    return;
+  }
+  if (walk.density > 0) walk.density_before = walk.density;
+  walk.travelled_m += point.distance_m;
+  if (next.transmitted || luminaires_->mirrors().empty()) walk.density_before = 0;
+  if (walk.density_before > 0) walk.mirrors.push_back({point.triangle, point.front});
+}
+
 /// `lit`: lamps count.
 PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, bool lit, Walk& walk,
                                      PathSample& sum, RandomStream& random) const {
@@ -154,7 +205,7 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
     walk.throughput *= next.weight;
     return positive(walk.throughput) && walk.events < kMostBounces ? Next::straight : Next::none;
   }
-  walk.every_light = every_light;
+  if (!next.specular) walk.every_light = every_light;
   if (walk.scatterings == 0) {
     walk.mirrored = next.specular;
     if (!next.specular && bsdf.has_gloss()) {
@@ -163,9 +214,9 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
     }
   }
   walk.throughput *= next.weight;
+  note_mirror(point, next, walk);
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
-  walk.from = point.position;
   ++walk.scatterings;
   if (walk.scatterings >= kRouletteFrom) {
     const float survival = std::min(kMostSurvival, max_component(walk.throughput));

@@ -59,6 +59,7 @@ class PathTracer {
   enum class Next : std::uint8_t { none, ray, straight };
   Next scatter(const SurfacePoint& point, const Bsdf& bsdf, bool lit, Walk& walk, PathSample& sum,
                RandomStream& random) const;
+  void note_mirror(const SurfacePoint& point, const BsdfSample& next, Walk& walk) const;
   void follow(Walk walk, PathSample& sum, RandomStream& random) const;
   bool sample_every_light(std::int64_t scatterings) const;
 

@@ -30,7 +30,7 @@ float normal_reflectance(float ior) {
 // What the material is, at this point.
 
 struct Bsdf::Looked {
-  Rgb base;
+  Rgb base, colour;  // kd times colour; colour: of texture and vertices
   Vec4 metallic_roughness;
   float anisotropy, transmission, alpha;
 };
@@ -40,8 +40,12 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
       geometric_normal_(point.geometric_normal),
       front_(point.front) {
   const Material& material = scene.material[point.material];
-  Vec4 base = Vec4(material.kd, material.alpha) * point.colour;
-  if (material.base_colour.used()) base *= look_up(scene, material.base_colour, point.uv0, point.uv1);
+  Rgb base = material.kd * Rgb(point.colour);
+  Vec4 colour = point.colour;
+  if (material.base_colour.used()) {
+    const Vec4 texel = look_up(scene, material.base_colour, point.uv0, point.uv1);
+    base *= Rgb(texel), colour *= texel;
+  }
   const auto texel = [&](const TextureUse& use) {
     return use.used() ? look_up(scene, use, point.uv0, point.uv1) : Vec4(1);
   };
@@ -51,17 +55,19 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
       material.transmission > 0 ? material.transmission * texel(material.transmission_map).x : 0;
   if (material.model == Model::dielectric && !front_)
     travelled_ = left_after(material.absorption_per_m, point.distance_m);
-  resolve(scene, material, {Rgb(base), texel(material.metallic_roughness), anisotropy, transmission, base.w});
+  resolve(scene, material,
+          {base, Rgb(colour), texel(material.metallic_roughness), anisotropy, transmission,
+           material.alpha * colour.w});
 }
 
 Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
     : frame_(frame), geometric_normal_(frame.z) {
   const Material& m = scene.material[material];
-  const Vec4 base = mean_texel(scene, m.base_colour);
+  const Vec4 colour = mean_texel(scene, m.base_colour);
   resolve(scene, m,
-          {m.kd * Rgb(base), mean_texel(scene, m.metallic_roughness),
+          {m.kd * Rgb(colour), Rgb(colour), mean_texel(scene, m.metallic_roughness),
            m.anisotropy * mean_texel(scene, m.anisotropy_map).z,
-           m.transmission * mean_texel(scene, m.transmission_map).x, m.alpha * base.w});
+           m.transmission * mean_texel(scene, m.transmission_map).x, m.alpha * colour.w});
 }
 
 void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
@@ -91,7 +97,7 @@ void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& l
     case Model::thin_dielectric:
       delta_ = material.model == Model::dielectric ? Delta::dielectric : Delta::thin;
       if (!(ior_ > 0)) ior_ = 1;
-      sheet_ = base;
+      sheet_ = material.tint * looked.colour;
       inside_ = material.inside;
       absorption_per_m_ = material.absorption_per_m;
       curve_ = material.curve.get();

@@ -61,6 +61,7 @@ void add_material(Hasher& hasher, const Material& m) {
     hasher.add(m.anisotropy_rad);
     add_use(hasher, m.anisotropy_map);
   }
+  if (m.tint != Rgb(1)) add_vector(hasher, m.tint);
   if (m.inside != Rgb(1)) add_vector(hasher, m.inside);
   if (m.absorption_per_m != Rgb(0)) add_vector(hasher, m.absorption_per_m);
   if (m.transmission_map.used()) add_use(hasher, m.transmission_map);

@@ -224,7 +224,7 @@ class MaterialReader {
     if (!(thickness_m >= 0)) fail("thicknessFactor must not be negative");
     if (thickness_m > 0 && smooth && material_.transmission >= 0.5f) {
       become(Model::dielectric);
-      material_.kd = material_.transmission * tint;
+      material_.tint = material_.transmission * tint;
       material_.thickness_m = static_cast<float>(thickness_m);
       material_.absorption_per_m = read_attenuation();
       if (material_.transmission_map.used())
@@ -238,7 +238,7 @@ class MaterialReader {
     } else if (material_.transmission == 1 && !material_.transmission_map.used() && material_.metallic == 0 &&
                material_.specular == 1 && material_.specular_colour == Rgb(1)) {
       become(Model::thin_dielectric);
-      material_.kd = tint;
+      material_.tint = tint;
     } else {
       material_.roughness = material_.alpha_x = material_.alpha_y = 0;
     }
@@ -347,8 +347,8 @@ class MaterialReader {
         if (material_.alpha_x > 0 || material_.alpha_y > 0)
           warn("rough glass is not modelled: it is read as smooth");
         material_.alpha_x = material_.alpha_y = 0;
-        material_.kd = colour(phos, "tint").value_or(Rgb(1));
-        if (max_component(material_.kd) > 1) fail("extras.phos.tint must be at most 1");
+        material_.tint = colour(phos, "tint").value_or(Rgb(1));
+        if (max_component(material_.tint) > 1) fail("extras.phos.tint must be at most 1");
         if (material_.alpha_mode != Material::Alpha::blend) material_.base_colour = TextureUse();
         if (model->second == Model::thin_dielectric) read_pane(phos);
         break;

@@ -6,6 +6,7 @@
 
 #include "core/spherical_triangle.h"
 #include "core/vector.h"
+#include "scene/mirror_planes.h"
 #include "scene/portal_light.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
@@ -72,6 +73,8 @@ class Luminaires {
   explicit Luminaires(const Scene& scene);
   std::size_t size() const { return scene_->light.size(); }
   const Light& operator[](std::size_t i) const { return scene_->light[i]; }
+  /// By way of which lamps have images (scene/mirror_images.h).
+  const MirrorPlanes& mirrors() const { return mirrors_; }
 
   /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
   /// cone). Area lights: of a triangle chosen by u_triangle in proportion to its power, uniform over it, or
@@ -159,6 +162,7 @@ class Luminaires {
   EmissionPoint point_of(const Light& light, const Shape& shape, const Spot& spot) const;
 
   const Scene* scene_;
+  MirrorPlanes mirrors_;
   std::int32_t environment_ = -1;
   std::optional<PortalLight> portals_;  // of the environment
   std::vector<Shape> shape_;            // per light; empty for one without area

@@ -75,8 +75,11 @@ struct Material {
   float specular = 1;      ///< KHR_materials_specular
   Rgb specular_colour{1};  ///< KHR_materials_specular
   float transmission = 0;  ///< KHR_materials_transmission; multiplied by the red of transmission_map
+  /// Glass: factor of what passes a thin pane, or each face of a solid; multiplied by the base_colour
+  /// texture.
+  Rgb tint{1};
   /// thin_dielectric: internal transmittance of one passage along the normal; its transmittance is that of
-  /// the pane (scene/pane.h) times kd, or kd times `curve` where there is one.
+  /// the pane (scene/pane.h), or `curve` where there is one, times `tint`.
   Rgb inside{1};
   std::shared_ptr<const TransmittanceCurve> curve;
   /// dielectric: what is absorbed inside of it, per m: light falls as exp(-absorption length); infinity: none

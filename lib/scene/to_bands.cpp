@@ -91,7 +91,18 @@ class ToBands {
     m.kd = reflectance_of(m.kd, polished ? nullptr : spectrum);
     m.ks = reflectance_of(m.ks, polished ? spectrum : nullptr);
     m.specular_colour = colours_.reflectance(m.specular_colour);
+    if (m.tint != Rgb(1)) m.tint = colours_.reflectance(m.tint);
+    if (m.inside != Rgb(1)) m.inside = colours_.reflectance(m.inside);
+    if (m.absorption_per_m != Rgb(0)) convert_absorption(m);
     if ((m.model == Model::phong || m.model == Model::ward) && conserving) cut(m);
+  }
+
+  /// By the colour that is left of white light after one metre.
+  static constexpr float kLeast = 1e-30f;
+  void convert_absorption(Material& m) {
+    Rgb left = colours_.reflectance(Rgb(std::exp(-m.absorption_per_m.x), std::exp(-m.absorption_per_m.y),
+                                        std::exp(-m.absorption_per_m.z)));
+    for (int c = 0; c < 3; ++c) m.absorption_per_m[c] = left[c] > kLeast ? -std::log(left[c]) : kInfinity;
   }
 
   void cut(Material& m) {

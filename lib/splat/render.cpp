@@ -282,14 +282,16 @@ class Painter {
 
   /// Empty if direct light is had another way.
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
-    if (options_.direct == DirectBy::interleaved) {
+    // Shadow maps have no light through panes: shadow rays stand in for them.
+    const bool by_maps = options_.direct == DirectBy::shadow_map && !rays_.has_panes();
+    if (options_.direct == DirectBy::interleaved || (options_.direct == DirectBy::shadow_map && !by_maps)) {
       if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
       return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s, samples_),
                                {shader_.lamp_rays_of_each(false), s, samples_}, options_.seed);
     }
     std::vector<SharedLight> shared;
-    if (options_.direct != DirectBy::shadow_map) return shared;
+    if (!by_maps) return shared;
     const Stopwatch watch(result_.seconds, "shadow maps");
     for (const Rgb& e : gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
                                                 static_cast<int>(options_.shadow_map_size)))

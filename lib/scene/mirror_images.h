@@ -1,0 +1,21 @@
+// Light of lamps by way of flat mirrors alone: image sources.
+#pragma once
+
+#include "scene/luminaires.h"
+#include "scene/mirror_planes.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// Has a light images? Not the environment, whose light by way of mirrors is found by rays and photons.
+bool has_images(const Light& light);
+
+/// A sample of a lamp's image, seen from a point by way of one chain of mirrors: as Luminaires::illuminate()
+/// has it of the lamp, direction and distance along the unfolded way; `value` with the reflectances and
+/// transmittances of the way, which is clear: no shadow ray is left to trace. False where no such light
+/// arrives. Deterministic in its arguments; for the place of the sample on the lamp only `u` counts.
+bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, const MirrorPlanes& mirrors,
+                           std::size_t chain, std::size_t light, const SurfacePoint& from, float u_triangle,
+                           const Vec2& u, Illumination& result);
+
+}  // namespace phos
