@@ -81,7 +81,15 @@ TransmittanceCurve::TransmittanceCurve(std::vector<Point> points) : points_(std:
     secant[i] = (points_[i + 1].transmittance - points_[i].transmittance) /
                 (points_[i + 1].angle_deg - points_[i].angle_deg);
   slope_.assign(n, 0);
-  slope_[n - 1] = n > 1 ? secant[n - 2] : 0;  // at 0 degrees a curve is level
+  // At 0 degrees a curve is level. At 90 the parabola through the last three points tells, as far as it
+  // falls.
+  slope_[n - 1] = n > 1 ? secant[n - 2] : 0;
+  if (n > 2) {
+    const double last = points_[n - 1].angle_deg - points_[n - 2].angle_deg,
+                 before = points_[n - 2].angle_deg - points_[n - 3].angle_deg;
+    const double slope = ((2 * last + before) * secant[n - 2] - last * secant[n - 3]) / (last + before);
+    slope_[n - 1] = std::clamp(slope, std::min(3 * secant[n - 2], 0.0), 0.0);
+  }
   for (std::size_t i = 1; i + 1 < n; ++i) {
     if (secant[i - 1] * secant[i] <= 0) continue;
     const double before = points_[i].angle_deg - points_[i - 1].angle_deg,

@@ -157,7 +157,9 @@ TEST(Mirror, ShowsCacheAndDirectLight) {
   // The floor point that the mirror shows, 2 m below, and its distance to the lamp 1 m above the floor.
   const Vec3 down = glm::normalize(Vec3(-0.2f, -1, -0.1f));
   const Vec3 floor = seen + down * (2 / -down.y);
-  const double direct = point_over_plane_lx(40, 1, std::hypot(double(floor.x), double(floor.z)));
+  const double away = std::hypot(double(floor.x), double(floor.z));
+  // Straight, and by the image that the lamp has in the mirror, 3 m above the floor.
+  const double direct = point_over_plane_lx(40, 1, away) + 0.8 * point_over_plane_lx(40, 3, away);
   const auto show = [&](const ShadingOptions& options, ShadingLog& log) {
     const Shading shading(rays, lights, records, options);
     RandomStream random(1, Stage::test, 1);
