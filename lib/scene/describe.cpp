@@ -9,6 +9,7 @@
 #include "scene/bands.h"
 #include "scene/environment.h"
 #include "scene/merl.h"
+#include "scene/passage.h"
 #include "scene/photometric_file.h"
 #include "scene/texture.h"
 
@@ -133,7 +134,7 @@ Json describe_light(const Scene& scene, const Light& light) {
   return j;
 }
 
-Json describe_material(const MaterialSummary& s) {
+Json describe_material(const Scene& scene, const MaterialSummary& s) {
   const Material& m = *s.material;
   Json j;
   j["name"] = m.name;
@@ -146,6 +147,10 @@ Json describe_material(const MaterialSummary& s) {
   if (m.model == Model::phong) j["exponent"] = m.exponent;
   if (s.glossy && m.model != Model::phong) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
   if (m.emits()) j["luminance_cd_m2"] = numbers(m.emission);
+  if (passes_straight(scene, m)) {  // at normal incidence
+    const auto index = static_cast<std::uint32_t>(&m - scene.material.data());
+    j["transmittance"] = numbers(Bsdf(scene, index).pane(Vec3(0, 0, 1)).transmittance());
+  }
   Json textures = Json::Array{};
   constexpr const char* kNames[] = {"base colour", "metallic-roughness", "normal",
                                     "emissive",    "anisotropy",         "transmission"};
@@ -267,7 +272,7 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
   Json materials = Json::Array{}, lights = Json::Array{}, cameras = Json::Array{}, textures = Json::Array{};
   for (const MaterialSummary& s : summarize_materials(scene)) {
     area += s.area_m2;
-    materials.push_back(describe_material(s));
+    materials.push_back(describe_material(scene, s));
   }
   for (const Light& light : scene.light) {
     lumens += luminance(light.flux_lm);

@@ -12,6 +12,10 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kMostPlanes = 32, kMostChains = 256;
+/// Of planes that reflect less than this, panes for instance, few are taken: each costs shadow rays
+/// everywhere.
+constexpr float kWeak = 0.2f;
+constexpr std::size_t kMostWeakPlanes = 8;
 /// Chains that reflect less are left to photons, whose noise is then of little light.
 constexpr float kLeastReflectance = 0.02f;
 constexpr float kSamePlane = 1 - 1e-6f;  // cosine of normals
@@ -83,6 +87,9 @@ void MirrorPlanes::find_planes(const Scene& scene) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
     return planes[x].area_m2 * planes[x].reflectance > planes[y].area_m2 * planes[y].reflectance;
   });
+  std::size_t weak = 0;
+  std::erase_if(order,
+                [&](std::size_t i) { return planes[i].reflectance < kWeak && ++weak > kMostWeakPlanes; });
   order.resize(std::min(order.size(), kMostPlanes));
   std::vector<std::int32_t> place(planes.size(), kNone);
   for (const std::size_t i : order) {

@@ -1,0 +1,87 @@
+// Flat mirrors, chains of them, and the images of lamps.
+#include <gtest/gtest.h>
+
+#include "scene/mirror_images.h"
+#include "support/scenes.h"
+
+namespace phos::test {
+namespace {
+
+/// A box of 4 m whose walls x = 0 and x = 4 are mirrors, and a point lamp.
+Scene corridor(float reflectance, bool textured_normal = false) {
+  Scene scene;
+  const std::uint32_t black = add_lambert(scene, "black", 0), mirror = add_lambert(scene, "mirror", 0);
+  scene.material[mirror].model = Model::mirror, scene.material[mirror].ks = Rgb(reflectance);
+  if (textured_normal) {
+    scene.texture.push_back({"bumps", 1, 1, {Vec4(0.5f, 0.5f, 1, 1)}, {}});
+    scene.material[mirror].normal.texture = 0;
+  }
+  begin_instance(scene, "black", black);
+  add_quad(scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  add_quad(scene, {0, 4, 0}, {4, 0, 0}, {0, 0, 4});
+  begin_instance(scene, "mirrors", mirror);
+  add_quad(scene, {0, 0, 0}, {0, 4, 0}, {0, 0, 4});
+  add_quad(scene, {4, 0, 0}, {0, 0, 4}, {0, 4, 0});
+  add_point_light(scene, {1.5f, 2.5f, 2}, 1000);
+  finalize(scene);
+  return scene;
+}
+
+}  // namespace
+
+TEST(MirrorPlanes, TwoThatFaceEachOtherMakeChainsAsLongAsTheyReflect) {
+  const Scene scene = corridor(0.9f);
+  const MirrorPlanes mirrors(scene);
+  // 0.9^37 is the last above 0.02; the first mirror may be either; outer sides reflect once.
+  std::size_t inside = 0;
+  for (const MirrorPlanes::Chain& c : mirrors.chains()) {
+    EXPECT_GE(c.reflectance, 0.02f);
+    inside += mirrors.plane(c.plane).front_of({2, 2, 2}) == c.front;
+  }
+  EXPECT_EQ(inside, 2 * 37u);
+  EXPECT_TRUE(MirrorPlanes(corridor(0.01f)).empty()) << "too little to look for";
+  EXPECT_TRUE(MirrorPlanes(corridor(0.9f, true)).empty()) << "bumps are not flat";
+  EXPECT_TRUE(MirrorPlanes(point_light_over_plane().scene).empty());
+}
+
+TEST(MirrorPlanes, FollowsWhatItTook) {
+  const Scene scene = corridor(0.9f);
+  const MirrorPlanes mirrors(scene);
+  const std::uint32_t left = 4, right = 6;  // triangles of the mirrors
+  std::int32_t chain = MirrorPlanes::kNone;
+  for (int k = 0; k < 37; ++k) {
+    chain = mirrors.follow(chain, k % 2 == 0 ? left : right, true);
+    ASSERT_NE(chain, MirrorPlanes::kNone) << k;
+  }
+  EXPECT_EQ(mirrors.follow(chain, right, true), MirrorPlanes::kNone) << "too faint";
+  EXPECT_EQ(mirrors.follow(MirrorPlanes::kNone, 0, true), MirrorPlanes::kNone) << "no mirror";
+  const std::int32_t one = mirrors.follow(MirrorPlanes::kNone, right, true);
+  EXPECT_EQ(mirrors.follow(one, right, true), MirrorPlanes::kNone) << "light leaves it";
+  const Vec3 image = mirrors.image(one, {1, 2, 3});
+  EXPECT_NEAR(image.x, 7, 1e-5f);
+  EXPECT_NEAR(image.y, 2, 1e-5f);
+}
+
+/// I rho^n / d2 towards the image, none where the mirror ends.
+TEST(MirrorImages, ShineFromBehindTheMirror) {
+  const Scene scene = corridor(0.9f);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  SurfacePoint p;
+  p.position = {2, 1, 2}, p.error_m = 1e-6f;
+  p.geometric_normal = p.normal = {0, 1, 0};
+  const std::int32_t right = lights.mirrors().follow(MirrorPlanes::kNone, 6, true);
+  Illumination light;
+  ASSERT_TRUE(illuminate_by_mirrors(rays, lights, lights.mirrors(), static_cast<std::size_t>(right), 0, p, 0,
+                                    Vec2(0.5f), light));
+  const Vec3 way = Vec3(6.5f, 2.5f, 2) - p.position;
+  EXPECT_NEAR(light.distance_m, glm::length(way), 1e-5f);
+  EXPECT_NEAR(light.value.x, 0.9f * 1000 / glm::dot(way, way), 1e-3f);
+  EXPECT_LT(glm::length(light.direction - glm::normalize(way)), 1e-6f);
+  // From beyond the mirror's end its image is not seen.
+  p.position = {2, 1, -20};
+  EXPECT_FALSE(illuminate_by_mirrors(rays, lights, lights.mirrors(), static_cast<std::size_t>(right), 0, p, 0,
+                                     Vec2(0.5f), light));
+}
+
+}  // namespace phos::test
