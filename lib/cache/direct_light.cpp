@@ -26,7 +26,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
                   RandomStream& random, std::vector<LampSample>& out) {
   out.clear();
   std::vector<Ray> way;
-  std::vector<std::uint8_t> blocked;
+  std::vector<Rgb> share;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const int n = lights[i].extended() ? std::max(samples, 1) : 1;
     // Drawn for every light, so that one light's samples do not depend on what another's do.
@@ -49,12 +49,13 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
                      static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
       way.push_back(shadow_ray(receiver, light));
     }
-    blocked.resize(way.size());
-    rays.occluded(way, blocked);
+    share.resize(way.size());
+    rays.transmittance(way, share);
     std::size_t kept = first;
     for (std::size_t k = 0; k < way.size(); ++k) {
-      const bool free = !(way[k].t_max_m > 0) || blocked[k] == 0;
-      if (free) out[kept++] = out[first + k];
+      LampSample sample = out[first + k];
+      if (way[k].t_max_m > 0) sample.irradiance *= share[k];
+      if (max_component(sample.irradiance) > 0) out[kept++] = sample;
     }
     out.resize(kept);
   }

@@ -16,7 +16,7 @@ struct LampSight {
   ArrivingLight light;
   Rgb brdf{0};            ///< 1/sr
   std::uint32_t hit = 0;  ///< which of the hits
-  bool arrived = false;   ///< nothing was in the way
+  Rgb arrived{0};         ///< share that arrives, by channel: 0 where something is in the way
 };
 
 /// One pass over a hemisphere: what each of its rays hit, and the lamps' light there.

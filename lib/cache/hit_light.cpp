@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/passage.h"
 #include "scene/texture.h"
 
 namespace phos {
@@ -121,6 +122,7 @@ struct HitLight::Impl {
     bool diffuse = false;   // it has no other lobe
     bool constant = false;  // its reflectance is the same all over, but for vertex colours
     Rgb reflectance{0};
+    bool straight = false;  // rays may pass straight through it
   };
   std::vector<Surface> surface;  // per material
 
@@ -133,8 +135,11 @@ struct HitLight::Impl {
         seed(own_seed),
         bounces(options.gather_bounces),
         lamps(r, l) {
-    for (const Material& m : scene.material)
-      surface.push_back({m.diffuse_alone(), !m.base_colour.used(), m.kd});
+    for (const Material& m : scene.material) {
+      const bool straight = passes_straight(scene, m);
+      surface.push_back(
+          {m.diffuse_alone(), !m.base_colour.used(), m.kd, straight || m.model == Model::dielectric});
+    }
     // Light of lamps that no ray finds, by way of mirrors, is in the source alone; so is light straight from
     // lamps, where it holds that.
     bool mirrors = false;
@@ -147,7 +152,9 @@ struct HitLight::Impl {
   bool reads_cache(std::int64_t bounces_left) const {
     return bounces_left != 1 && (source.indirect || source.fallback);
   }
-  bool arrives(const ArrivingLight& light) const { return light.certain || !rays.occluded(light.ray); }
+  Rgb arriving(const ArrivingLight& light) const {
+    return light.certain ? Rgb(1) : rays.transmittance(light.ray);
+  }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
   bool is_near(const SurfacePoint& point, const Rgb& lux) const;
@@ -155,8 +162,13 @@ struct HitLight::Impl {
                std::uint32_t followed, Worker& worker) const;
   Rgb from_diffuse(const SurfacePoint& point, const Vec3& wo, const LampSequence& lamp_points,
                    const RayName& ray, Worker& worker) const;
-  Rgb from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const RayName& ray, std::uint32_t followed,
-               Worker& worker) const;
+  /// Where a ray ends that goes straight through panes.
+  struct Landing {
+    float distance_m = kInfinity;
+    Vec3 normal{0};
+  };
+  Rgb from_any(const Ray& start, Rgb throughput, const RayName& ray, std::uint32_t followed, Worker& worker,
+               Landing* landing = nullptr) const;
 
   struct Step;
   std::optional<Rgb> recorded(const SurfacePoint& point, const Vec3& wo, std::int64_t bounces_left,
@@ -215,9 +227,7 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
   }
   const Vec3 direction = make_frame(point.normal).to_world(sample_cosine_hemisphere(random.uniform2()));
   if (!(glm::dot(direction, point.geometric_normal) > 0)) return Rgb(0);
-  SurfacePoint next;
-  if (!trace(rays, {point.leave(direction), direction}, next)) return Rgb(0);
-  return from_any(next, -direction, throughput, {item, followed, 0}, followed + 1, worker);
+  return from_any({point.leave(direction), direction}, throughput, {item, followed, 0}, followed + 1, worker);
 }
 
 /// Of a material that is diffuse alone.
@@ -262,6 +272,7 @@ struct HitLight::Impl::Step {
   float density = 0;            // per sr, the choice of the lobe included; 0: mirror or glass
   float gloss_probability = 0;  // with which the glossy lobes are followed
   bool taken = false;
+  bool straight = false;  // through a pane: no event
 };
 
 /// Light through the glossy lobes but for the lamps', from radiance records; nothing: it is to be followed.
@@ -301,6 +312,7 @@ bool HitLight::Impl::choose_step(const Bsdf& bsdf, const Vec3& wo, bool follow_g
     if (!(share[b] > 0)) return true;
     step.direction = branch[b].direction;
     step.weight = branch[b].weight * (sum / share[b]);
+    step.straight = branch[b].straight;
   }
   step.taken = true;
   return true;
@@ -326,25 +338,34 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
   const Rgb f = bsdf.evaluate_gloss(wo, light.direction);
   const float cosine = glm::dot(point.normal, light.direction);
   if (f == Rgb(0) || !(cosine > 0)) return Rgb(0);
-  const Ray ray = shadow_ray(point, light);
-  if (ray.t_max_m > 0 && rays.occluded(ray)) return Rgb(0);
+  const Rgb arrives = arriving_share(rays, point, light);
+  if (arrives == Rgb(0)) return Rgb(0);
   float density = lamp.probability;
   if (light.density > 0)
     density = density * light.density + gloss_probability * bsdf.density_gloss(wo, light.direction);
-  return f * light.value * (cosine / density);
+  return arrives * f * light.value * (cosine / density);
 }
 
 /// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
-/// Every light is counted once: unbiased but for the cache.
-Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const RayName& ray,
-                             std::uint32_t followed, Worker& worker) const {
+/// What the start's straight line sees of lamps is left out. Every other light is counted once: unbiased but
+/// for the cache.
+Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ray, std::uint32_t followed,
+                             Worker& worker, Landing* landing) const {
   const std::uint64_t item = ray.key();
   RandomStream random(seed, Stage::specular, item);
+  Way way(rays, start);
+  SurfacePoint point;
+  if (!way.next(point)) return Rgb(0);
+  Vec3 wo = -start.direction;
   Rgb sum(0);
   std::int64_t left = bounces;
+  // The last event: where the way began, and how it was chosen. None yet: the record's own.
+  std::optional<SurfacePoint> from;
+  Step last;
   for (std::uint32_t reflection = 0;; ++reflection) {
+    if (landing && !from) landing->distance_m = point.distance_m, landing->normal = point.geometric_normal;
     random.start_bounce(reflection);
-    const Bsdf bsdf(scene, point);
+    const Bsdf bsdf = way.bsdf(point);
     Step step;
     const std::optional<Rgb> gloss = bsdf.has_gloss() ? recorded(point, wo, left, worker) : std::nullopt;
     if (gloss) sum += throughput * *gloss;
@@ -356,7 +377,7 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const 
       if (!(cached && source.holds_direct)) {
         ArrivingLight light;
         lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
-        if (positive(light.lux) && arrives(light)) sum += f * light.lux;
+        if (positive(light.lux)) sum += f * light.lux * arriving(light);
       }
     }
     if (bsdf.has_gloss()) sum += throughput * gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
@@ -368,31 +389,39 @@ Rgb HitLight::Impl::from_any(SurfacePoint point, Vec3 wo, Rgb throughput, const 
       if (!(random.uniform() < survival)) break;
       throughput /= survival;
     }
+    if (!step.straight) {
+      from = point, last = step;
+      way = Way(rays, {point.leave(step.direction), step.direction});
+      wo = -step.direction;
+    }
     SurfacePoint next;
-    if (!trace(rays, {point.leave(step.direction), step.direction}, next)) {
-      sum += throughput * beyond(point, step);
+    if (!way.next(next)) {
+      if (from) sum += throughput * beyond(*from, last);
+      if (landing && !from) landing->distance_m = kInfinity, landing->normal = wo;
       break;
     }
-    const Rgb emitted = emitted_luminance(scene, next, -step.direction);
+    const Rgb emitted = from ? emitted_luminance(scene, next, wo) : Rgb(0);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
     if (lamp >= 0) {
       float weight = 1;
-      if (step.density > 0) {
+      if (last.density > 0) {
         const auto i = static_cast<std::size_t>(lamp);
-        const float cos_light = std::fabs(glm::dot(next.geometric_normal, step.direction));
-        const float other = lamps.probability(point, i) *
-                            lights.density(i, point.position, next.triangle, next.distance_m, cos_light);
-        weight = step.density / (step.density + other);
+        const float cos_light = std::fabs(glm::dot(next.geometric_normal, last.direction));
+        const float other = lamps.probability(*from, i) *
+                            lights.density(i, from->position, next.triangle, next.distance_m, cos_light);
+        weight = last.density / (last.density + other);
       }
       sum += throughput * emitted * weight;
     }
-    if (left == 1) break;
-    if (left > 0) --left;
+    if (!step.straight) {
+      if (left == 1) break;
+      if (left > 0) --left;
+    }
     if (reflection == kMostReflections) {
       worker.counters.count("gathered paths cut");
       break;
     }
-    point = next, wo = -step.direction;
+    point = next;
   }
   return sum;
 }
@@ -431,18 +460,21 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     if (impl_->bounces == 0) continue;
     const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
     worker.read = {};
+    Impl::Landing landing;
     h.radiance[i] = impl_->surface[point.material].diffuse
                         ? impl_->from_diffuse(point, -h.direction[i], lamp_points, ray, worker)
-                        : impl_->from_any(point, -h.direction[i], Rgb(1), ray, 0, worker);
+                        : impl_->from_any({origin, h.direction[i]}, Rgb(1), ray, 0, worker, &landing);
+    if (impl_->surface[point.material].straight)
+      h.distance_m[i] = landing.distance_m, h.hit_normal[i] = landing.normal;
     if (impl_->source.photon_lm > 0)
       noise.add(worker.read, h.projected_sr[i], glm::dot(h.direction[i], h.frame.z));
   }
   h.source = noise.all();
   for (LampSight& sight : std::span(worker.sights).first(worker.sight_count)) {
     const Rgb radiance = sight.brdf * sight.light.lux;
-    sight.arrived = impl_->arrives(sight.light);
-    if (sight.arrived)
-      h.radiance[sight.hit] += radiance;
+    sight.arrived = impl_->arriving(sight.light);
+    if (positive(sight.arrived))
+      h.radiance[sight.hit] += sight.arrived * radiance;
     else
       worker.hidden_radiance += radiance, ++worker.hidden;
   }
@@ -452,7 +484,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     bool arrived = true;
     for (const LampSight& sight : std::span(worker.sights).subspan(other.first, other.count)) {
       radiance += sight.brdf * sight.light.lux;
-      arrived = arrived && sight.arrived;
+      arrived = arrived && sight.arrived == Rgb(1);
     }
     if (arrived) h.lamps.add(radiance - other.radiance, kOfWhichOneTells);
   }

@@ -7,6 +7,7 @@
 #include "core/sampling.h"
 #include "scene/environment.h"
 #include "scene/offset.h"
+#include "scene/passage.h"
 
 namespace phos {
 namespace {
@@ -132,7 +133,8 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   const Vec3 direction = make_frame(point.normal).to_world(local);
   if (!(local.z > 0) || !(glm::dot(direction, point.geometric_normal) > 0)) return;
   SurfacePoint found;
-  const bool hit = trace(rays_, {point.leave(direction), direction}, found);
+  Rgb share(1);
+  const bool hit = trace_straight(rays_, {point.leave(direction), direction}, found, share);
   const Rgb luminance = hit ? emitted_luminance(rays_.scene(), found, -direction)
                             : background_luminance(rays_.scene(), direction);
   if (!(max_component(luminance) > 0)) return;
@@ -143,7 +145,7 @@ void LampSampler::by_ray(const SurfacePoint& point, const Vec2& u, float ray_sha
   const float by_lamp = probability(point, i) *
                         (hit ? lights_.density(i, point.position, found.triangle, found.distance_m, cos_light)
                              : lights_.density_beyond(point.position, direction));
-  light.lux = luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
+  light.lux = share * luminance * (local.z / (ray_share * local.z / kPi + (1 - ray_share) * by_lamp));
   light.certain = true;
 }
 

@@ -97,8 +97,9 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
       const float cosine = glm::dot(point.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
       if (extended && !(light.density > 0)) continue;
-      if (!in_sight(rays_, point, light)) continue;
-      const Rgb arriving = light.value * cosine / (extended ? light.density : 1.f);
+      const Rgb share = arriving_share(rays_, point, light);
+      if (share == Rgb(0)) continue;
+      const Rgb arriving = share * light.value * cosine / (extended ? light.density : 1.f);
       sum.illuminance += arriving / static_cast<float>(n);
       Rgb f = options_.cached_direct ? bsdf.evaluate_gloss(wo, light.direction)
                                      : bsdf.evaluate(wo, light.direction);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/passage.h"
 
 namespace phos {
 namespace {
@@ -20,8 +21,8 @@ Vec3 spread_direction(int i, int n, float low, float turns) {
   return Vec3(std::sqrt(std::max(0.f, 1 - z * z)) * cos_sin(t - std::floor(t)), z);
 }
 
-bool transmits(const Material& m) {
-  return m.model == Model::dielectric || m.model == Model::thin_dielectric || m.transmission > 0;
+bool transmits(const Scene& scene, const Material& m) {
+  return m.model == Model::dielectric || passes_straight(scene, m);
 }
 
 bool takes_records(const Bsdf& bsdf) {
@@ -67,7 +68,7 @@ bool SurfaceSides::shut_in(const SurfacePoint& point, bool look_again) const {
     SurfacePoint seen;
     if (!trace(rays_, {point.leave(direction), direction}, seen)) return false;
     if (seen.distance_m <= kTouching * point.error_m) continue;
-    if (transmits(rays_.scene().material[seen.material])) return false;
+    if (transmits(rays_.scene(), rays_.scene().material[seen.material])) return false;
     if (seen.front && !(look_again && shut_in(seen, false))) return false;
   }
   return true;

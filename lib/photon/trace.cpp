@@ -13,6 +13,7 @@
 #include "photon/emission.h"
 #include "photon/photon_file.h"
 #include "scene/bsdf.h"
+#include "scene/passage.h"
 
 namespace phos {
 namespace {
@@ -49,6 +50,7 @@ struct Flight {
   FluxSum units;  // of flux_lm
   Vec3 source_normal{0, 0, 1};
   std::uint32_t bounce = 0;
+  std::uint32_t events = 0;  // bounces and panes passed straight: numbers the random draws
   bool from_infinity = false;
   bool specular_only = true;  // since the light
 
@@ -88,8 +90,9 @@ class PathTracer {
       ++part.non_finite;
       return;
     }
-    Flight flight{start.ray,           start.flux_lm, units(start.flux_lm), start.source_normal, 0,
-                  start.from_infinity, true};
+    Flight flight;
+    flight.ray = start.ray, flight.flux_lm = start.flux_lm, flight.units = units(start.flux_lm);
+    flight.source_normal = start.source_normal, flight.from_infinity = start.from_infinity;
     part.emitted += flight.units;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
@@ -98,57 +101,65 @@ class PathTracer {
  private:
   FluxSum units(const Rgb& flux_lm) const { return FluxSum::of(flux_lm, units_per_lm_); }
 
-  /// To the next surface and off it again. False: the photon is no more.
+  /// To the next surface and off it again; straight through panes on the way. False: the photon is no more.
   bool step(Flight& flight, RandomStream& random, Part& part) const {
     if (log_) part.rays.push_back(flight.ray);
-    // Drawn before the ray is traced, so that the processor can work them out in the waits of the traversal.
-    random.start_bounce(flight.bounce + 1);
-    const float u_lobe = random.uniform();
-    const Vec2 u = random.uniform2();
-    Hit hit;
-    if (!rays_.intersect(flight.ray, hit)) {
-      part.escaped += flight.units;
-      ++part.escaped_paths;
-      return false;
+    Way way(rays_, flight.ray);
+    for (;;) {
+      // Drawn before the ray is traced, so that the processor can work them out in the waits of the
+      // traversal.
+      random.start_bounce(flight.events + 1);
+      const float u_lobe = random.uniform();
+      const Vec2 u = random.uniform2();
+      SurfacePoint point;
+      if (!way.next(point)) {
+        part.escaped += flight.units;
+        ++part.escaped_paths;
+        return false;
+      }
+      const Bsdf bsdf = way.bsdf(point);
+      if (stores(bsdf)) {
+        store(part.photons, flight, point);
+        part.stored += flight.units;
+      }
+      part.absorbed += flight.units;
+      const After after = scatter(bsdf, point, u_lobe, u, flight, random, part);
+      if (after == After::ended) return false;
+      flight.units = units(flight.flux_lm);
+      part.absorbed -= flight.units;
+      if (after == After::scattered) return true;
     }
-    const SurfacePoint point = rays_.surface(flight.ray, hit);
-    const Bsdf bsdf(rays_.scene(), point);
-    if (stores(bsdf)) {
-      store(part.photons, flight, point);
-      part.stored += flight.units;
-    }
-    part.absorbed += flight.units;
-    if (!scatter(bsdf, point, u_lobe, u, flight, random, part)) return false;
-    flight.units = units(flight.flux_lm);
-    part.absorbed -= flight.units;
-    return true;
   }
 
+  enum class After : std::uint8_t { ended, scattered, passed };
+
   /// Samples the material and plays Russian roulette.
-  bool scatter(const Bsdf& bsdf, const SurfacePoint& point, float u_lobe, const Vec2& u, Flight& flight,
-               RandomStream& random, Part& part) const {
-    if (flight.bounce == kMaxBounces) {
+  After scatter(const Bsdf& bsdf, const SurfacePoint& point, float u_lobe, const Vec2& u, Flight& flight,
+                RandomStream& random, Part& part) const {
+    if (flight.events == kMaxBounces) {
       ++part.too_long;
-      return false;
+      return After::ended;
     }
-    ++flight.bounce;
+    ++flight.events;
     const Vec3 wo = -flight.ray.direction;
     BsdfSample sample;
-    if (!bsdf.sample(wo, u_lobe, u, sample, TransportMode::flux)) return false;
+    if (!bsdf.sample(wo, u_lobe, u, sample, TransportMode::flux)) return After::ended;
     const Rgb flux = sample.weight * flight.flux_lm;
     if (!is_finite(flux)) {
       ++part.non_finite;
-      return false;
+      return After::ended;
     }
     const float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
-    if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return false;
+    if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return After::ended;
     flight.flux_lm = (1 / survival) * flux;
+    if (sample.straight) return After::passed;
+    ++flight.bounce;
     flight.ray = Ray{point.leave(sample.direction), sample.direction};
     flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
                                                                                    : -point.geometric_normal;
     flight.from_infinity = false;
     flight.specular_only = flight.specular_only && sample.specular;
-    return true;
+    return After::scattered;
   }
 
   const RayScene& rays_;

@@ -4,6 +4,7 @@
 
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/passage.h"
 
 namespace phos {
 
@@ -41,6 +42,7 @@ struct PathTracer::Walk {
   bool mirrored = false;     // the visible surface is a mirror or glass
   Rgb glossy{0};             // share of what comes along the path that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
+  std::int64_t events = 0;  // scatterings and panes passed: numbers the random draws
 };
 
 PathTracer::PathTracer(const RayScene& rays, const Luminaires& luminaires, const PathOptions& options)
@@ -70,12 +72,14 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
     if (!luminaires_->illuminate(i, point.position, u_triangle, random.uniform2(), light)) return;
     float scatter_density = 0;
     const Rgb f_cos = scatter(light.direction, scatter_density);
-    if (!positive(f_cos) || !in_sight(*rays_, point, light)) return;
+    if (!positive(f_cos)) return;
+    const Rgb share = arriving_share(*rays_, point, light);
+    if (!positive(share)) return;
     const float density = light.density * probability;
     if (light.density > 0)
-      sum += f_cos * light.value * (power_weight(density, scatter_density) / density);
+      sum += share * f_cos * light.value * (power_weight(density, scatter_density) / density);
     else
-      sum += f_cos * light.value / probability;
+      sum += share * f_cos * light.value / probability;
   };
   if (every_light) {
     for (std::size_t i = 0; i < share_.size(); ++i) add(i, 1);
@@ -122,19 +126,20 @@ void PathTracer::add_indirect(const Rgb& light, const Walk& walk, PathSample& su
   sum.indirect += (Rgb(1) - walk.glossy) * light;
 }
 
-/// Adds the light scattered at `point` once, and turns the walk into its next ray. False: the path ends.
-bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const {
-  const Bsdf bsdf(rays_->scene(), point);
+/// Adds the light scattered at `point` once, and turns the walk into its next ray, or lets it pass straight.
+/// `lit`: lamps count.
+PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, bool lit, Walk& walk,
+                                     PathSample& sum, RandomStream& random) const {
   const Vec3 wo = -walk.ray.direction;
-  random.start_bounce(static_cast<std::uint32_t>(walk.scatterings));
-  walk.every_light = sample_every_light(walk.scatterings);
-  if (bsdf.has_diffuse() || bsdf.has_gloss()) {
+  random.start_bounce(static_cast<std::uint32_t>(walk.events));
+  const bool every_light = sample_every_light(walk.scatterings);
+  if (lit && (bsdf.has_diffuse() || bsdf.has_gloss())) {
     const auto scatter = [&](const Vec3& wi, float& density) {
       const Rgb f = bsdf.evaluate(wo, wi);
       if (positive(f)) density = bsdf.density(wo, wi);
       return f * std::fabs(glm::dot(point.normal, wi));
     };
-    const Rgb light = walk.throughput * light_at(point, walk.every_light, scatter, random);
+    const Rgb light = walk.throughput * light_at(point, every_light, scatter, random);
     if (!walk.mirrored && walk.scatterings > 0)
       add_indirect(light, walk, sum);
     else
@@ -142,7 +147,14 @@ bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum,
   }
   BsdfSample next;
   const float u_lobe = random.uniform();
-  if (!bsdf.sample(wo, u_lobe, random.uniform2(), next)) return false;
+  if (!bsdf.sample(wo, u_lobe, random.uniform2(), next)) return Next::none;
+  ++walk.events;
+  if (next.straight) {
+    // No event of the path: densities and distances count from where the ray began.
+    walk.throughput *= next.weight;
+    return positive(walk.throughput) && walk.events < kMostBounces ? Next::straight : Next::none;
+  }
+  walk.every_light = every_light;
   if (walk.scatterings == 0) {
     walk.mirrored = next.specular;
     if (!next.specular && bsdf.has_gloss()) {
@@ -157,21 +169,27 @@ bool PathTracer::scatter(const SurfacePoint& point, Walk& walk, PathSample& sum,
   ++walk.scatterings;
   if (walk.scatterings >= kRouletteFrom) {
     const float survival = std::min(kMostSurvival, max_component(walk.throughput));
-    if (!(random.uniform() < survival)) return false;
+    if (!(random.uniform() < survival)) return Next::none;
     walk.throughput /= survival;
   }
-  return positive(walk.throughput) && walk.scatterings < kMostBounces;
+  return positive(walk.throughput) && walk.events < kMostBounces ? Next::ray : Next::none;
 }
 
 void PathTracer::follow(Walk walk, PathSample& sum, RandomStream& random) const {
-  SurfacePoint point;
-  while (trace(*rays_, walk.ray, point)) {
-    add_emission(emission_at(point, walk), walk, sum);
-    if (options_.bounces >= 0 && walk.scatterings >= options_.bounces) return;
-    if (options_.black_emitters && rays_->scene().material[point.material].emits()) return;
-    if (!scatter(point, walk, sum, random)) return;
+  for (Next next = Next::ray; next == Next::ray;) {
+    Way way(*rays_, walk.ray);
+    SurfacePoint point;
+    do {
+      if (!way.next(point)) return add_emission(emission_beyond(walk), walk, sum);
+      add_emission(emission_at(point, walk), walk, sum);
+      const Bsdf bsdf = way.bsdf(point);
+      const bool ends = options_.bounces >= 0 && walk.scatterings >= options_.bounces;
+      const bool black = options_.black_emitters && rays_->scene().material[point.material].emits();
+      if (black || (ends && !bsdf.passes_straight())) return;
+      next = scatter(point, bsdf, !ends, walk, sum, random);
+      if (ends && next != Next::straight) return;
+    } while (next == Next::straight);
   }
-  add_emission(emission_beyond(walk), walk, sum);
 }
 
 PathSample PathTracer::luminance(const Ray& ray, RandomStream& random) const {
@@ -199,7 +217,7 @@ Rgb PathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) con
   walk.ray = {sensor.leave(direction), direction, 0, kInfinity};
   walk.from = sensor.position;
   walk.density = local.z / kPi;
-  walk.scatterings = 1;
+  walk.scatterings = walk.events = 1;
   PathSample sum;
   follow(walk, sum, random);
   return lux + kPi * sum.total();  // cos / density = pi

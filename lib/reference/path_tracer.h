@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "core/vector.h"
+#include "scene/bsdf.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -30,6 +31,8 @@ struct PathSample {
   Rgb total() const { return emission + direct + indirect + glossy + specular; }
 };
 
+/// Light passes straight through panes, which is no scattering: shadow rays go on through them.
+///
 /// Path tracing with next-event estimation and multiple importance sampling (power heuristic) after Veach
 /// 1997, chapters 9 and 10, and Russian roulette by throughput. Const and usable from any thread; holds
 /// references.
@@ -53,7 +56,9 @@ class PathTracer {
   Rgb emission_beyond(const Walk& walk) const;
   static void add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum);
   static void add_indirect(const Rgb& light, const Walk& walk, PathSample& sum);
-  bool scatter(const SurfacePoint& point, Walk& walk, PathSample& sum, RandomStream& random) const;
+  enum class Next : std::uint8_t { none, ray, straight };
+  Next scatter(const SurfacePoint& point, const Bsdf& bsdf, bool lit, Walk& walk, PathSample& sum,
+               RandomStream& random) const;
   void follow(Walk walk, PathSample& sum, RandomStream& random) const;
   bool sample_every_light(std::int64_t scatterings) const;
 

@@ -1,6 +1,7 @@
 #include "scene/bsdf.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/sampling.h"
 #include "scene/merl.h"
@@ -10,6 +11,14 @@
 namespace phos {
 
 namespace {
+
+/// What is left after a length of glass; nothing where it absorbs without limit.
+Rgb left_after(const Rgb& absorption_per_m, float length_m) {
+  Rgb left(1);
+  for (int c = 0; c < 3; ++c)
+    if (absorption_per_m[c] > 0 && length_m > 0) left[c] = std::exp(-absorption_per_m[c] * length_m);
+  return left;
+}
 
 float normal_reflectance(float ior) {
   const float root = (ior - 1) / (ior + 1);
@@ -23,7 +32,7 @@ float normal_reflectance(float ior) {
 struct Bsdf::Looked {
   Rgb base;
   Vec4 metallic_roughness;
-  float anisotropy;
+  float anisotropy, transmission, alpha;
 };
 
 Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
@@ -31,22 +40,28 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
       geometric_normal_(point.geometric_normal),
       front_(point.front) {
   const Material& material = scene.material[point.material];
-  Rgb base = material.kd * Rgb(point.colour);
-  if (material.base_colour.used()) base *= Rgb(look_up(scene, material.base_colour, point.uv0, point.uv1));
+  Vec4 base = Vec4(material.kd, material.alpha) * point.colour;
+  if (material.base_colour.used()) base *= look_up(scene, material.base_colour, point.uv0, point.uv1);
   const auto texel = [&](const TextureUse& use) {
     return use.used() ? look_up(scene, use, point.uv0, point.uv1) : Vec4(1);
   };
   const float anisotropy =
       material.anisotropy > 0 ? material.anisotropy * texel(material.anisotropy_map).z : 0;
-  resolve(scene, material, {base, texel(material.metallic_roughness), anisotropy});
+  const float transmission =
+      material.transmission > 0 ? material.transmission * texel(material.transmission_map).x : 0;
+  if (material.model == Model::dielectric && !front_)
+    travelled_ = left_after(material.absorption_per_m, point.distance_m);
+  resolve(scene, material, {Rgb(base), texel(material.metallic_roughness), anisotropy, transmission, base.w});
 }
 
 Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
     : frame_(frame), geometric_normal_(frame.z) {
   const Material& m = scene.material[material];
+  const Vec4 base = mean_texel(scene, m.base_colour);
   resolve(scene, m,
-          {m.kd * Rgb(mean_texel(scene, m.base_colour)), mean_texel(scene, m.metallic_roughness),
-           m.anisotropy * mean_texel(scene, m.anisotropy_map).z});
+          {m.kd * Rgb(base), mean_texel(scene, m.metallic_roughness),
+           m.anisotropy * mean_texel(scene, m.anisotropy_map).z,
+           m.transmission * mean_texel(scene, m.transmission_map).x, m.alpha * base.w});
 }
 
 void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
@@ -76,6 +91,10 @@ void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& l
     case Model::thin_dielectric:
       delta_ = material.model == Model::dielectric ? Delta::dielectric : Delta::thin;
       if (!(ior_ > 0)) ior_ = 1;
+      sheet_ = base;
+      inside_ = material.inside;
+      absorption_per_m_ = material.absorption_per_m;
+      curve_ = material.curve.get();
       break;
     case Model::plastic:
       resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
@@ -90,6 +109,14 @@ void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& l
       lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
       break;
   }
+  if (material.alpha_mode == Material::Alpha::blend) cover(std::clamp(looked.alpha, 0.f, 1.f));
+}
+
+/// Every lobe is as strong as the share of the surface that is there. Solid glass has no share.
+void Bsdf::cover(float coverage) {
+  if (delta_ == Delta::dielectric) return;
+  coverage_ = coverage;
+  diffuse_ *= coverage, base_ *= coverage, specular_ *= coverage, f90_ *= coverage;
 }
 
 void Bsdf::resolve_rough(Lobe lobe, float alpha_x, float alpha_y) {
@@ -137,8 +164,9 @@ void Bsdf::resolve_metallic_roughness(const Material& material, const Looked& lo
   const float alpha = roughness * roughness;
   resolve_rough(Lobe::ggx, alpha + (1 - alpha) * looked.anisotropy * looked.anisotropy, alpha);
   const Rgb beneath = (1 - metallic) * base;
-  put_under_coat((1 - material.transmission) * beneath, max_component(f0), material.specular, 0);
-  sheet_ = material.transmission * beneath;
+  put_under_coat((1 - looked.transmission) * beneath, max_component(f0), material.specular, 0);
+  sheet_ = looked.transmission * beneath;
+  pane_share_ = (1 - metallic) * looked.transmission;
   if (max_component(sheet_) > 0 && delta_ == Delta::none) delta_ = Delta::sheet;
 }
 
@@ -180,7 +208,7 @@ Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count
 float Bsdf::density(const Vec3& wo, const Vec3& wi) const {
   Vec3 o, i;
   if (!above(wo, wi, o, i)) return 0;
-  if (lobe_ == Lobe::none && delta_ == Delta::none) return has_diffuse() ? i.z / kPi : 0.f;
+  if (lobe_ == Lobe::none && !has_specular()) return has_diffuse() ? i.z / kPi : 0.f;
   BsdfSample branches[2];
   // Choices weigh flux, so that luminance and photons share one density.
   const Choice p = choice(o, branches, specular_branches(wo, branches, TransportMode::flux));
@@ -208,7 +236,7 @@ bool Bsdf::sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, Tra
 }
 
 bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
-  if (lobe_ == Lobe::none && delta_ == Delta::none && !coated_) return sample_lambert(wo, u, result, mode);
+  if (lobe_ == Lobe::none && !has_specular() && !coated_) return sample_lambert(wo, u, result, mode);
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
   BsdfSample branches[2];
@@ -221,7 +249,8 @@ bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& resul
     if (mode == TransportMode::radiance) specular_branches(wo, branches, mode);
     result = branches[b];
     result.weight /= p.delta[b];
-    if (mode == TransportMode::flux) result.weight *= flux_correction(wo, result.direction);
+    if (mode == TransportMode::flux && !result.straight)
+      result.weight *= flux_correction(wo, result.direction);
     return true;
   }
   Vec3 i;
@@ -243,49 +272,96 @@ bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& resul
   return true;
 }
 
+/// Of light that meets the surface at o, the pane's own.
+PaneLayer Bsdf::layer(const Vec3& o) const {
+  PaneLayer layer;
+  if (delta_ == Delta::thin) {
+    layer = pane_layer(o.z, ior_, inside_);
+    const Rgb factor = curve_ ? sheet_ * curve_->at(o.z) : sheet_;
+    for (int k = 0; k < 2; ++k) {
+      // A curve says nothing of the reflectance: as glass of this index, as far as the curve leaves it.
+      if (curve_) layer.back[k] = glm::min(layer.back[k], Rgb(1) - factor);
+      layer.pass[k] = curve_ ? factor : layer.pass[k] * factor;
+      layer.back_behind[k] = layer.back[k];
+    }
+  } else if (max_component(sheet_) > 0 && delta_ != Delta::dielectric) {
+    const bool exact = coat_f90_ == 1;
+    const PaneLayer clear = exact ? pane_layer(o.z, std::max(ior_, 1.f), Rgb(1)) : PaneLayer();
+    const float f = coat_f0_ + (coat_f90_ - coat_f0_) * schlick_power(o.z);
+    for (int k = 0; k < 2; ++k) {
+      const Rgb pane = exact ? clear.pass[k] : Rgb((1 - f) / (1 + f));
+      layer.pass[k] = sheet_ * ((1 - pane_share_) * coat_transmittance(o) + pane_share_ * pane);
+      if (delta_ != Delta::schlick) continue;
+      // Of its own reflectance, a face's, the share that is a pane has two of.
+      layer.back[k] = schlick(o.z) / std::max(coverage_, 1e-6f) + pane_share_ * ((Rgb(1) - pane) - f);
+      layer.back[k] = layer.back_behind[k] = glm::max(layer.back[k], Rgb(0));
+    }
+  }
+  if (coverage_ < 1)
+    for (int k = 0; k < 2; ++k) {
+      layer.pass[k] = Rgb(1 - coverage_) + coverage_ * layer.pass[k];
+      layer.back[k] *= coverage_, layer.back_behind[k] *= coverage_;
+    }
+  return layer;
+}
+
+PaneLayer Bsdf::pane(const Vec3& wo) const {
+  const Vec3 o = frame_.to_local(wo);
+  if (!passes_straight() || !(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return {};
+  return packed_ ? pack_ : layer(o);
+}
+
+PaneLayer Bsdf::plate(const Vec3& wo, float thickness_m) const {
+  const float cosine = glm::dot(wo, frame_.z);
+  if (!(cosine > 0)) return {};
+  PaneLayer layer = pane_layer(cosine, std::max(ior_, 1.f), left_after(absorption_per_m_, thickness_m));
+  for (Rgb& pass : layer.pass) pass *= sheet_ * sheet_;  // the tint of either face
+  return layer;
+}
+
+void Bsdf::replace_pane(const PaneLayer& pack) {
+  packed_ = true, pack_ = pack;
+  if (delta_ == Delta::dielectric) delta_ = Delta::thin;
+}
+
 int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMode mode) const {
-  if (delta_ == Delta::none) return 0;
+  if (!has_specular()) return 0;
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return 0;
   int count = 0;
   const auto add = [&](const Vec3& local, const Rgb& weight, bool transmitted) {
     const Vec3 direction = glm::normalize(frame_.to_world(local));
     if (!(max_component(weight) > 0) || (glm::dot(direction, geometric_normal_) < 0) != transmitted) return;
-    branches[count++] = {direction, weight, 0, true, transmitted};
+    branches[count++] = {direction, weight, 0, true, transmitted, false};
   };
   const Vec3 reflected(-o.x, -o.y, o.z);
+  const bool straight = passes_straight();
+  const PaneLayer pane = straight ? packed_ ? pack_ : layer(o) : PaneLayer();
   switch (delta_) {
     case Delta::none:
+    case Delta::sheet:
       break;
     case Delta::mirror:
       add(reflected, specular_, false);
       break;
     case Delta::schlick:
-      add(reflected, schlick(o.z), false);
-      add(-o, coat_transmittance(o) * sheet_, true);
-      break;
-    case Delta::sheet:
-      add(-o, coat_transmittance(o) * sheet_, true);
+      add(reflected, max_component(sheet_) > 0 ? pane.reflectance() : schlick(o.z), false);
       break;
     case Delta::dielectric: {
       const float eta = front_ ? ior_ : 1 / ior_;
       float cos_t;
       const float f = fresnel_dielectric(o.z, eta, cos_t);
-      add(reflected, Rgb(f), false);
+      add(reflected, travelled_ * f, false);
       const float scale = mode == TransportMode::radiance ? 1 / (eta * eta) : 1.f;
-      add({-o.x / eta, -o.y / eta, -cos_t}, Rgb((1 - f) * scale), true);
+      add({-o.x / eta, -o.y / eta, -cos_t}, travelled_ * sheet_ * ((1 - f) * scale), true);
       break;
     }
-    case Delta::thin: {
-      // Both faces, and all that goes to and fro between them: 2F/(1+F) back.
-      float cos_t;
-      const float f = fresnel_dielectric(o.z, ior_, cos_t);
-      const float back = 2 * f / (1 + f);
-      add(reflected, Rgb(back), false);
-      add(-o, Rgb(1 - back), true);
+    case Delta::thin:
+      add(reflected, pane.reflectance(), false);
       break;
-    }
   }
+  if (const Rgb through = pane.transmittance(); straight && max_component(through) > 0)
+    branches[count++] = {-wo, through, 0, true, true, true};
   return count;
 }
 

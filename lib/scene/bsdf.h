@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "scene/pane.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 
@@ -13,6 +14,7 @@ struct BsdfSample {
   float density = 0;  ///< per sr over all non-specular lobes; 0 for a specular (delta) sample
   bool specular = false;
   bool transmitted = false;
+  bool straight = false;  ///< goes on as if nothing were there: no event of a path (specular and transmitted)
 };
 
 /// What travels along sampled paths. Radiance (luminance; paths from the eye) is scaled by (n_o / n_i)^2
@@ -41,6 +43,11 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// 1/T_mean for metallic_roughness, and 1/(T_mean + interreflection below the coat) for plastic (`kd` is then
 /// the pigment's own reflectance, as in the physical model of a coat of refractive index ior). A GGX or Ward
 /// roughness below kSmoothestAlpha is a mirror.
+///
+/// Light passes straight through panes (thin_dielectric), thin sheets (transmission of metallic_roughness)
+/// and the share of a surface that alpha blending leaves open. A sheet passes base colour x transmission x (1
+/// - F of its coat), as glTF has it, where little passes, and towards a transmission of 1 that of a pane, so
+/// that it is continuous with clear glass.
 class Bsdf {
  public:
   static constexpr float kSmoothestAlpha = 1e-3f;
@@ -71,7 +78,19 @@ class Bsdf {
   /// difference.
   Rgb diffuse_reflectance() const { return diffuse_; }
   bool has_diffuse() const { return max_component(diffuse_) > 0; }
-  bool has_specular() const { return delta_ != Delta::none; }        ///< delta lobes: mirror, smooth glass
+  /// Delta lobes: mirror, smooth glass, what passes straight.
+  bool has_specular() const { return delta_ != Delta::none || coverage_ < 1; }
+  bool passes_straight() const {
+    return delta_ == Delta::thin || coverage_ < 1 ||
+           (delta_ != Delta::dielectric && max_component(sheet_) > 0);
+  }
+  /// What passes straight towards -wo, and what a delta lobe reflects; 0 for wo below the surface.
+  PaneLayer pane(const Vec3& wo) const;
+  /// A plate of solid glass whose other face lies `thickness_m` behind the point, parallel to it.
+  PaneLayer plate(const Vec3& wo, float thickness_m) const;
+  /// From here on passes and reflects what a plate or a pack of panes does, of which the point is the first
+  /// face.
+  void replace_pane(const PaneLayer& pack);
   bool has_gloss() const { return lobe_ != Lobe::none || coated_; }  ///< neither diffuse nor delta
   /// evaluate() without the Lambert part. Under a coat it is signed: the coat takes light from the Lambert
   /// part at grazing angles and leaves a little more elsewhere; over all directions that part adds up to
@@ -111,6 +130,8 @@ class Bsdf {
   Choice choice(const Vec3& o, const BsdfSample branches[2], int count) const;
   float broad_share(const Vec3& o) const;
   float flux_correction(const Vec3& wo, const Vec3& wi) const;
+  PaneLayer layer(const Vec3& o) const;
+  void cover(float coverage);
 
   Frame frame_;
   Vec3 geometric_normal_;
@@ -123,6 +144,14 @@ class Bsdf {
   Lobe lobe_ = Lobe::none;
   Delta delta_ = Delta::none;
   const MerlBrdf* measured_ = nullptr;
+  const TransmittanceCurve* curve_ = nullptr;
+  Rgb inside_{1};     // of a pane
+  Rgb travelled_{1};  // of a solid: what is left of light that came here through its inside
+  Rgb absorption_per_m_{0};
+  float pane_share_ = 0;  // of a sheet: how much of a pane it is
+  float coverage_ = 1;    // share of the surface that is there
+  PaneLayer pack_;
+  bool packed_ = false;
   bool coated_ = false, front_ = true;
 };
 

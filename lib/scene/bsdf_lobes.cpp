@@ -74,7 +74,7 @@ Rgb Bsdf::lobe_value(const Vec3& o, const Vec3& i) const {
       return schlick(glm::dot(o, h)) * (ggx.distribution(h) * ggx.visibility(o, i));
     }
     case Lobe::measured:
-      return measured_->gloss(o, i);
+      return coverage_ * measured_->gloss(o, i);
   }
   return Rgb(0);
 }
@@ -86,7 +86,7 @@ float Bsdf::lobe_albedo(float cos_theta) const {
     case Lobe::ggx:
       return luminance(schlick(cos_theta));
     case Lobe::measured:
-      return measured_->gloss_albedo(cos_theta);
+      return coverage_ * measured_->gloss_albedo(cos_theta);
     default:
       return luminance(specular_);
   }

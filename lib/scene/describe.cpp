@@ -147,7 +147,8 @@ Json describe_material(const MaterialSummary& s) {
   if (s.glossy && m.model != Model::phong) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
   if (m.emits()) j["luminance_cd_m2"] = numbers(m.emission);
   Json textures = Json::Array{};
-  constexpr const char* kNames[] = {"base colour", "metallic-roughness", "normal", "emissive", "anisotropy"};
+  constexpr const char* kNames[] = {"base colour", "metallic-roughness", "normal",
+                                    "emissive",    "anisotropy",         "transmission"};
   for (std::size_t i = 0; i < std::size(kNames); ++i) {
     if (m.texture_uses()[i]->used()) textures.push_back(kNames[i]);
   }

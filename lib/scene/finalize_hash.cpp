@@ -6,6 +6,7 @@
 #include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/merl.h"
+#include "scene/pane.h"
 #include "scene/photometry.h"
 
 namespace phos {
@@ -60,6 +61,14 @@ void add_material(Hasher& hasher, const Material& m) {
     hasher.add(m.anisotropy_rad);
     add_use(hasher, m.anisotropy_map);
   }
+  if (m.inside != Rgb(1)) add_vector(hasher, m.inside);
+  if (m.absorption_per_m != Rgb(0)) add_vector(hasher, m.absorption_per_m);
+  if (m.transmission_map.used()) add_use(hasher, m.transmission_map);
+  if (m.curve)
+    for (const TransmittanceCurve::Point& p : m.curve->points()) {
+      hasher.add(static_cast<float>(p.angle_deg));
+      hasher.add(static_cast<float>(p.transmittance));
+    }
   if (m.measured >= 0) hasher.add(m.measured);
   hasher.add(m.double_sided);
   hasher.add(m.alpha_mode);

@@ -18,7 +18,7 @@ constexpr const char* kExtensions[] = {
     "EXT_lights_ies",           "KHR_animation_pointer",           "KHR_lights_punctual",
     "KHR_materials_anisotropy", "KHR_materials_emissive_strength", "KHR_materials_ior",
     "KHR_materials_specular",   "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_mesh_quantization",    "KHR_texture_transform",
+    "KHR_materials_volume",     "KHR_mesh_quantization",           "KHR_texture_transform",
 };
 
 constexpr const char* kVersion1 = "glTF 1.0 is not supported; convert it to 2.0";

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/animation.h"
+#include "scene/glass_sheets.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_luminaires.h"
@@ -41,6 +42,7 @@ class SceneReader {
     choose_origin(rest);
     place_nodes(poses);
     for (const std::size_t node : order_) read_node(node, poses[node]);
+    make_sheets_thin(scene_);
     given_.require_all_found();
     if (skipped_primitives_) {
       scene_.warnings.push_back(

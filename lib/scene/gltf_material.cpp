@@ -3,10 +3,13 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "file/atomic_file.h"
 #include "scene/gltf_uri.h"
 #include "scene/merl.h"
+#include "scene/pane.h"
 
 namespace phos {
 namespace {
@@ -15,6 +18,8 @@ namespace {
 constexpr double kSmoothRoughness = 0.1;
 
 constexpr const char* kAnisotropy = "extensions/KHR_materials_anisotropy";
+constexpr const char* kTransmission = "extensions/KHR_materials_transmission";
+constexpr const char* kVolume = "extensions/KHR_materials_volume";
 
 struct ImageBytes {
   std::string name, bytes, missing;
@@ -202,15 +207,59 @@ class MaterialReader {
                                    static_cast<int>(texture), static_cast<int>(set), false);
   }
 
-  /// KHR_materials_transmission is an infinitely thin pane unless KHR_materials_volume gives it a body.
+  /// KHR_materials_transmission is an infinitely thin sheet unless KHR_materials_volume gives it a body.
   void read_transmission() {
     if (find_path(*json_, "extras/phos/brdf")) return;
-    if (material_.transmission >= 0.5f && material_.roughness <= kSmoothRoughness) {
-      const bool solid = number_at(*json_, "extensions/KHR_materials_volume/thicknessFactor", 0) > 0;
-      become(solid ? Model::dielectric : Model::thin_dielectric);
+    const double texture = number_at(*json_, std::string(kTransmission) + "/transmissionTexture/index", -1);
+    const double set = number_at(*json_, std::string(kTransmission) + "/transmissionTexture/texCoord", 0);
+    material_.transmission_map = use((std::string(kTransmission) + "/transmissionTexture").c_str(),
+                                     static_cast<int>(texture), static_cast<int>(set), false);
+    if (!find_path(*json_, "pbrMetallicRoughness/metallicFactor") && !material_.metallic_roughness.used()) {
+      material_.metallic = 0;  // metal passes nothing, and nobody means that
+      warn("it has no metallicFactor, which makes it a metal; as it transmits, it is read as 0");
+    }
+    const bool smooth = material_.roughness <= kSmoothRoughness && !material_.metallic_roughness.used();
+    const Rgb tint = material_.kd;
+    const double thickness_m = number_at(*json_, std::string(kVolume) + "/thicknessFactor", 0);
+    if (!(thickness_m >= 0)) fail("thicknessFactor must not be negative");
+    if (thickness_m > 0 && smooth && material_.transmission >= 0.5f) {
+      become(Model::dielectric);
+      material_.kd = material_.transmission * tint;
+      material_.thickness_m = static_cast<float>(thickness_m);
+      material_.absorption_per_m = read_attenuation();
+      if (material_.transmission_map.used())
+        warn("its transmissionTexture is not used: solid glass transmits all over");
       return;
     }
-    warn("rough or partial transmission is not modelled: it only reflects");
+    if (thickness_m > 0)
+      warn("rough or partial transmission of a solid is not modelled: its surface is read as a thin sheet");
+    if (!smooth) {
+      warn("it transmits as a thin sheet that does not scatter what passes, however rough it is");
+    } else if (material_.transmission == 1 && !material_.transmission_map.used() && material_.metallic == 0 &&
+               material_.specular == 1 && material_.specular_colour == Rgb(1)) {
+      become(Model::thin_dielectric);
+      material_.kd = tint;
+    } else {
+      material_.roughness = material_.alpha_x = material_.alpha_y = 0;
+    }
+  }
+
+  /// KHR_materials_volume: light falls to attenuationColor within attenuationDistance.
+  Rgb read_attenuation() const {
+    const Json* volume = find_path(*json_, kVolume);
+    const double distance_m =
+        number_at(*volume, "attenuationDistance", std::numeric_limits<double>::infinity());
+    const Rgb colour = rgb_at(*volume, "attenuationColor").value_or(Rgb(1));
+    check_colour("attenuationColor", colour);
+    if (!(distance_m >= 0)) fail("attenuationDistance must not be negative");
+    Rgb absorption(0);
+    for (int c = 0; c < 3; ++c) {
+      if (colour[c] >= 1 || std::isinf(distance_m)) continue;
+      absorption[c] = colour[c] > 0 && distance_m > 0
+                          ? static_cast<float>(-std::log(static_cast<double>(colour[c])) / distance_m)
+                          : kInfinity;
+    }
+    return absorption;
   }
 
   /// Only models with a Lambert part keep kd.
@@ -298,6 +347,10 @@ class MaterialReader {
         if (material_.alpha_x > 0 || material_.alpha_y > 0)
           warn("rough glass is not modelled: it is read as smooth");
         material_.alpha_x = material_.alpha_y = 0;
+        material_.kd = colour(phos, "tint").value_or(Rgb(1));
+        if (max_component(material_.kd) > 1) fail("extras.phos.tint must be at most 1");
+        if (material_.alpha_mode != Material::Alpha::blend) material_.base_colour = TextureUse();
+        if (model->second == Model::thin_dielectric) read_pane(phos);
         break;
       case Model::measured:
         read_measured(phos);
@@ -308,6 +361,46 @@ class MaterialReader {
     material_.exponent = parameter(phos, "exponent", 1);
     if (model->second == Model::ward && !(material_.alpha_x > 0 && material_.alpha_y > 0)) {
       fail("extras.phos: ward needs ax and ay above 0");
+    }
+  }
+
+  /// "transmittance" at normal incidence, a number or three, or "transmittance_by_angle", as glass makers
+  /// state them.
+  void read_pane(const Json& phos) {
+    const Json* normal = phos.find("transmittance");
+    const Json* by_angle = phos.find("transmittance_by_angle");
+    if (normal && by_angle)
+      fail("extras.phos has both transmittance and transmittance_by_angle; give one of them");
+    if (by_angle) material_.curve = read_curve(*by_angle);
+    if (!normal) return;
+    const Rgb t = normal->is_number() ? Rgb(parameter(phos, "transmittance", 1))
+                                      : colour(phos, "transmittance").value_or(Rgb(1));
+    for (int c = 0; c < 3; ++c) {
+      const auto ior = static_cast<double>(material_.ior), given = static_cast<double>(t[c]);
+      const double most = static_cast<double>(pane_layer(1, material_.ior, Rgb(1)).transmittance().x);
+      if (given > most * (1 + 1e-6))
+        fail(text("extras.phos.transmittance ", shortest(t[c]), " cannot be: a pane of ior ", shortest(ior),
+                  " without absorption has ", shortest(static_cast<float>(most))));
+      material_.inside[c] = static_cast<float>(std::min(internal_transmittance(given, ior), 1.0));
+    }
+  }
+
+  std::shared_ptr<const TransmittanceCurve> read_curve(const Json& table) const {
+    std::vector<TransmittanceCurve::Point> points;
+    const auto malformed = [&]() {
+      fail("extras.phos.transmittance_by_angle must be pairs [degrees, share]");
+    };
+    if (!table.is_array()) malformed();
+    for (const Json& pair : table.as_array()) {
+      if (!pair.is_array() || pair.as_array().size() != 2 || !pair.as_array()[0].is_number() ||
+          !pair.as_array()[1].is_number())
+        malformed();
+      points.push_back({pair.as_array()[0].as_number(), pair.as_array()[1].as_number()});
+    }
+    try {
+      return std::make_shared<const TransmittanceCurve>(std::move(points));
+    } catch (const std::runtime_error& e) {
+      fail(text("extras.phos.transmittance_by_angle ", e.what()));
     }
   }
 

@@ -29,9 +29,12 @@ Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {
   return {point.leave(light.direction), light.direction};
 }
 
-bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
-  const Ray ray = shadow_ray(from, light);
-  return !(ray.t_max_m > 0) || !rays.occluded(ray);
+Rgb arriving_share(const RayScene& rays, const Ray& shadow_ray) {
+  return shadow_ray.t_max_m > 0 ? rays.transmittance(shadow_ray) : Rgb(1);
+}
+
+Rgb arriving_share(const RayScene& rays, const SurfacePoint& from, const Illumination& light) {
+  return arriving_share(rays, shadow_ray(from, light));
 }
 
 Rgb background_luminance(const Scene& scene, const Vec3& direction) {

@@ -52,11 +52,14 @@ struct EmissionPoint {
   float density = 0;  ///< per m2 (of one side)
 };
 
-/// The ray that must be free for a light's sample to reach a point; t_max_m as of ray_between().
+/// The ray along which a light's sample reaches a point; t_max_m as of ray_between().
 Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
 
-/// Is there nothing between a point and a sample of a light?
-bool in_sight(const RayScene& rays, const SurfacePoint& from, const Illumination& light);
+/// Share of the light, by channel, that gets along a shadow ray, straight through panes; all of it where
+/// t_max_m is not above 0.
+Rgb arriving_share(const RayScene& rays, const Ray& shadow_ray);
+/// The same from a sample of a light to a point.
+Rgb arriving_share(const RayScene& rays, const SurfacePoint& from, const Illumination& light);
 
 class Luminaires {
   /// What of a light is sampled from a place near it: a facet or the parallelogram.

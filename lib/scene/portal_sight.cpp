@@ -32,7 +32,7 @@ PortalSight::PortalSight(const RayScene& rays, std::span<const Portal> portals) 
         const Vec2 on = random.uniform2();
         const Vec3 from = box_.lo + box_.size() * ((at + place) / static_cast<float>(kCells));
         const Vec3 direction = normalized_or_zero(p.at(p.triangle ? sample_triangle(on) : on) - from);
-        free += direction != Vec3(0) && !rays.occluded({from, direction});
+        free += direction != Vec3(0) && max_component(rays.transmittance({from, direction})) > 0;
       }
       // As if half of one more were free: so few lines do not tell that it is hidden.
       free_[cell * portals_ + k] = (static_cast<float>(free) + 0.5f) / (static_cast<float>(kLines) + 1);

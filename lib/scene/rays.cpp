@@ -12,6 +12,7 @@
 #include "core/last_words.h"
 #include "core/parallel.h"
 #include "scene/offset.h"
+#include "scene/passage.h"
 #include "scene/shading_frame.h"
 #include "scene/texture.h"
 
@@ -19,7 +20,8 @@ namespace phos {
 
 namespace {
 
-constexpr unsigned kOpaque = 0, kMasked = 1;
+// Geometries: what is hit; what is hit but for holes; what light may pass straight through.
+constexpr unsigned kOpaque = 0, kMasked = 1, kPane = 2, kGeometries = 3;
 
 /// What every hit on a triangle needs of it, in one cache line.
 struct alignas(64) Facet {
@@ -40,7 +42,7 @@ bool is_flat(const Scene& scene, const Triangle& triangle, const Vec3& normal) {
   });
 }
 
-/// A texel that rays pass through. Blending is not simulated: what is less than half there is a hole.
+/// A texel that rays pass through.
 bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
   const Material& material = scene.material_of(triangle);
   float alpha = material.alpha;
@@ -53,7 +55,45 @@ bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
     alpha *= (1 - u - v) * scene.colour[corner[0]].w + u * scene.colour[corner[1]].w +
              v * scene.colour[corner[2]].w;
   }
-  return alpha < (material.alpha_mode == Material::Alpha::mask ? material.alpha_cutoff : 0.5f);
+  return alpha < material.alpha_cutoff;
+}
+
+/// Hits on panes, of rays that go on: of each ray of a packet, in any order.
+struct PaneLog {
+  struct Entry {
+    std::uint32_t ray;
+    PaneHit hit;
+  };
+  std::vector<Entry> entries;
+
+  /// Of one ray, up to a distance; valid until the next call.
+  std::span<PaneHit> of(std::uint32_t ray, float end_m) {
+    own_.clear();
+    for (const Entry& e : entries)
+      if (e.ray == ray && e.hit.distance_m <= end_m) own_.push_back(e.hit);
+    return own_;
+  }
+
+ private:
+  std::vector<PaneHit> own_;
+};
+
+/// What is passed to Embree with a ray; `log`: where hits on panes are put down, while the ray goes on; null:
+/// they are hits like others.
+struct Context {
+  RTCIntersectContext embree;  // first, as Embree hands on its address
+  PaneLog* log = nullptr;
+
+  explicit Context(bool side_by_side = false, PaneLog* pane_log = nullptr) : log(pane_log) {
+    rtcInitIntersectContext(&embree);
+    if (side_by_side) embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+};
+
+PaneLog& fresh_log() {
+  thread_local PaneLog log;
+  log.entries.clear();
+  return log;
 }
 
 /// Lengths of a scene in units of the tree, a power of two so that nothing is rounded. Embree takes triangles
@@ -78,18 +118,11 @@ void pack(std::span<const Ray> rays, float units_per_m, int (&valid)[kPacket], R
     packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
     packet.tnear[i] = units_per_m * ray.t_min_m, packet.tfar[i] = units_per_m * ray.t_max_m;
     packet.time[i] = 0, packet.mask[i] = 0xffffffffu;
-    packet.id[i] = 0, packet.flags[i] = 0;
+    packet.id[i] = static_cast<unsigned>(i), packet.flags[i] = 0;
   }
   // Where the machine's packets are narrower, Embree takes no notice of `valid` but of a ray's interval.
   std::fill(packet.tnear + rays.size(), packet.tnear + kPacket, 0.f);
   std::fill(packet.tfar + rays.size(), packet.tfar + kPacket, -1.f);
-}
-
-RTCIntersectContext side_by_side() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
 }
 
 RTCRayHit embree_ray(const Ray& ray, float units_per_m) {
@@ -120,9 +153,10 @@ struct RayScene::Impl {
   float units_per_m = 1, m_per_unit = 1;
   RTCDevice device = nullptr;
   RTCScene tree = nullptr;
-  std::vector<std::uint32_t> triangle_of[2];  // per Embree geometry; empty where primitive i is triangle i
-  std::vector<Facet> facet;                   // per triangle
-  std::vector<Reads> reads;                   // per material
+  std::vector<std::uint32_t>
+      triangle_of[kGeometries];  // per Embree geometry; empty where primitive i is triangle i
+  std::vector<Facet> facet;      // per triangle
+  std::vector<Reads> reads;      // per material
 
   std::string trouble;  // what Embree said last
 
@@ -134,7 +168,11 @@ struct RayScene::Impl {
   std::uint32_t triangle(unsigned geometry, unsigned primitive) const {
     return triangle_of[geometry].empty() ? primitive : triangle_of[geometry][primitive];
   }
+  unsigned geometry_of(std::uint32_t triangle, const std::vector<std::uint8_t>& straight) const;
+  bool has_panes() const { return !triangle_of[kPane].empty(); }
   static void filter(const RTCFilterFunctionNArguments* args);
+  static void pane_filter(const RTCFilterFunctionNArguments* args);
+  Rgb transmittance(const RayScene& self, const Ray& ray, std::span<PaneHit> hits) const;
 };
 
 void RayScene::Impl::make_device(const std::string& isa) {
@@ -200,6 +238,26 @@ void RayScene::Impl::filter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+/// The same of panes: a ray that keeps a log goes on.
+void RayScene::Impl::pane_filter(const RTCFilterFunctionNArguments* args) {
+  const Impl& impl = *static_cast<const Impl*>(args->geometryUserPtr);
+  PaneLog* log = reinterpret_cast<const Context*>(args->context)->log;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const std::uint32_t triangle = impl.triangle(kPane, RTCHitN_primID(args->hit, args->N, i));
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    const bool masked =
+        impl.scene.material[impl.facet[triangle].material].alpha_mode == Material::Alpha::mask;
+    if (masked && is_hole(impl.scene, triangle, u, v)) {
+      args->valid[i] = 0;
+    } else if (log) {
+      const float distance_m = impl.m_per_unit * RTCRayN_tfar(args->ray, args->N, i);
+      log->entries.push_back({RTCRayN_id(args->ray, args->N, i), {distance_m, triangle, u, v}});
+      args->valid[i] = 0;
+    }
+  }
+}
+
 void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* triangles) {
   const std::size_t count = triangles ? triangles->size() : scene.triangle.size();
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -221,6 +279,10 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
       rtcSetGeometryUserData(geometry, this);
       rtcSetGeometryIntersectFilterFunction(geometry, filter);
       rtcSetGeometryOccludedFilterFunction(geometry, filter);
+    } else if (id == kPane) {
+      rtcSetGeometryUserData(geometry, this);
+      rtcSetGeometryIntersectFilterFunction(geometry, pane_filter);
+      rtcSetGeometryOccludedFilterFunction(geometry, pane_filter);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tree, geometry, id);
@@ -229,21 +291,28 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
   throw_if_failed();
 }
 
+/// Plane faces of solid glass may have parallel ones behind them.
+unsigned RayScene::Impl::geometry_of(std::uint32_t triangle,
+                                     const std::vector<std::uint8_t>& straight) const {
+  const Facet& f = facet[triangle];
+  const Material& m = scene.material[f.material];
+  if (straight[f.material] || (m.model == Model::dielectric && f.flat)) return kPane;
+  return m.alpha_mode == Material::Alpha::mask ? kMasked : kOpaque;
+}
+
 void RayScene::Impl::build() {
   units_per_m = tree_units_per_m(scene), m_per_unit = 1 / units_per_m;
   tree = rtcNewScene(device);
   throw_if_failed();
   rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
-  std::vector<std::uint32_t> triangles[2];
-  for (std::size_t i = 0; i < scene.triangle.size(); ++i) {
-    const auto index = static_cast<std::uint32_t>(i);
-    const bool opaque = scene.material_of(index).alpha_mode == Material::Alpha::opaque;
-    triangles[opaque ? kOpaque : kMasked].push_back(index);
-  }
-  if (triangles[kMasked].empty()) {
+  std::vector<std::uint8_t> straight;  // per material
+  for (const Material& m : scene.material) straight.push_back(passes_straight(scene, m));
+  std::vector<std::uint32_t> triangles[kGeometries];
+  for (std::uint32_t i = 0; i < scene.triangle.size(); ++i) triangles[geometry_of(i, straight)].push_back(i);
+  if (triangles[kOpaque].size() == scene.triangle.size()) {
     if (!scene.triangle.empty()) attach(kOpaque, nullptr);
   } else {
-    for (const unsigned id : {kOpaque, kMasked}) {
+    for (unsigned id = 0; id < kGeometries; ++id) {
       triangle_of[id] = std::move(triangles[id]);
       if (!triangle_of[id].empty()) attach(id, &triangle_of[id]);
     }
@@ -268,11 +337,10 @@ const Scene& RayScene::scene() const { return impl_->scene; }
 void* RayScene::native() const { return impl_->tree; }
 
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Context context;
   alignas(16) RTCRayHit query = embree_ray(ray, impl_->units_per_m);
   const NoFloatTraps traps;  // Embree divides by zero components of directions
-  rtcIntersect1(impl_->tree, &context, &query);
+  rtcIntersect1(impl_->tree, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.distance_m = impl_->m_per_unit * query.ray.tfar;
   hit.triangle = impl_->triangle(query.hit.geomID, query.hit.primID);
@@ -282,7 +350,7 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
 
 void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
   PHOS_CHECK(rays.size() == hits.size(), rays.size(), " rays, ", hits.size(), " hits");
-  RTCIntersectContext context = side_by_side();
+  Context context(true);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     alignas(64) int valid[kPacket] = {};
@@ -291,7 +359,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     for (std::size_t i = 0; i < count; ++i)
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     const NoFloatTraps traps;  // Embree divides by zero components of directions
-    rtcIntersect16(valid, impl_->tree, &context, &packet);
+    rtcIntersect16(valid, impl_->tree, &context.embree, &packet);
     for (std::size_t i = 0; i < count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
       hits[first + i] = {impl_->m_per_unit * packet.ray.tfar[i],
@@ -303,7 +371,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
   PHOS_CHECK(rays.size() == blocked.size(), rays.size(), " rays, ", blocked.size(), " answers");
-  RTCIntersectContext context = side_by_side();
+  Context context(true);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     if (count == 1) {
@@ -314,19 +382,88 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> block
     alignas(64) RTCRay16 packet;
     pack(rays.subspan(first, count), impl_->units_per_m, valid, packet);
     const NoFloatTraps traps;  // Embree divides by zero components of directions
-    rtcOccluded16(valid, impl_->tree, &context, &packet);
+    rtcOccluded16(valid, impl_->tree, &context.embree, &packet);
     for (std::size_t i = 0; i < count; ++i)
       blocked[first + i] = packet.tfar[i] == -std::numeric_limits<float>::infinity();
   }
 }
 
 bool RayScene::occluded(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Context context;
   RTCRayHit query = embree_ray(ray, impl_->units_per_m);
   const NoFloatTraps traps;  // Embree divides by zero components of directions
-  rtcOccluded1(impl_->tree, &context, &query.ray);
+  rtcOccluded1(impl_->tree, &context.embree, &query.ray);
   return query.ray.tfar < 0;
+}
+
+bool RayScene::has_panes() const { return impl_->has_panes(); }
+
+bool RayScene::through(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const {
+  crossings.clear();
+  if (!impl_->has_panes()) return intersect(ray, hit);
+  PaneLog& log = fresh_log();
+  Context context(false, &log);
+  alignas(16) RTCRayHit query = embree_ray(ray, impl_->units_per_m);
+  {
+    const NoFloatTraps traps;  // Embree divides by zero components of directions
+    rtcIntersect1(impl_->tree, &context.embree, &query);
+  }
+  const bool found = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  if (found)
+    hit = {impl_->m_per_unit * query.ray.tfar, impl_->triangle(query.hit.geomID, query.hit.primID),
+           query.hit.u, query.hit.v};
+  const PaneHit* end = find_crossings(*this, ray, log.of(0, found ? hit.distance_m : kInfinity), crossings);
+  if (end) hit = {end->distance_m, end->triangle, end->u, end->v};
+  return found || end;
+}
+
+/// Of a ray that nothing else is in the way of.
+Rgb RayScene::Impl::transmittance(const RayScene& self, const Ray& ray, std::span<PaneHit> hits) const {
+  if (hits.empty()) return Rgb(1);
+  thread_local std::vector<Crossing> crossings;
+  if (find_crossings(self, ray, hits, crossings)) return Rgb(0);
+  StraightLight light;
+  for (const Crossing& c : crossings) light.add(c, ray.direction);
+  return light.transmittance() * light.nearer(ray.t_max_m);
+}
+
+Rgb RayScene::transmittance(const Ray& ray) const {
+  if (!impl_->has_panes()) return Rgb(occluded(ray) ? 0.f : 1.f);
+  PaneLog& log = fresh_log();
+  Context context(false, &log);
+  RTCRayHit query = embree_ray(ray, impl_->units_per_m);
+  {
+    const NoFloatTraps traps;  // Embree divides by zero components of directions
+    rtcOccluded1(impl_->tree, &context.embree, &query.ray);
+  }
+  if (query.ray.tfar < 0) return Rgb(0);
+  return impl_->transmittance(*this, ray, log.of(0, kInfinity));
+}
+
+void RayScene::transmittance(std::span<const Ray> rays, std::span<Rgb> shares) const {
+  PHOS_CHECK(rays.size() == shares.size(), rays.size(), " rays, ", shares.size(), " answers");
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    if (count == 1) {
+      shares[first] = transmittance(rays[first]);
+      break;
+    }
+    PaneLog& log = fresh_log();
+    Context context(true, &log);
+    alignas(64) int valid[kPacket] = {};
+    alignas(64) RTCRay16 packet;
+    pack(rays.subspan(first, count), impl_->units_per_m, valid, packet);
+    {
+      const NoFloatTraps traps;  // Embree divides by zero components of directions
+      rtcOccluded16(valid, impl_->tree, &context.embree, &packet);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool blocked = packet.tfar[i] == -std::numeric_limits<float>::infinity();
+      shares[first + i] = blocked ? Rgb(0)
+                                  : impl_->transmittance(*this, rays[first + i],
+                                                         log.of(static_cast<std::uint32_t>(i), kInfinity));
+    }
+  }
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/options.h"
 #include "scene/scene.h"
@@ -42,6 +43,8 @@ struct SurfacePoint {
   }
 };
 
+struct Crossing;
+
 struct RayOptions {
   std::string isa;  ///< "" = best of this machine; "sse2" for byte-exact files across machines
 };
@@ -58,13 +61,23 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   const Scene& scene() const;
-  /// Nearest hit, alpha-masked texels passed through (blended ones too, below half coverage). False if the
-  /// ray escapes.
+  /// Nearest hit, alpha-masked texels passed through. False if the ray escapes.
   bool intersect(const Ray& ray, Hit& hit) const;
   /// The same for each of several rays that run side by side, faster; hits of rays that escape stay as they
   /// are. Same bits.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-  /// Is anything in the way, within (t_min, t_max)?
+  /// Is there anything that light passes straight through (scene/passage.h)?
+  bool has_panes() const;
+  /// Nearest hit on what does not pass the ray straight, and the crossings before it, in order. False if
+  /// there is no such hit; `crossings` are then all there are.
+  bool through(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const;
+  /// Share of unpolarised light, by channel, that goes along a ray to its end, straight through panes; 0
+  /// where anything else is in the way. Of a ray that ends at a finite distance also the factor of
+  /// StraightLight::nearer(), as of a lamp there. What a shadow ray is to a scene with windows.
+  Rgb transmittance(const Ray& ray) const;
+  /// The same for each of several rays that run side by side, faster. Same bits.
+  void transmittance(std::span<const Ray> rays, std::span<Rgb> shares) const;
+  /// Is anything in the way, within (t_min, t_max), panes too?
   bool occluded(const Ray& ray) const;
   /// The same for each of several rays that run side by side, faster: 1 where something is, else 0. Same
   /// bits.

@@ -18,6 +18,7 @@ namespace phos {
 
 class Environment;
 class MerlBrdf;
+class TransmittanceCurve;
 
 /// Row 0 is at v = 0 (glTF). Texels are linear values, or the codes of an 8-bit image: a quarter of the
 /// memory, and of the cache misses.
@@ -73,16 +74,25 @@ struct Material {
   float ior = 1.5f;
   float specular = 1;      ///< KHR_materials_specular
   Rgb specular_colour{1};  ///< KHR_materials_specular
-  float transmission = 0;  ///< KHR_materials_transmission
+  float transmission = 0;  ///< KHR_materials_transmission; multiplied by the red of transmission_map
+  /// thin_dielectric: internal transmittance of one passage along the normal; its transmittance is that of
+  /// the pane (scene/pane.h) times kd, or kd times `curve` where there is one.
+  Rgb inside{1};
+  std::shared_ptr<const TransmittanceCurve> curve;
+  /// dielectric: what is absorbed inside of it, per m: light falls as exp(-absorption length); infinity: none
+  /// passes.
+  Rgb absorption_per_m{0};
+  float thickness_m = 0;  ///< dielectric of KHR_materials_volume: of a sheet of it that encloses nothing
   /// KHR_materials_anisotropy: alpha along the tangent, turned by `anisotropy_rad` towards the bitangent, is
   /// mix(alpha, 1, anisotropy^2). The map's red and green hold a direction, its blue a factor of
   /// `anisotropy`.
   float anisotropy = 0, anisotropy_rad = 0;
   std::int32_t measured = -1;  ///< of Scene::measured
-  TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map;
+  TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map, transmission_map;
   float normal_scale = 1;
   Rgb emission{0};            ///< luminance, cd/m2; multiplied by the emissive texture
   bool double_sided = false;  ///< emission from both sides; reflection is two-sided always
+  /// blend: alpha is the share of the surface that is there; the rest of the light passes straight.
   enum class Alpha : std::uint8_t { opaque, mask, blend };
   Alpha alpha_mode = Alpha::opaque;
   float alpha = 1, alpha_cutoff = 0.5f;
@@ -91,8 +101,9 @@ struct Material {
   bool emits() const { return max_component(emission) > 0; }
   /// Is it Lambert's, without any other lobe?
   bool diffuse_alone() const {
-    return model == Model::lambert ||
-           ((model == Model::phong || model == Model::ward) && !(max_component(ks) > 0));
+    const bool lobe = model != Model::lambert &&
+                      (!(model == Model::phong || model == Model::ward) || max_component(ks) > 0);
+    return !lobe && alpha_mode != Alpha::blend;
   }
   /// Does its reflection depend on where the tangent points?
   bool anisotropic() const {
@@ -101,11 +112,11 @@ struct Material {
     return rough && alpha_x != alpha_y;
   }
   /// All that it may look up.
-  std::array<TextureUse*, 5> texture_uses() {
-    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map};
+  std::array<TextureUse*, 6> texture_uses() {
+    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map, &transmission_map};
   }
-  std::array<const TextureUse*, 5> texture_uses() const {
-    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map};
+  std::array<const TextureUse*, 6> texture_uses() const {
+    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map, &transmission_map};
   }
 };
 

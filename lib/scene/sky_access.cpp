@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t kPaths = 4096;
 constexpr std::uint32_t kBounces = 8;
-constexpr int kPanes = 8;  // that are seen through
-
-bool is_pane(const Material& m) {
-  return m.model == Model::dielectric || m.model == Model::thin_dielectric || m.transmission > 0;
-}
 
 /// A path through the materials, with no care for how much they reflect.
 bool reaches_sky(const RayScene& rays, const Vec3& from, std::uint64_t path) {
@@ -25,7 +20,8 @@ bool reaches_sky(const RayScene& rays, const Vec3& from, std::uint64_t path) {
   Ray ray{from, sample_uniform_sphere(random.uniform2())};
   for (std::uint32_t bounce = 1; bounce <= kBounces; ++bounce) {
     SurfacePoint point;
-    if (!trace(rays, ray, point)) return max_component(background_luminance(rays.scene(), ray.direction)) > 0;
+    if (sees_sky(rays, ray)) return true;
+    if (!trace(rays, ray, point)) return false;
     random.start_bounce(bounce);
     BsdfSample next;
     const float u_lobe = random.uniform();
@@ -37,15 +33,9 @@ bool reaches_sky(const RayScene& rays, const Vec3& from, std::uint64_t path) {
 
 }  // namespace
 
-bool sees_sky(const RayScene& rays, Ray ray) {
-  const Scene& scene = rays.scene();
-  for (int panes = 0; panes <= kPanes; ++panes) {
-    SurfacePoint point;
-    if (!trace(rays, ray, point)) return max_component(background_luminance(scene, ray.direction)) > 0;
-    if (!is_pane(scene.material[point.material])) return false;
-    ray.origin = point.leave(ray.direction);
-  }
-  return false;
+bool sees_sky(const RayScene& rays, const Ray& ray) {
+  return max_component(background_luminance(rays.scene(), ray.direction)) > 0 &&
+         max_component(rays.transmittance(ray)) > 0;
 }
 
 std::optional<std::string> closed_to_the_sky(const RayScene& rays) {

@@ -9,7 +9,7 @@
 namespace phos {
 
 /// Does a ray leave the scene, straight through glass, to where there is light?
-bool sees_sky(const RayScene& rays, Ray ray);
+bool sees_sky(const RayScene& rays, const Ray& ray);
 
 /// In a scene with an environment: a line for people if no camera of the scene gets any of its light, on up
 /// to eight bounces, through glass or off walls. Nothing where light was found, or where there is no camera

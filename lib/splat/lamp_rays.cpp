@@ -40,7 +40,8 @@ AimedLamps::AimedLamps(const RayScene& the_rays, const Luminaires& the_lights)
     : rays(the_rays), lights(the_lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     panel.emplace_back(rays.scene(), lights[i]);
-    form.emplace_back(panel.back());
+    // How much of a lamp arrives behind panes depends on the angle and the channel: no one share tells it.
+    form.emplace_back(rays.has_panes() ? LampPanel() : panel.back());
     // Not quite a parallelogram: a number that chooses among its patches would not be drawn.
     if (panel.back().patches().size() > 1 && lights.by_u_alone(i)) panel.back() = LampPanel();
   }
@@ -76,13 +77,15 @@ void LampRays::aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, co
 }
 
 void LampRays::send() {
-  blocked_.resize(ray_.size());
-  lamps_.rays.occluded(ray_, blocked_);
+  share_.resize(ray_.size());
+  lamps_.rays.transmittance(ray_, share_);
   for (std::size_t k = 0; k < aim_.size(); ++k) {
-    if (blocked_[k]) continue;
+    const Rgb share = ray_[k].t_max_m > 0 ? share_[k] : Rgb(1);
+    if (share == Rgb(0)) continue;
     const auto& [sight, brought, weight, brings] = aim_[k];
     sight->seen += weight;
-    if (brought) brought->light += brings, brought->light2 += DVec3(brings) * DVec3(brings);
+    const Rgb light = share * brings;
+    if (brought) brought->light += light, brought->light2 += DVec3(light) * DVec3(light);
   }
   ray_.clear(), aim_.clear();
 }

@@ -82,7 +82,7 @@ class LampRays {
   const AimedLamps& lamps_;
   std::vector<Ray> ray_;
   std::vector<Aim> aim_;
-  std::vector<std::uint8_t> blocked_;
+  std::vector<Rgb> share_;
 };
 
 }  // namespace phos

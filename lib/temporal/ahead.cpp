@@ -144,10 +144,10 @@ bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& 
     if (w.ask[sight.hit]) continue;
     const Ray& way = sight.light.ray;
     if (!movers.cross(way)) continue;
-    const bool arrives = !next.rays.occluded(way);
+    const Rgb arrives = next.rays.transmittance(way);
     if (arrives == sight.arrived) continue;
     any = true;
-    w.radiance[sight.hit] += (arrives ? 1.f : -1.f) * sight.brdf * sight.light.lux;
+    w.radiance[sight.hit] += (arrives - sight.arrived) * sight.brdf * sight.light.lux;
   }
   return any;
 }
