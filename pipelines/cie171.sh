@@ -10,9 +10,10 @@ usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 folder=$1
 shift
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-cases=5.2,5.3,5.4,5.5,5.6,5.7,5.8,5.9,5.10,5.11,5.12,5.13,5.14 skies=1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16
-estimators=exact,records,gathered,cached,picture seed=0 threads=0
-photons=1000000 error=0.005 rays=1024 light_samples=1024 pixel_samples=64
+all_cases=5.2,5.3,5.4,5.5,5.6,5.7,5.8,5.9,5.10,5.11,5.12,5.13,5.14 all_skies=1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16
+all_estimators=exact,records,gathered,cached,picture
+cases=$all_cases skies='' estimators=$all_estimators seed=0 threads=0 quick=''
+photons=1000000 error=0.005 rays=1024 light_samples=16384 pixel_samples=512
 while (($# > 0)); do
   case $1 in
     --cases | --skies | --estimators | --seed | --threads)
@@ -20,25 +21,30 @@ while (($# > 0)); do
       declare "${1#--}=$2"
       shift 2 ;;
     --quick)
-      skies=5,12 photons=200000 error=0.007 rays=256 light_samples=256 pixel_samples=16
+      quick=5,12 photons=200000 error=0.007 rays=256 light_samples=4096 pixel_samples=128
       shift ;;
     *) usage ;;
   esac
 done
+skies=${skies:-${quick:-$all_skies}}
+known() { local word; for word in ${2//,/ }; do [[ ,$3, == *,$word,* ]] || { echo "cie171.sh: $1 $word: give some of $3" >&2; exit 2; }; done; }
+known --cases "$cases" $all_cases
+known --skies "$skies" $all_skies
+known --estimators "$estimators" $all_estimators
 data=$(cd "$here/../data/cie171" && pwd)
 source "$here/programs.sh"
 source "$here/cie171/scenes.sh"
 source "$here/cie171/estimators.sh"
 mkdir -p "$folder/scenes" "$folder/rows"
 : >"$folder/log.txt"
-settings="photons $photons error $error rays $rays light-samples $light_samples $pixel_samples seed $seed"
+settings="photons $photons error $error rays $rays light-samples $light_samples ($pixel_samples a pixel) seed $seed, $(phos-sense --version)"
 
 # case | variants | skies, or angles of incidence | factor of lux | what is left out, and why
 table='
 5.2  | -                                                                          | -      | 1     |
 5.3  | -                                                                          | -      | 1     |
 5.4  | -                                                                          | -      | 1     | picture
-5.5  | schlick_single_0.96 tregenza_6mm fresnel_slab_no_absorption_1.52           | angles | 0.001 | picture
+5.5  | schlick_single_0.96 tregenza_6mm fresnel_slab_no_absorption_1.52           | angles | 0.001 | picture records
 5.6  | 0.5 4 500                                                                  | -      | 1     |
 5.7  | -                                                                          | -      | 1     |
 5.8  | 0 0.05 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 0.95                            | -      | 1     | picture
@@ -60,15 +66,17 @@ light() {
   esac
 }
 
-# run CASE VARIANT SKY FACTOR ESTIMATOR: rows of results, unless they are there.
+# run CASE VARIANT SKY FACTOR ESTIMATOR: rows of results, unless they are there of the same scene and settings.
 run() {
-  local name=$1${2:+-${2// /_}}${3:+-$3} variant=$2
-  local rows=$folder/rows/$name-$5.csv key="# $settings"
-  [[ -f $rows && $(head -1 "$rows") == "$key" ]] && return
+  local name=$1${2:+-${2// /_}}${3:+-$3} variant=$2 key
+  local rows=$folder/rows/$name-$5.csv
   scene=$folder/scenes/$name.gltf points=$folder/scenes/$name.csv
   "scene_$1" "$variant" "$3" | awk -f "$here/cie171/scene.awk" >"$scene"
   { echo id,x,y,z,nx,ny,nz; "points_$1" "$variant" "$3"; } >"$points"
   read -ra options <<<"$(light "$1" "$3") --seed $seed --threads $threads --quiet"
+  key="# $settings $(cat "$scene" "$points" | cksum)"
+  all_rows+=("$rows")
+  [[ -f $rows && $(head -1 "$rows") == "$key" ]] && return
   "estimate_$5" >"$folder/readings.csv" 2>>"$folder/log.txt" || { tail -3 "$folder/log.txt" >&2; return 3; }
   { echo "$key"; awk -v case_of="$1" -v variant="$variant" -v sky="$3" -v factor="$4" -v estimator="$5" \
       -f "$here/cie171/rows.awk" "$data/truth.csv" "$folder/readings.csv"; } >"$rows.part"
@@ -86,11 +94,10 @@ while IFS='|' read -r case variants by factor without; do
     for sky in $list; do
       [[ $sky != none ]] || sky=''
       for estimator in ${estimators//,/ }; do
+        # Pictures and photons are of surfaces: there are none where sensors face a beam, or hang over a square of 500 m.
         [[ " $without " != *" $estimator "* ]] || continue
-        # Photons of a square of 500 m would not find the sensors, which hang in the air there: no picture has them.
         [[ $case-$variant != 5.6-500 || ($estimator != records && $estimator != picture) ]] || continue
         run "$case" "$variant" "$sky" "$factor" "$estimator"
-        all_rows+=("$folder/rows/$case${variant:+-${variant// /_}}${sky:+-$sky}-$estimator.csv")
       done
       echo "$case ${variant:-}${sky:+ $sky}" >&2
     done

@@ -35,7 +35,8 @@ estimate_cached() {
   from_rays --direct cached --light-samples "$light_samples" --accuracy 0.05
   sense "$folder/light.irradiance" --light-samples 0
 }
-# Pixels within 50 mm of each point in pictures that look straight at it; the standard error is by their spread.
+# Pixels of pictures that look straight at the points: those at each point and, where light is the same, 50 mm beside it along X; the standard
+# error is by their spread.
 estimate_picture() {
   from_rays
   local camera normal
@@ -53,7 +54,7 @@ estimate_picture() {
     FNR == 1 { print "id,x,y,z,nx,ny,nz,E_lx,stderr_lx"; next }
     { sum = squares = number = 0
       for (i = 0; i < n; ++i)
-        if ((x[i] - $2) ^ 2 + (y[i] - $3) ^ 2 + (z[i] - $4) ^ 2 < 0.0025) { sum += lux[i]; squares += lux[i] ^ 2; ++number }
+        if ((x[i] - $2) ^ 2 < 0.0025 && (y[i] - $3) ^ 2 + (z[i] - $4) ^ 2 < 0.000101) { sum += lux[i]; squares += lux[i] ^ 2; ++number }
       if (number < 2) { print "cie171.sh: no pixel shows " $1 >"/dev/stderr"; exit 3 }
       mean = sum / number; variance = (squares / number - mean ^ 2) / (number - 1)
       print $0 "," mean "," (variance > 0 ? sqrt(variance) : 0) }' "$folder/pixels.csv" "$points"

@@ -14,11 +14,11 @@ wall south black    0 0 4  0 3 0  4 0 0 ${2:+hole $2}
 wall west black     0 0 0  0 3 0  0 0 4
 wall east black     4 0 0  0 0 4  0 3 0"
 }
-# Cameras that look straight at the lines of sensors, 0.16 m wide; 5.2 has sensors beside a line. All pixels are of 20 mm.
+# Cameras that look straight at the lines of sensors, 0.1 m wide; 5.2 has sensors beside a line. All pixels are of 20 mm.
 cameras() {
-  echo "camera north  2 1.5 1.5  1 0 0  0 1 0  0.16 3
-camera floor    2 1.5 2    1 0 0  0 0 -1  0.16 4
-camera ceiling  2 1.5 2    1 0 0  0 0 1   0.16 4"
+  echo "camera north  2 1.5 1.5  1 0 0  0 1 0  0.1 3
+camera floor    2 1.5 2    1 0 0  0 0 -1  0.1 4
+camera ceiling  2 1.5 2    1 0 0  0 0 1   0.1 4"
 }
 # The panes of 5.10 and 5.12: 6 mm glass as measured by Tregenza and Sharples (CIE 171, equation 19), and of 5.5: one surface by Schlick.
 pane_of_6mm() { curve_pane 6mm '-.028378+3.156075*c-3.058376*c^2-1.428919*c^3+4.014235*c^4-1.775827*c^5'; }
@@ -29,7 +29,7 @@ curve_pane() {
     printf \"pane %s {\\\"brdf\\\": \\\"thindielectric\\\", \\\"transmittance_by_angle\\\": [\", name
     for (a = 0; a <= 90; ++a) {
       c = a < 90 ? cos(a * atan2(0, -1) / 180) : 0; t = $2
-      printf \"%s[%d,%.7f]\", a > 0 ? \",\" : \"\", a, t > 0 ? t : 0
+      printf \"%s[%d,%.7f]\", (a > 0 ? \",\" : \"\"), a, (t > 0 ? t : 0)
     }
     print \"]}\"
   }"
@@ -159,7 +159,7 @@ points_5.11() { wall_points; floor_points; ceiling_points "G' H' I' J' K' L' M' 
 points_5.12() { points_5.11; }
 
 # 5.13, 5.14: the window of 2 m x 1 m, and a mask over it or opposite. Masks of reflectance 0.5 over a ground of 0.2 shine as much as those
-# would reflect, no shade of the building counted. Nothing of them is seen beyond 30 m.
+# would reflect, no shade of the building counted. Of endless masks the floor sees no more than these.
 # mask_exitance CASE SKY, of 10,000 lx: by the light of the ground, and opposite of the sky that faces north (its share: data).
 mask_exitance() {
   awk -F, -v case_of="$1" -v sky="$2" '$1 == sky { print 10000 * 0.5 * (0.2 / 2 + (case_of == "5.14" ? $2 : 0)) }' "$data/vertical_north.csv"
@@ -167,12 +167,12 @@ mask_exitance() {
 scene_5.13() {
   scene_5.11 2x1
   echo "glow mask $(mask_exitance 5.13 "$2")
-wall mask mask  -30 3 4  64 0 0  0 0 ${1#mask }"
+wall mask mask  -7 3 4  18 0 0  0 0 ${1#mask }"
 }
 scene_5.14() {
   scene_5.11 2x1
   echo "glow mask $(mask_exitance 5.14 "$2")
-wall mask mask  -30 0 10  0 ${1#mask } 0  64 0 0"
+wall mask mask  -23 0 10  0 ${1#mask } 0  50 0 0"
 }
 points_5.13() { floor_points 'A B C D E F G H'; }
 points_5.14() { points_5.13; }
