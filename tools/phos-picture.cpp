@@ -13,8 +13,9 @@ namespace phos {
 namespace {
 
 constexpr const char* kDescription =
-    "Reads OpenEXR or Radiance .hdr and writes a PNG (sRGB), or Radiance .hdr where OUTPUT ends in .hdr. By "
-    "default the light is tone mapped: the log-average luminance becomes a middle grey, the brightest half "
+    "Reads OpenEXR or Radiance .hdr and writes a PNG (sRGB), or Radiance .hdr where OUTPUT ends in .hdr, or "
+    "the numbers of --layer, pixel by pixel, where it ends in .csv. By default the light is tone mapped: the "
+    "log-average luminance becomes a middle grey, the brightest half "
     "per cent becomes white, colours keep their hue. --false-colour shows luminance (cd/m2) or illuminance "
     "(lx) as colours, with a legend. Pixels that are not finite are magenta, and counted in a warning. From "
     "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG. With "
@@ -35,8 +36,9 @@ void refuse_given(const std::string& option, const char* what_for, const std::st
 /// The name says what is written, the content of the input what can be.
 void check_output(const std::string& output, const std::string& input, bool image) {
   if (image && output.ends_with(".svg"))
-    throw Error(ExitCode::usage, "--output", text(input, " is an image; the name must end in .png or .hdr"));
-  if (!image && output.ends_with(".hdr"))
+    throw Error(ExitCode::usage, "--output",
+                text(input, " is an image; the name must end in .png, .hdr or .csv"));
+  if (!image && (output.ends_with(".hdr") || output.ends_with(".csv")))
     throw Error(ExitCode::usage, "--output", text(input, " is a table; the name must end in .svg or .png"));
 }
 
@@ -66,7 +68,7 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
 
 void draw_goniometric(Tool& tool, const std::string& input) {
   const Options& options = tool.options();
-  if (tool.output().ends_with(".hdr"))
+  if (tool.output().ends_with(".hdr") || tool.output().ends_with(".csv"))
     throw Error(ExitCode::usage, "--output",
                 "a polar plot is no image of light; the name must end in .png or .svg");
   refuse_given(given_picture_option(options), "images", input, "a luminaire");
@@ -85,9 +87,11 @@ void check_usage(const Options& options, const std::string& output, const Pictur
     throw Error(ExitCode::usage, option, why);
   };
   const bool video = is_video(output);
-  if (!output.ends_with(".png") && !output.ends_with(".hdr") && !output.ends_with(".svg") && !video)
-    refuse("--output", "the name must end in .png, .hdr or .svg, or for a video in .mp4, .mkv or .webm");
-  if (false_colour && output.ends_with(".hdr"))
+  if (!output.ends_with(".png") && !output.ends_with(".hdr") && !output.ends_with(".svg") &&
+      !output.ends_with(".csv") && !video)
+    refuse("--output",
+           "the name must end in .png, .hdr, .csv or .svg, or for a video in .mp4, .mkv or .webm");
+  if (false_colour && (output.ends_with(".hdr") || output.ends_with(".csv")))
     refuse("--false-colour", "false colours need an output that ends in .png");
   if (video && s.frames.empty()) refuse("--output", "a video is made of frames: --frames 0:47");
   if (!video && s.frames_per_s) refuse("--fps", "is of videos: -o film.mp4");
@@ -126,6 +130,7 @@ int main_of_tool(int argc, const char* const* argv) {
   options.example("phos-picture room.exr -o room.png", "as a camera would see it");
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
                   "lux on every surface");
+  options.example("phos-picture room.exr -o lux.csv --layer illuminance", "lux of every pixel, as a table");
   options.example("phos-picture film/%04d.exr --frames 0:99 -o film.mp4",
                   "a video (ffmpeg makes it), exposed as its first frame");
   options.example(

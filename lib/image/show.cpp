@@ -1,8 +1,10 @@
 #include "image/show.h"
 
 #include "core/interrupt.h"
+#include "file/atomic_file.h"
 #include "file/frames.h"
 #include "image/metrics.h"
+#include "image/pixel_table.h"
 #include "image/video.h"
 
 namespace phos {
@@ -46,6 +48,12 @@ std::optional<Picture> show_image(Tool& tool, const Image& image, const std::str
   if (output.ends_with(".hdr")) {
     const std::size_t non_finite = write_hdr_layer(output, image, layer_from_label(p.layer));
     tell_non_finite(tool, input, image, non_finite, true);
+    return std::nullopt;
+  }
+  if (output.ends_with(".csv")) {
+    AtomicFile file(output);
+    file.write(pixel_csv(image, layer_from_label(p.layer)));
+    file.commit();
     return std::nullopt;
   }
   ToneMapped shown = layer_picture(image, p);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "file/csv.h"
 #include "image/image.h"
 #include "support/refused.h"
 
@@ -90,6 +91,21 @@ TEST_F(PictureTool, RadianceOutput) {
   const Image back = read_image(path("out.hdr"));
   EXPECT_EQ(back.attributes.at("VIEW"), "-vtv");
   EXPECT_NEAR(luminance(back.rgb("")[0]), luminance(Rgb(1, 2, 3)), 0.02);
+}
+
+TEST_F(PictureTool, NumbersAsATable) {
+  EXPECT_EQ(run_tool({"picture", path("in.exr"), "-o", path("out.csv"), "--layer", "illuminance"}).code, 0);
+  const Image image = read_image(path("in.exr"));
+  const CsvTable table = parse_csv(test::slurp(path("out.csv")), "out.csv");
+  ASSERT_EQ(table.rows.size(), image.pixels());
+  const std::size_t i = image.pixels() - 1;
+  EXPECT_EQ(table.number(i, table.column("x", "")), image.width() - 1);
+  EXPECT_EQ(table.number(i, table.column("y", "")), image.height() - 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(table.number(i, table.column("illuminance.Y", ""))),
+                  image.channel("illuminance.Y")[i]);
+  EXPECT_EQ(run_tool({"picture", path("in.exr"), "-o", path("rgb.csv")}).code, 0);
+  EXPECT_TRUE(test::slurp(path("rgb.csv")).starts_with("x,y,R,G,B\n0,0,"));
+  test::expect_refused("picture", {path("in.exr"), "-o", path("no.csv"), "--layer", "glossy"}, 3, "glossy");
 }
 
 TEST_F(PictureTool, PlotsOfATable) {
