@@ -143,7 +143,7 @@ void Measurement::take_pass(std::uint64_t pass) {
     s.samples += sum.taken, s.rejected += sum.rejected;
     if (sum.taken == sum.rejected) continue;
     const auto n = static_cast<double>(sum.taken - sum.rejected);
-    const Rgb lux = Rgb(sum.lux / n) + discs[k].lux, bias = Rgb(sum.bias / n) + discs[k].bias;
+    const Rgb bias = Rgb(sum.bias / n) + discs[k].bias, lux = Rgb(sum.lux / n) + discs[k].lux - bias;
     for (int c = 0; c < 3; ++c) s.channel[c].add(lux[c]), s.bias_channel[c].add(bias[c]);
     s.luminous.add(luminance(lux)), s.bias.add(luminance(bias));
   }

@@ -17,7 +17,7 @@ constexpr int kRadii = 40;
 /// Below so many paths their noise is not known.
 constexpr std::size_t kLeastPaths = 16;
 /// Differences between radii up to so many standard deviations are noise.
-constexpr double kNoise = 1.5;
+constexpr double kNoise = 1;
 
 }  // namespace
 
