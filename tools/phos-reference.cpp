@@ -6,7 +6,7 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
-#include "reference/point_irradiance.h"
+#include "reference/bidirectional_points.h"
 #include "reference/render.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -27,16 +27,20 @@ void write_text(Tool& tool, const std::string& csv) {
 
 void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminaires,
                     const ReferenceOptions& reference, const std::vector<SensorPoint>& points) {
-  std::vector<PointIrradiance> light;
-  std::uint64_t samples = 0, rejected = 0;
-  Progress progress("reference", points.size(), "points");
   PointOptions options{reference.samples, reference.error, reference.seed, 0, reference.path};
-  for (const SensorPoint& point : points) {
-    light.push_back(estimate_irradiance(rays, luminaires, point.position, point.normal, options));
-    samples += light.back().samples, rejected += light.back().rejected;
-    ++options.item;
-    progress.advance();
+  std::vector<PointIrradiance> light;
+  if (is_bidirectional(reference.method, rays.scene())) {
+    light = estimate_bidirectionally(rays, luminaires, points, options);
+  } else {
+    Progress progress("reference", points.size(), "points");
+    for (const SensorPoint& point : points) {
+      light.push_back(estimate_irradiance(rays, luminaires, point.position, point.normal, options));
+      ++options.item;
+      progress.advance();
+    }
   }
+  std::uint64_t samples = 0, rejected = 0;
+  for (const PointIrradiance& e : light) samples += e.samples, rejected += e.rejected;
   tool.stat("samples", samples);
   if (rejected > 0) tool.counters().count("non-finite sample", rejected);
   tool.counters().require_allowed("non-finite sample", samples);

@@ -7,7 +7,8 @@
 #include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "file/tool.h"
-#include "reference/point_irradiance.h"
+#include "reference/bidirectional_points.h"
+#include "reference/method.h"
 #include "scene/daylight.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -41,7 +42,7 @@ void check_usage(const Options& options, const Inputs& inputs, const SensorOptio
     throw Error(ExitCode::usage, "exact", "computes all light; leave out --direct-only");
   if ((exact || sense.direct_only) && !inputs.caches.empty())
     throw Error(ExitCode::usage, exact ? "exact" : "direct-only", "reads no cache; leave the caches out");
-  for (const char* name : {"samples", "error"})
+  for (const char* name : {"samples", "error", "method"})
     if (!exact && options.given(name)) throw Error(ExitCode::usage, name, "belongs to --exact; leave it out");
   if ((exact || sense.direct_only) && sense.light_samples == 0)
     throw Error(ExitCode::usage, "--light-samples", "of 0 leaves direct light to a cache; give 1 or more");
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   GridOptions grid;
   SensorOptions sense;
   PointOptions exactly;
+  ReferenceMethod method = ReferenceMethod::automatic;
   bool exact = false, allow_mismatch = false, factors = false;
   std::string isa;
   Options& options = tool.options();
@@ -119,6 +121,10 @@ int main(int argc, char** argv) {
   options.integer("samples", exactly.samples, "N", "paths for each sensor with --exact, at most", {2, 1e12});
   options.number("error", exactly.relative_error, "SHARE",
                  "with --exact, stop at this standard error relative to the value", kPositive);
+  declare_method(options, method,
+                 "with --exact: path: from the sensor alone, which does not find what comes from small lamps by "
+                 "mirrors and glass; bidirectional: from sensor and lamps; auto: bidirectional where the scene "
+                 "has mirrors, smooth glass or sharp gloss");
   declare_isa(options, isa);
   options.flag(
       "daylight-factor", factors,
@@ -160,10 +166,19 @@ int main(int argc, char** argv) {
     sense.seed = exactly.seed = tool.seed();
     SensorReport report;
     std::uint64_t samples = 0;
+    std::vector<PointIrradiance> both_ends;
+    if (exact && is_bidirectional(method, scene)) {
+      const auto timer = tool.time("light paths");
+      std::vector<SensorPoint> points;
+      for (const auto& p : sensors.points) points.push_back({p.position, p.normal});
+      both_ends = estimate_bidirectionally(rays, lights, points, exactly);
+    }
     const auto whole = [&](std::size_t i) {
       exactly.item = i;
       const PointIrradiance e =
-          estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
+          both_ends.empty()
+              ? estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly)
+              : both_ends[i];
       if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
       samples += e.samples;
       return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};

@@ -29,4 +29,10 @@ class Moments {
   double sum_ = 0, squares_ = 0;
 };
 
+/// Standard error of a mean and its estimated bias in one: the bias as far as it is more than its own noise.
+inline double error_with_bias(const Moments& light, const Moments& bias) {
+  const double noise = light.standard_error(), doubt = bias.standard_error();
+  return std::sqrt(noise * noise + std::max(0.0, bias.mean() * bias.mean() - doubt * doubt));
+}
+
 }  // namespace phos

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "reference/roulette.h"
 #include "scene/bsdf.h"
 #include "scene/mirror_images.h"
 #include "scene/passage.h"
@@ -15,12 +16,6 @@ namespace {
 constexpr std::size_t kEveryLightUpTo = 8;
 // One-light choice: no light falls below this part of an equal share, so that a lamp close by is not starved.
 constexpr double kMinimumShare = 0.1;
-// Russian roulette from this scattering on (3 to 5 measured best in variance x time, in a box and in an
-// atrium). Survival stays below 1, so that paths end where nothing absorbs.
-constexpr std::int64_t kRouletteFrom = 4;
-constexpr float kMostSurvival = 0.999f;
-constexpr std::int64_t kMostBounces =
-    65535;  // of RandomStream; reached with probability kMostSurvival^65535 at most
 
 /// Power heuristic with exponent 2 (Veach 1997, eq. 9.13), from the ratio so that squares do not overflow.
 float power_weight(float own, float other) {
@@ -203,7 +198,7 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
   if (next.straight) {
     // No event of the path: densities and distances count from where the ray began.
     walk.throughput *= next.weight;
-    return positive(walk.throughput) && walk.events < kMostBounces ? Next::straight : Next::none;
+    return positive(walk.throughput) && walk.events < kMostEvents ? Next::straight : Next::none;
   }
   if (!next.specular) walk.every_light = every_light;
   if (walk.scatterings == 0) {
@@ -218,12 +213,8 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
   ++walk.scatterings;
-  if (walk.scatterings >= kRouletteFrom) {
-    const float survival = std::min(kMostSurvival, max_component(walk.throughput));
-    if (!(random.uniform() < survival)) return Next::none;
-    walk.throughput /= survival;
-  }
-  return positive(walk.throughput) && walk.events < kMostBounces ? Next::ray : Next::none;
+  if (!survives(walk.scatterings, max_component(walk.throughput), random, walk.throughput)) return Next::none;
+  return positive(walk.throughput) && walk.events < kMostEvents ? Next::ray : Next::none;
 }
 
 void PathTracer::follow(Walk walk, PathSample& sum, RandomStream& random) const {

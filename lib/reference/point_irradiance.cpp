@@ -48,13 +48,18 @@ Partial sample_range(const PathTracer& tracer, const SurfacePoint& sensor, const
 
 }  // namespace
 
-PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
-                                    const Vec3& n, const PointOptions& options) {
-  const PathTracer tracer(rays, luminaires, options.path);
+SurfacePoint sensor_at(const Scene& scene, const Vec3& p, const Vec3& n) {
   SurfacePoint sensor;
   sensor.position = p;
   sensor.geometric_normal = sensor.smooth_normal = sensor.normal = n;
-  sensor.error_m = rounding_error_m(rays.scene(), p);
+  sensor.error_m = rounding_error_m(scene, p);
+  return sensor;
+}
+
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, const PointOptions& options) {
+  const PathTracer tracer(rays, luminaires, options.path);
+  const SurfacePoint sensor = sensor_at(rays.scene(), p, n);
   const auto join = [](Partial& sum, const Partial& part) {
     sum.red.merge(part.red), sum.green.merge(part.green), sum.blue.merge(part.blue);
     sum.luminous.merge(part.luminous);

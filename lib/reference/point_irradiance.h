@@ -28,6 +28,10 @@ struct PointOptions {
   PathOptions path;
 };
 
+/// A sensor at `p` that faces unit `n`, lifted off a surface it lies on by the rounding error of positions in
+/// this scene, so that its own surface does not shade it.
+SurfacePoint sensor_at(const Scene& scene, const Vec3& p, const Vec3& n);
+
 /// Irradiance on the side of the unit normal `n` at `p`. A point on a surface is lifted off it by the
 /// rounding error of positions in this scene, so that its own surface does not shade it. Same bytes for any
 /// number of threads.

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "reference/camera_view.h"
 #include "reference/moments.h"
+#include "reference/passes.h"
 #include "reference/sample_shares.h"
 #include "scene/bsdf.h"
+#include "scene/light_ways.h"
 
 namespace phos {
 
@@ -17,6 +21,9 @@ constexpr std::int64_t kFirstPass = 16;
 /// Adaptive: one in so many samples, and so many at least, tell where the rest should go.
 constexpr std::int64_t kProbingShare = 4, kLeastProbes = 4;
 constexpr std::size_t kSamplesPerChunk = 4096;
+/// Light paths of a pass over the picture, at most: all of their vertices are held.
+constexpr std::size_t kMostLightPaths = 32768;
+constexpr std::size_t kVerticesPerChunk = 1024, kPixelsPerChunk = 256;
 // Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
 constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
 
@@ -33,9 +40,36 @@ struct Channels {
 /// What a pixel's samples add up to.
 struct Pixel {
   std::uint32_t taken = 0, count = 0;  // count: that were finite
-  Channels total, indirect;
+  Channels total, indirect, bias;
   DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
-  Moments scattered, illuminance;
+  Moments scattered, illuminance, illuminance_bias;
+};
+
+PathSample& operator+=(PathSample& sum, const PathSample& part) {
+  sum.emission += part.emission, sum.direct += part.direct, sum.indirect += part.indirect;
+  sum.glossy += part.glossy, sum.specular += part.specular;
+  return sum;
+}
+
+/// What paths from both ends need.
+struct BothEnds {
+  BothEnds(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
+           const ReferenceOptions& options)
+      : lamps(rays.scene(), luminaires),
+        light(rays, luminaires, lamps, options.path),
+        eyes(rays, luminaires, lamps, options.path),
+        light_paths(std::min(kMostLightPaths, static_cast<std::size_t>(options.width) *
+                                                  static_cast<std::size_t>(options.height))),
+        view(camera, static_cast<std::size_t>(options.width), static_cast<std::size_t>(options.height),
+             static_cast<double>(light_paths)),
+        merge_radius_m(has_caustic_ways(rays.scene()) ? first_merge_radius_m(rays.scene()) : 0) {}
+  LampRays lamps;
+  LightTracer light;
+  BidirectionalTracer eyes;
+  std::size_t light_paths;
+  CameraView view;
+  float merge_radius_m;
+  std::uint64_t passes = 0;
 };
 
 class Renderer {
@@ -46,7 +80,10 @@ class Renderer {
         tracer_(rays, luminaires, options.path),
         camera_(camera),
         options_(options),
-        pixels_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)) {}
+        pixels_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)) {
+    if (is_bidirectional(options.method, rays.scene()))
+      both_.emplace(rays, luminaires, camera, options);
+  }
 
   /// As many more samples of every pixel; or, if they are to be shared out, on the mean.
   void pass(std::int64_t more, bool shared_out);
@@ -57,6 +94,11 @@ class Renderer {
  private:
   Ray ray(std::size_t pixel, const Vec2& subpixel) const;
   std::uint64_t sample(std::size_t pixel);
+  std::uint64_t add(std::size_t pixel, const PathSample& light, const Rgb& bias, float lux, float lux_bias);
+  Ray next_ray(std::size_t pixel, RandomStream& random, std::uint64_t& item);
+  void take_both_ends();
+  std::vector<PathSample> splats(const LightPass& light) const;
+  std::uint64_t sample_both_ends(std::size_t pixel, const LightPass& light, const PathSample& splat);
   bool sample_illuminance(const Ray& ray, std::uint64_t item, float& lux) const;
   void add_light(Image& image) const;
   void add_surfaces(Image& image) const;
@@ -67,6 +109,7 @@ class Renderer {
   const ReferenceOptions& options_;
   std::vector<Pixel> pixels_;
   std::uint64_t rejected_ = 0;
+  std::optional<BothEnds> both_;
 };
 
 Ray Renderer::ray(std::size_t pixel, const Vec2& subpixel) const {
@@ -87,30 +130,115 @@ bool Renderer::sample_illuminance(const Ray& ray, std::uint64_t item, float& lux
   return std::isfinite(lux);
 }
 
-/// The pixel's next. Returns how many samples were not finite (0 or 1).
-std::uint64_t Renderer::sample(std::size_t pixel) {
+/// Where the pixel's next sample goes; `item` is that of its random numbers.
+Ray Renderer::next_ray(std::size_t pixel, RandomStream& random, std::uint64_t& item) {
   const std::uint32_t s = pixels_[pixel].taken++;
-  const std::uint64_t item = (static_cast<std::uint64_t>(pixel) << 32) | static_cast<std::uint64_t>(s);
-  RandomStream random(options_.seed, Stage::reference, item);
+  item = (static_cast<std::uint64_t>(pixel) << 32) | static_cast<std::uint64_t>(s);
+  random = RandomStream(options_.seed, Stage::reference, item);
   random.start_bounce(0xffff);  // the lens comes before bounce 0, which the path starts itself
   const Vec2 stratum(static_cast<float>(s & 1), static_cast<float>((s >> 1) & 1));
-  const Ray eye = ray(pixel, 0.5f * (stratum + random.uniform2()));
-  const PathSample light = tracer_.luminance(eye, random);
+  return ray(pixel, 0.5f * (stratum + random.uniform2()));
+}
+
+/// Returns how many samples were not finite (0 or 1).
+std::uint64_t Renderer::add(std::size_t pixel, const PathSample& light, const Rgb& bias, float lux,
+                            float lux_bias) {
   const Rgb total = light.total();
-  float lux = 0;
-  if (!is_finite(total) || (options_.illuminance && !sample_illuminance(eye, item, lux))) return 1;
+  if (!is_finite(total) || !is_finite(bias) || !std::isfinite(lux) || !std::isfinite(lux_bias)) return 1;
   Pixel& sum = pixels_[pixel];
   ++sum.count;
   sum.total.add(total);
   sum.indirect.add(light.indirect);
+  sum.bias.add(bias);
   sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct), sum.glossy += DVec3(light.glossy),
       sum.specular += DVec3(light.specular);
   sum.scattered.add(luminance(total - light.emission));
-  if (options_.illuminance) sum.illuminance.add(lux);
+  if (options_.illuminance) sum.illuminance.add(lux), sum.illuminance_bias.add(lux_bias);
   return 0;
 }
 
+/// The pixel's next. Returns how many samples were not finite (0 or 1).
+std::uint64_t Renderer::sample(std::size_t pixel) {
+  RandomStream random(0, Stage::reference, 0);
+  std::uint64_t item = 0;
+  const Ray eye = next_ray(pixel, random, item);
+  const PathSample light = tracer_.luminance(eye, random);
+  float lux = 0;
+  if (options_.illuminance && !sample_illuminance(eye, item, lux)) return 1;
+  return add(pixel, light, Rgb(0), lux, 0);
+}
+
+/// What light paths bring to the camera themselves, for each pixel.
+std::vector<PathSample> Renderer::splats(const LightPass& light) const {
+  struct Splat {
+    std::size_t pixel;
+    PathSample sample;
+  };
+  const std::vector<LightVertex>& vertices = light.paths.vertex;
+  std::vector<PathSample> sum(pixels_.size());
+  const float each = 1 / static_cast<float>(light.paths.size());
+  std::vector<Splat> all = parallel_reduce(
+      vertices.size(), kVerticesPerChunk, std::vector<Splat>(),
+      [&](std::size_t first, std::size_t last) {
+        std::vector<Splat> part;
+        for (std::size_t i = first; i < last; ++i) {
+          Sight sight;
+          if (!both_->view.see(vertices[i].point.position, sight)) continue;
+          const PathSample sample =
+              both_->eyes.splat(vertices[i], sight.towards, sight.distance_m, sight.start);
+          if (sample.total() != Rgb(0)) part.push_back({sight.pixel, sample});
+        }
+        return part;
+      },
+      [](std::vector<Splat>& joined, const std::vector<Splat>& part) {
+        joined.insert(joined.end(), part.begin(), part.end());
+      });
+  for (Splat& splat : all) {
+    for (Rgb* c : {&splat.sample.direct, &splat.sample.indirect, &splat.sample.glossy}) *c *= each;
+    sum[splat.pixel] += splat.sample;
+  }
+  return sum;
+}
+
+std::uint64_t Renderer::sample_both_ends(std::size_t pixel, const LightPass& light, const PathSample& splat) {
+  RandomStream random(0, Stage::reference, 0);
+  std::uint64_t item = 0;
+  const Ray eye = next_ray(pixel, random, item);
+  const std::size_t path = pixel % light.paths.size();
+  BidirectionalSample sample =
+      both_->eyes.luminance(eye, both_->view.start(eye.direction), light, path, random);
+  sample.sum += splat;
+  SurfacePoint point;
+  BidirectionalSample lux;
+  if (options_.illuminance && trace(rays_, eye, point)) {
+    RandomStream own(options_.seed, Stage::reference, item | kIlluminanceItem);
+    lux = both_->eyes.surface_irradiance(point, light, path, own);
+  }
+  return add(pixel, sample.sum, sample.bias, luminance(lux.sum.total()), luminance(lux.bias));
+}
+
+/// One more sample of every pixel.
+void Renderer::take_both_ends() {
+  const std::uint64_t pass = both_->passes++;
+  const float radius_m = both_->merge_radius_m * static_cast<float>(std::sqrt(shrunk_area(pass)));
+  const LightPass light = make_pass(both_->light, options_.seed, pass, both_->light_paths, radius_m);
+  const std::vector<PathSample> splat = splats(light);
+  rejected_ = parallel_reduce(
+      pixels_.size(), kPixelsPerChunk, rejected_,
+      [&](std::size_t first, std::size_t last) {
+        std::uint64_t rejected = 0;
+        for (std::size_t i = first; i < last; ++i) rejected += sample_both_ends(i, light, splat[i]);
+        return rejected;
+      },
+      [](std::uint64_t& sum, std::uint64_t part) { sum += part; });
+}
+
 void Renderer::pass(std::int64_t more, bool shared_out) {
+  if (both_) {
+    Progress progress("reference", static_cast<std::uint64_t>(more), "passes");
+    for (std::int64_t i = 0; i < more; ++i) take_both_ends(), progress.advance();
+    return;
+  }
   const auto mean = static_cast<std::size_t>(more);
   std::vector<std::uint32_t> share;
   if (shared_out) {
@@ -158,6 +286,12 @@ Rgb standard_error(const Channels& c, double n) {
   return error;
 }
 
+/// With the bias, as far as it is more than its own noise.
+Rgb standard_error(const Pixel& p, double n) {
+  const Rgb noise = standard_error(p.total, n), bias = mean(p.bias.sum, n), doubt = standard_error(p.bias, n);
+  return glm::sqrt(noise * noise + glm::max(Rgb(0), bias * bias - doubt * doubt));
+}
+
 void Renderer::add_light(Image& image) const {
   const auto set = [&](const std::string& layer, const auto& value) {
     std::vector<Rgb> values(pixels_.size());
@@ -169,7 +303,7 @@ void Renderer::add_light(Image& image) const {
   set("emission", [](const Pixel& p, double n) { return Rgb(p.emission / n); });
   set("direct", [](const Pixel& p, double n) { return Rgb(p.direct / n); });
   set("indirect", [](const Pixel& p, double n) { return mean(p.indirect.sum, n); });
-  set("stderr", [](const Pixel& p, double n) { return standard_error(p.total, n); });
+  set("stderr", [](const Pixel& p, double n) { return standard_error(p, n); });
   set("indirect_stderr", [](const Pixel& p, double n) { return standard_error(p.indirect, n); });
   for (const auto& [layer, part] :
        {std::pair{"glossy", &Pixel::glossy}, std::pair{"specular", &Pixel::specular}}) {
@@ -182,7 +316,7 @@ void Renderer::add_light(Image& image) const {
   const std::span<float> error = image.channel("illuminance_stderr.Y");
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     lux[i] = static_cast<float>(pixels_[i].illuminance.mean());
-    error[i] = static_cast<float>(pixels_[i].illuminance.standard_error());
+    error[i] = static_cast<float>(error_with_bias(pixels_[i].illuminance, pixels_[i].illuminance_bias));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/counters.h"
 #include "core/options.h"
 #include "image/image.h"
+#include "reference/method.h"
 #include "reference/path_tracer.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
@@ -23,6 +24,7 @@ struct ReferenceOptions {
   bool adaptive = false;        ///< shares samples out by noise: `samples` are the mean (sample_shares.h)
   bool illuminance = false;     ///< also the illuminance.Y layer (one more path a sample)
   std::uint64_t seed = 0;
+  ReferenceMethod method = ReferenceMethod::path;
   PathOptions path;
 };
 

@@ -322,6 +322,7 @@ bool Luminaires::View::illuminate_from_area(float u_triangle, const Vec2& u, Ill
                      : scene.fitting[static_cast<std::size_t>(light.fitting)].luminance(-result.direction);
   result.normal = cosine > 0 ? point.normal : -point.normal;
   result.error_m = point.error_m;
+  result.triangle = point.triangle;
   result.density = near_ ? static_cast<float>(near_->density)
                          : point.density * result.distance_m * result.distance_m / cos_light;
   return result.density > 0 && std::isfinite(result.density);
@@ -336,6 +337,14 @@ float Luminaires::density(std::size_t i, const Vec3& from, std::uint32_t triangl
   if (k >= instance.triangle_count) return 0;
   if (const auto near = see_near(shape_[i], k, from)) return static_cast<float>(near->density);
   return shape_[i].facet[k].density_per_m2 * distance_m * distance_m / cos_light;
+}
+
+float Luminaires::area_density(std::size_t i, std::uint32_t triangle) const {
+  const Light& light = scene_->light[i];
+  if (light.kind != Light::Kind::area) return 0;
+  const Instance& instance = scene_->instance[light.instance];
+  const std::uint32_t k = triangle - instance.first_triangle;  // wraps for one before it
+  return k < instance.triangle_count ? shape_[i].facet[k].density_per_m2 : 0;
 }
 
 float Luminaires::density_beyond(const Vec3& from, const Vec3& direction) const {

@@ -39,6 +39,7 @@ struct Illumination {
   Vec3 normal{0};     ///< of an area light there, on the side seen from the point; 0 for others
   float distance_m = kInfinity;
   float error_m = 0;  ///< rounding error at the far end, for RayScene::visible
+  std::uint32_t triangle = 0;  ///< of an area light
   Rgb value{0};  ///< lights of an extent: luminance, cd/m2. Others: illuminance on a surface facing it, lx
   float density = 0;  ///< per sr; 0 for lights without an extent (value then needs only the cosine)
 };
@@ -111,8 +112,11 @@ class Luminaires {
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
   float density(std::size_t i, const Vec3& from, std::uint32_t triangle, float distance_m,
                 float cos_light) const;
-  /// The same for a ray that left the scene: density with which the environment's light is sampled there, 0
-  /// without one.
+  /// Density per m2 (of one side) with which sample_point(i) chooses a point on `triangle`; 0 where it is none
+  /// of the light's.
+  float area_density(std::size_t i, std::uint32_t triangle) const;
+  /// density() for a ray that left the scene: with which the environment's light is sampled there, 0 without
+  /// one.
   float density_beyond(const Vec3& from, const Vec3& direction) const;
   /// Illuminance by the environment on a surface there, roughly, nothing but the portals considered, lx.
   float promise_beyond_lx(const Vec3& from) const;

@@ -1,0 +1,216 @@
+// Paths from both ends against closed forms, and against paths from the eye alone, within their own standard
+// errors: also where light comes by mirrors and glass.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/sampling.h"
+#include "reference/bidirectional_points.h"
+#include "reference/render.h"
+#include "support/scenes.h"
+
+namespace {
+
+using namespace phos;
+using test::AnalyticScene;
+
+constexpr double kMostSigma = 4;
+
+struct Lit {
+  explicit Lit(const Scene& scene) : rays(scene), luminaires(scene) {}
+  std::vector<PointIrradiance> measure(const std::vector<SensorPoint>& sensors, std::int64_t samples,
+                                       std::int64_t bounces = -1) const {
+    PointOptions options;
+    options.samples = samples;
+    options.path.bounces = bounces;
+    return estimate_bidirectionally(rays, luminaires, sensors, options);
+  }
+  RayScene rays;
+  Luminaires luminaires;
+};
+
+void expect_within(double value, double standard_error, double expected, double relative,
+                   const std::string& what) {
+  EXPECT_NEAR(value, expected, kMostSigma * standard_error + 2e-6 * expected) << what;
+  EXPECT_LE(standard_error, relative * expected) << what;
+}
+
+void check_points(const AnalyticScene& s, std::int64_t samples, double relative) {
+  std::vector<SensorPoint> sensors;
+  for (const test::Check& check : s.checks) sensors.push_back({check.position, check.normal});
+  const auto light = Lit(s.scene).measure(sensors, samples);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    EXPECT_EQ(light[i].rejected, 0u);
+    expect_within(light[i].illuminance_lx, light[i].illuminance_stderr_lx, s.checks[i].irradiance_lx, relative,
+                  text(s.name, ", sensor ", i));
+  }
+}
+
+std::uint32_t add_material(Scene& scene, Model model, float ks) {
+  Material m;
+  m.model = model;
+  m.ks = Rgb(ks), m.kd = Rgb(1);
+  scene.material.push_back(m);
+  return static_cast<std::uint32_t>(scene.material.size() - 1);
+}
+
+TEST(BidirectionalAnalytic, PointScenes) {
+  for (const AnalyticScene& s : test::all_point_scenes())
+    if (s.name.find("furnace") == std::string::npos) check_points(s, 4096, 0.05);
+}
+
+TEST(BidirectionalAnalytic, Furnace) {
+  for (const float albedo : {0.f, 0.5f, 0.9f}) check_points(test::furnace(albedo), 4096, 0.03);
+}
+
+TEST(BidirectionalAnalytic, FurnaceBounceByBounce) {
+  const float albedo = 0.9f;
+  const AnalyticScene s = test::furnace(albedo);
+  const Lit lit(s.scene);
+  for (const std::int64_t bounces : {0, 1, 2, 3, 6}) {
+    const auto e = lit.measure({{s.checks[0].position, s.checks[0].normal}}, 4096, bounces);
+    const double expected = bounces == 0 ? 0 : test::furnace_lx(1, albedo, static_cast<int>(bounces) - 1);
+    expect_within(e[0].illuminance_lx, e[0].illuminance_stderr_lx, expected, 0.03, text(bounces, " bounces"));
+  }
+}
+
+TEST(BidirectionalAnalytic, AnyScale) {
+  for (const float factor : {1e-6f, 1e6f}) {
+    check_points(scaled(test::rectangle_light_parallel(), factor), 1024, 0.1);
+    check_points(scaled(test::furnace(0.5f), factor), 1024, 0.1);
+  }
+}
+
+/// Sensors spread evenly over the inside of a box, with the normals of its walls.
+std::vector<SensorPoint> over_box(const Vec3& size, std::size_t n, const std::vector<int>& walls) {
+  std::vector<double> cdf;
+  double area = 0;
+  for (const int w : walls) {
+    const int axis = w / 2;
+    const float side = size[(axis + 1) % 3] * size[(axis + 2) % 3];
+    cdf.push_back(area += static_cast<double>(side));
+  }
+  std::vector<SensorPoint> sensors;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(n) * area;
+    const auto k = static_cast<std::size_t>(std::lower_bound(cdf.begin(), cdf.end(), u) - cdf.begin());
+    const int axis = walls[k] / 2;
+    const Vec2 st = r2_point(static_cast<int>(i), {0.5f, 0.5f});
+    SensorPoint s;
+    s.position[axis] = walls[k] % 2 ? size[axis] : 0;
+    s.position[(axis + 1) % 3] = st.x * size[(axis + 1) % 3];
+    s.position[(axis + 2) % 3] = st.y * size[(axis + 2) % 3];
+    s.normal = Vec3(0);
+    s.normal[axis] = walls[k] % 2 ? -1 : 1;
+    sensors.push_back(s);
+  }
+  return sensors;
+}
+
+struct Mean {
+  double lux = 0, error = 0;
+};
+
+/// Over sensors; its error from their spread is that of a random choice of them, and errs on the high side.
+Mean mean_of(const std::vector<PointIrradiance>& light) {
+  double sum = 0, errors = 0;
+  for (const PointIrradiance& e : light) sum += e.illuminance_lx, errors += e.illuminance_stderr_lx;
+  const auto n = static_cast<double>(light.size());
+  return {sum / n, errors / n};
+}
+
+/// A wall that is a mirror of reflectance rho shows the lamp's image: rho I h / d'^3, d' from the image.
+TEST(BidirectionalAnalytic, MirrorWallShowsTheLampsImage) {
+  AnalyticScene s;
+  s.name = "mirror wall";
+  test::begin_instance(s.scene, "floor", test::add_lambert(s.scene, "black", 0));
+  test::add_quad(s.scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  test::begin_instance(s.scene, "mirror", add_material(s.scene, Model::mirror, 0.8f));
+  test::add_quad(s.scene, {4, 0, 0}, {0, 0, 4}, {0, 3, 0});
+  test::add_point_light(s.scene, {1, 2, 2}, 1000);
+  finalize(s.scene);
+  s.irradiance_lx = [](const Vec3& p, const Vec3&) {
+    const auto from = [&](double x) {
+      return test::point_over_plane_lx(1000, 2, std::hypot(double(p.x) - x, double(p.z) - 2));
+    };
+    return from(1) + 0.8 * from(7);
+  };
+  for (const Vec2& x : {Vec2{0.5f, 0.5f}, Vec2{2, 2}, Vec2{3.5f, 2.5f}, Vec2{3.9f, 1}})
+    s.check_at({x.x, 0, x.y}, {0, 1, 0});
+  check_points(s, 4096, 0.02);
+}
+
+/// A grey box with a mirror for a wall absorbs what the lamp sends: (1 - albedo) x area x mean of the grey
+/// walls = flux; much of it comes by the mirror, and between mirrors.
+TEST(BidirectionalAnalytic, GreyBoxWithMirrorWall) {
+  Scene scene;
+  const Vec3 size(2, 1, 1.5f);
+  test::begin_instance(scene, "walls", test::add_lambert(scene, "grey", 0.5f));
+  test::add_room(scene, Vec3(0), size);
+  // The wall x = 2 is covered by the mirror.
+  test::begin_instance(scene, "mirror", add_material(scene, Model::mirror, 1));
+  test::add_quad(scene, {1.999f, 0, 0}, {0, 0, 1.5f}, {0, 1, 0});
+  test::add_point_light(scene, {0.7f, 0.6f, 0.5f}, 100 / (4 * kPi));
+  finalize(scene);
+  const Vec3 inner(1.999f, 1, 1.5f);
+  const Mean mean = mean_of(Lit(scene).measure(over_box(inner, 240, {0, 2, 3, 4, 5}), 1024));
+  const double grey_m2 = 1.5 + 2 * 2 * 1.5 + 2 * 2 * 1;
+  EXPECT_NEAR(mean.lux * grey_m2 * 0.5 / 100, 1, 0.02);
+}
+
+/// Twelve pentagons' worth of triangles about a ball, refined; vertex normals are the sphere's.
+void add_ball(Scene& scene, const Vec3& centre, float radius_m) {
+  const AnalyticScene sphere = test::integrating_sphere(0.5f, 5120, radius_m);
+  const auto first = static_cast<std::uint32_t>(scene.position.size());
+  for (const Vec3& p : sphere.scene.position) {
+    scene.position.push_back(p + centre);
+    scene.normal.push_back(glm::normalize(p));
+  }
+  for (const Triangle& t : sphere.scene.triangle) {
+    const Vec3 a = sphere.scene.position[t.v[0]], b = sphere.scene.position[t.v[1]], c = sphere.scene.position[t.v[2]];
+    const bool outward = glm::dot(glm::cross(b - a, c - a), a + b + c) > 0;
+    scene.triangle.push_back({{first + t.v[0], first + t.v[outward ? 1 : 2], first + t.v[outward ? 2 : 1]}});
+    scene.triangle_instance.push_back(static_cast<std::uint32_t>(scene.instance.size() - 1));
+    ++scene.instance.back().triangle_count;
+  }
+}
+
+/// A ball of glass without absorption in a black box: what the lamp sends all comes to the walls, a part of it
+/// as a caustic.
+TEST(BidirectionalAnalytic, LightThroughGlassBallIsAllThere) {
+  Scene scene;
+  const Vec3 size(1, 1, 1);
+  test::begin_instance(scene, "walls", test::add_lambert(scene, "black", 0));
+  test::add_room(scene, Vec3(0), size);
+  test::begin_instance(scene, "ball", add_material(scene, Model::dielectric, 0));
+  add_ball(scene, {0.5f, 0.4f, 0.5f}, 0.2f);
+  test::add_point_light(scene, {0.5f, 0.85f, 0.5f}, 100 / (4 * kPi));
+  finalize(scene);
+  const Mean mean = mean_of(Lit(scene).measure(over_box(size, 900, {0, 1, 2, 3, 4, 5}), 64));
+  EXPECT_NEAR(mean.lux * 6 / 100, 1, 0.03);
+}
+
+TEST(BidirectionalAnalytic, PictureIsThatOfPathTracing) {
+  const Scene scene = test::cornell();
+  const Lit lit(scene);
+  ReferenceOptions options;
+  options.width = options.height = 16, options.samples = 256;
+  const Image path = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
+  options.method = ReferenceMethod::bidirectional;
+  const Image both = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
+  for (const char* layer : {"emission", "direct", "indirect"}) {
+    double sum[2] = {0, 0};
+    const auto a = path.rgb(layer), b = both.rgb(layer);
+    for (std::size_t i = 0; i < a.size(); ++i) sum[0] += luminance(a[i]), sum[1] += luminance(b[i]);
+    EXPECT_NEAR(sum[1] / sum[0], 1, 0.02) << layer;
+  }
+  double z2 = 0, n = 0;
+  const auto a = path.rgb(""), b = both.rgb(""), ea = path.rgb("stderr"), eb = both.rgb("stderr");
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double e = std::hypot(double(ea[i].y), double(eb[i].y));
+    if (e > 0) z2 += std::pow((double(a[i].y) - double(b[i].y)) / e, 2), n += 1;
+  }
+  EXPECT_NEAR(z2 / n, 1, 5 * std::sqrt(2 / n));
+}
+
+}  // namespace
