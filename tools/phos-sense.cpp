@@ -1,5 +1,6 @@
 // phos-sense: scene, caches, points -> lux and its standard error at sensors.
 #include <cstdio>
+#include <limits>
 
 #include "cache/daylight_factor.h"
 #include "cache/sensor_grid.h"
@@ -7,7 +8,7 @@
 #include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "file/tool.h"
-#include "reference/point_irradiance.h"
+#include "reference/point_doubts.h"
 #include "scene/daylight.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -58,6 +59,21 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
   file.commit();
 }
 
+/// Of sensors whose records do not hold all light: those of files that say so, and those made here.
+void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std::vector<LightWay>& ways,
+                      const SensorOptions& sense, const SensorReport& report,
+                      std::vector<Reading>& readings) {
+  const bool by_files = !tell_unsampled_in(tool, files).empty();
+  const auto rays = static_cast<double>(sense.rays);
+  std::vector<LightWay> missed;
+  if (report.uncovered > 0) missed = unsampled(ways, Sampler::gathering, rays);
+  tell_unsampled(tool, missed, Sampler::gathering, rays,
+                 text(report.uncovered, " sensors that no record of the caches reaches"));
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    if (report.is_covered(i) ? by_files : !missed.empty())
+      readings[i].stderr_lx = std::numeric_limits<float>::quiet_NaN();
+}
+
 void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::span<const Reading> readings,
                const SensorReport& report, std::optional<double> open_lx) {
   Json summary = summarise(readings);
@@ -94,6 +110,7 @@ int main(int argc, char** argv) {
             "are of "
             "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
             6, Tool::Output::optional);
+  tool.takes_strict();
   tool.output_has_no_key();
   Inputs inputs;
   SceneOptions scene_options;
@@ -160,10 +177,14 @@ int main(int argc, char** argv) {
     sense.seed = exactly.seed = tool.seed();
     SensorReport report;
     std::uint64_t samples = 0;
+    const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
+    PointDoubts doubts(ways, Sampler::path_tracing);
+    doubts.prepare(exactly);
     const auto whole = [&](std::size_t i) {
       exactly.item = i;
-      const PointIrradiance e =
+      PointIrradiance e =
           estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
+      doubts.judge(e);
       if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
       samples += e.samples;
       return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};
@@ -180,6 +201,10 @@ int main(int argc, char** argv) {
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
+    if (exact)
+      doubts.tell(tool);
+    else
+      leave_out_errors(tool, files, ways, sense, report, readings);
     tool.counters().merge(report.counters);
     tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "reference/central_moments.h"
 #include "reference/moments.h"
 #include "reference/sample_shares.h"
 #include "scene/bsdf.h"
@@ -36,6 +37,7 @@ struct Pixel {
   Channels total, indirect;
   DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
   Moments scattered, illuminance;
+  CentralMoments spread;  // of what is scattered
 };
 
 class Renderer {
@@ -51,6 +53,7 @@ class Renderer {
   /// As many more samples of every pixel; or, if they are to be shared out, on the mean.
   void pass(std::int64_t more, bool shared_out);
   double error() const;
+  bool trusted() const;
   std::uint64_t rejected() const { return rejected_; }
   Image image() const;
 
@@ -106,6 +109,7 @@ std::uint64_t Renderer::sample(std::size_t pixel) {
   sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct), sum.glossy += DVec3(light.glossy),
       sum.specular += DVec3(light.specular);
   sum.scattered.add(luminance(total - light.emission));
+  sum.spread.add(static_cast<double>(luminance(total - light.emission)));
   if (options_.illuminance) sum.illuminance.add(lux);
   return 0;
 }
@@ -143,6 +147,14 @@ double Renderer::error() const {
   }
   const auto n = static_cast<double>(pixels_.size());
   return mean > 0 ? std::sqrt(squares / n) / (mean / n) : 0;
+}
+
+bool Renderer::trusted() const {
+  double squares = 0, fourths = 0;
+  bool any = false;
+  for (const Pixel& p : pixels_)
+    squares += p.spread.squares(), fourths += p.spread.fourths(), any |= p.spread.any();
+  return any && !(fourths > kFewBright * squares * squares);
 }
 
 Rgb mean(const std::array<double, 3>& sum, double n) { return {sum[0] / n, sum[1] / n, sum[2] / n}; }
@@ -236,7 +248,8 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
     renderer.pass(next - result.samples, options.adaptive && result.samples > 0);
     result.samples = next;
     result.error = renderer.error();
-    if (options.error && result.error <= *options.error) break;
+    result.trusted = luminaires.size() == 0 || renderer.trusted();
+    if (options.error && result.error <= *options.error && result.trusted) break;
   }
   result.image = renderer.image();
   const std::uint64_t rejected = renderer.rejected();
