@@ -32,7 +32,7 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
   if (report.made > 0) tool.stat("ms_per_record", 1e3 * report.making_s / static_cast<double>(report.made));
   tool.say(text(cache.records.size(), " records (", report.kept, " new) cover ", report.candidates,
                 " candidates in ", report.passes, report.passes == 1 ? " pass" : " passes",
-                light > 0 ? "; mean standard error " + percent(error, light) : ""));
+                stated && light > 0 ? "; mean standard error " + percent(error, light) : ""));
   if (report.uncovered_share) {
     tool.stat("uncovered_share", *report.uncovered_share);
     tool.say(text("of the surface that light can reach, ", percent(*report.uncovered_share, 1),

@@ -129,14 +129,15 @@ PlanModel lux_error_model(const PlanTask& task) {
 
 PlanModel time_model(const PlanTask& task) {
   PlanModel model;
-  model.part = {
-      {"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
-      {"coarse records",
-       // Many photons lie in zones that have one already: up to 1.3 million, seconds follow their
-       // number to a power of 0.47 (Sponza) to 0.66 (Cornell box).
-       sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}})},
-      {"records", sum_of({{"start", {}}, {"places", {{K::pixels, 1}}}, {"records", {{K::records, 1}}}})}};
-  if (!task.by_photons) model.find("records")->extend("", {"their rays", {{K::records, 1}, {K::rays, 1}}}, 0);
+  std::vector<Monomial> records = {
+      {"start", {}}, {"places", {{K::pixels, 1}}}, {"records", {{K::records, 1}}}};
+  if (!task.by_photons) records.push_back({"their rays", {{K::records, 1}, {K::rays, 1}}});
+  model.part = {{"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
+                {"coarse records",
+                 // Many photons lie in zones that have one already: up to 1.3 million, seconds follow their
+                 // number to a power of 0.47 (Sponza) to 0.66 (Cornell box).
+                 sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}})},
+                {"records", sum_of(records)}};
   if (task.image) {
     std::vector<Monomial> terms = {{"start", {}},
                                    {"pixels", {{K::pixels, 1}}},
