@@ -12,6 +12,7 @@
 #include "scene/merl.h"
 #include "scene/photometric_file.h"
 #include "scene/texture.h"
+#include "scene/unsampled.h"
 
 namespace phos {
 namespace {
@@ -194,9 +195,10 @@ std::uint64_t scene_bytes(const Scene& s) {
   return n;
 }
 
-/// Of light that comes to surfaces by mirrors, glass or sharp gloss.
-void add_ways(const std::vector<LightWay>& ways, std::vector<Requirement>& out) {
+/// Of light that comes to surfaces by mirrors, glass or sharp gloss so that rays seldom find it.
+void add_ways(const std::vector<LightWay>& all, std::vector<Requirement>& out) {
   constexpr std::size_t kShown = 3;
+  const std::vector<LightWay> ways = unsampled(all, Sampler::gathering, kUsualRays);
   if (ways.empty()) return;
   std::string why;
   for (std::size_t i = 0; i < std::min(kShown, ways.size()); ++i)

@@ -23,7 +23,7 @@ struct SamplerRow {
 constexpr SamplerRow kSamplers[] = {
     {Sampler::path_tracing, "path tracing", Finds::by_hits, Finds::by_hits, Finds::by_hits,
      "records of photons hold it (phos-irradiance --estimate hull)"},
-    {Sampler::gathering, "rays of records", Finds::by_hits, Finds::by_hits, Finds::by_hits,
+    {Sampler::gathering, "gathering", Finds::by_hits, Finds::by_hits, Finds::by_hits,
      "records of photons hold it (phos-irradiance --estimate hull)"},
     {Sampler::photons, "photons", Finds::always, Finds::always, Finds::always, ""},
 };

@@ -22,6 +22,9 @@ enum class Sampler : std::uint8_t {
 /// below, mean +- 2 standard errors misses the truth more often than one says (FORMULAS-glass G6.2).
 inline constexpr double kExpectedHits = 10;
 
+/// Rays that a record usually has, and a sensor beyond them.
+inline constexpr double kUsualRays = 1024;
+
 /// Is light that goes this way in an estimate of so many samples, and in its standard error? For each sampler
 /// and kind of way one table (in the .cpp) says: always, never, or by hits, samples x hit_share of them.
 bool samples(Sampler sampler, const LightWay& way, double samples);

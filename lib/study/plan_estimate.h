@@ -15,6 +15,5 @@ enum class PlanRecords { automatic, gather, hull };
 /// (scene/unsampled.h, for kUsualRays of them), unless sensors hang in free air, where no photon lands. Else
 /// by rays, which are less noisy. Says in `needs` why.
 bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const PlanTask& task, Needs& needs);
-inline constexpr double kUsualRays = 1024;
 
 }  // namespace phos
