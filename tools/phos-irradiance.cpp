@@ -1,6 +1,7 @@
 // Places irradiance records and estimates them.
 #include "cache/irradiance_parts.h"
 #include "cache/placement.h"
+#include "cache/record_ways.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
@@ -16,7 +17,7 @@ std::string percent(double part, double whole) {
   return out.str();
 }
 
-void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report) {
+void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report, bool stated) {
   double light = 0, error = 0;
   for (const IrradianceRecord& r : cache.records) {
     light += static_cast<double>(luminance(r.irradiance)),
@@ -31,7 +32,7 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
   if (report.made > 0) tool.stat("ms_per_record", 1e3 * report.making_s / static_cast<double>(report.made));
   tool.say(text(cache.records.size(), " records (", report.kept, " new) cover ", report.candidates,
                 " candidates in ", report.passes, report.passes == 1 ? " pass" : " passes",
-                light > 0 ? "; mean standard error " + percent(error, light) : ""));
+                stated && light > 0 ? "; mean standard error " + percent(error, light) : ""));
   if (report.uncovered_share) {
     tool.stat("uncovered_share", *report.uncovered_share);
     tool.say(text("of the surface that light can reach, ", percent(*report.uncovered_share, 1),
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
       "hold "
       "irradiance too, so that the surfaces which they cover get none of their own.",
       14);
+  tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
   RecordOptions records;
@@ -113,6 +115,12 @@ int main(int argc, char** argv) {
                                  tool.seed()};
     resolve(placement, scene, source, records.accuracy);
     const RayScene rays(scene, {isa});
+    const std::vector<LightWay> missed = tell_missed_ways(tool, rays, records);
+    const auto provenance = [&] {
+      Provenance own = tool.provenance("irradiance", scene.hash, scene.parts);
+      note_unsampled(own, missed);
+      return own;
+    };
     const ChosenEstimator estimator = [&] {
       const auto timer = tool.time("coarse records");
       return ChosenEstimator(rays, inputs, records, tool.seed());
@@ -122,19 +130,19 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("records");
       if (!placement.part.empty()) {
         const IrradiancePart part = make_part(cache, *estimator, rays, records, placement.part, points);
-        return write_part(tool.output(), part, tool.provenance("irradiance", scene.hash, scene.parts));
+        return write_part(tool.output(), part, provenance());
       }
       const CoveredBy covered(cache, inputs.radiance);
       const PlacementReport report =
           place(cache, *estimator, rays, records, placement, source, tool.counters());
       covered.take_out(cache);
-      summarise(tool, cache, report);
+      summarise(tool, cache, report, missed.empty());
     }
     if (cache.records.empty()) {
       tool.warn(inputs.photons && inputs.photons->size() == 0
                     ? "there are no photons: the file is empty, which means no light anywhere"
                     : "no place wants a record (see --place, --paths): the file is empty");
     }
-    write_irradiance(tool.output(), cache, tool.provenance("irradiance", scene.hash, scene.parts));
+    write_irradiance(tool.output(), cache, provenance());
   });
 }

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
                   "has no light, so there is nothing to plan; give it a lamp or an --environment");
     task.gloss = needs.gloss, task.specular = needs.specular;
     task.diagonal_m = scene.bounds.diagonal_m();
+    task.by_photons = by_photons(plan.records, needs.ways, task, needs);
     if (task.image) resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
     if (needs.animated && !options.given("frame") && !options.given("time"))
       tool.say(
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
         plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
     tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
+    if (!plan.run && !pilot.doubts.empty()) tool.set_exit(ExitCode::numerical);
     if (!plan.run)
       return write_text(plan.output.empty() ? "/dev/stdout" : plan.output,
                         plan.json ? plan_json(way, needs, pilot, goal, chosen, tool.seed()).dump(2) + "\n"

@@ -4,6 +4,7 @@
 #include "cache/gloss_report.h"
 #include "cache/radiance_placement.h"
 #include "cache/radiance_report.h"
+#include "cache/record_ways.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
             "read where they land: irradiance, in place of the coarse cache that is otherwise made from the "
             "photons, and radiance, for gloss.",
             12);
+  tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
   RadianceOptions radiance;
@@ -96,12 +98,14 @@ int main(int argc, char** argv) {
     const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
                                  tool.seed()};
     resolve(placement, scene, source, radiance.records.accuracy);
+    std::vector<LightWay> missed;
     tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
     if (tables.orders().empty()) {
       tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
                     ": the file is empty"));
     } else {
       const RayScene rays(scene, {isa});
+      missed = tell_missed_ways(tool, rays, radiance.records);
       const ChosenRadianceEstimators estimators = [&] {
         const auto timer = tool.time("coarse records");
         return ChosenRadianceEstimators(rays, inputs, radiance, tool.seed());
@@ -113,6 +117,8 @@ int main(int argc, char** argv) {
                                tool.counters()));
       if (cache.records.empty()) tool.warn("no place wants a record (see --place): the file is empty");
     }
-    write_radiance(tool.output(), cache, tool.provenance("radiance", scene.hash, scene.parts));
+    Provenance provenance = tool.provenance("radiance", scene.hash, scene.parts);
+    note_unsampled(provenance, missed);
+    write_radiance(tool.output(), cache, provenance);
   });
 }

@@ -6,7 +6,9 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
+#include "image/without_errors.h"
 #include "reference/bidirectional_points.h"
+#include "reference/point_doubts.h"
 #include "reference/render.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -25,16 +27,41 @@ void write_text(Tool& tool, const std::string& csv) {
   file.commit();
 }
 
+/// By which light can come, of that which is asked for: directly it comes straight.
+std::vector<LightWay> ways_of(const RayScene& rays, const Luminaires& luminaires, const PathOptions& path) {
+  const bool direct_alone = path.bounces == 0 || path.bounces == 1;
+  return direct_alone ? std::vector<LightWay>() : light_ways(rays, luminaires);
+}
+
+/// Warns of what the picture's error does not hold. Is it to be stated?
+bool can_state_error(Tool& tool, const std::vector<LightWay>& ways, const ReferencePicture& picture) {
+  const auto samples = static_cast<double>(picture.image.pixels()) * static_cast<double>(picture.samples);
+  const std::vector<LightWay> missed = unsampled(ways, Sampler::path_tracing, samples);
+  tell_unsampled(tool, missed, Sampler::path_tracing, samples);
+  if (!picture.trusted) {
+    tool.stat("untrusted", picture.image.pixels());
+    tool.doubt("too few bright paths make the picture's standard error; raise --samples");
+  }
+  return missed.empty();
+}
+
 void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminaires,
                     const ReferenceOptions& reference, const std::vector<SensorPoint>& points) {
-  PointOptions options{reference.samples, reference.error, reference.seed, 0, reference.path};
+  PointOptions options;
+  options.samples = reference.samples, options.relative_error = reference.error;
+  options.seed = reference.seed, options.path = reference.path;
+  const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
+  const bool both_ends = is_bidirectional(reference.method, ways, static_cast<double>(reference.samples));
+  PointDoubts doubts(both_ends ? std::vector<LightWay>() : ways, Sampler::path_tracing);
   std::vector<PointIrradiance> light;
-  if (is_bidirectional(reference.method, rays.scene())) {
+  if (both_ends) {
     light = estimate_bidirectionally(rays, luminaires, points, options);
   } else {
     Progress progress("reference", points.size(), "points");
+    doubts.prepare(options);
     for (const SensorPoint& point : points) {
       light.push_back(estimate_irradiance(rays, luminaires, point.position, point.normal, options));
+      doubts.judge(light.back());
       ++options.item;
       progress.advance();
     }
@@ -44,11 +71,22 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   tool.stat("samples", samples);
   if (rejected > 0) tool.counters().count("non-finite sample", rejected);
   tool.counters().require_allowed("non-finite sample", samples);
+  doubts.tell(tool);
   write_text(tool, sensor_csv(points, light, rays.scene().origin_m));
 }
 
+std::string error_text(double error) {
+  return text(", standard error ", shortest(static_cast<float>(100 * error)),
+              " % of the mean luminance (RMS)");
+}
+
 void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminaires& luminaires,
-            const ReferenceOptions& reference) {
+            ReferenceOptions reference) {
+  const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
+  const double pixels = static_cast<double>(reference.width) * static_cast<double>(reference.height);
+  const bool both_ends =
+      is_bidirectional(reference.method, ways, pixels * static_cast<double>(reference.samples));
+  reference.method = both_ends ? ReferenceMethod::bidirectional : ReferenceMethod::path;
   ReferencePicture picture = [&] {
     const auto timer = tool.time("trace");
     return render_reference(rays, luminaires, find_camera(scene, reference.camera), reference);
@@ -56,16 +94,17 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   tool.counters().merge(picture.counters);
   tool.stat("samples", picture.image.pixels() * static_cast<std::uint64_t>(picture.samples));
   tool.stat("samples a pixel", picture.samples);
-  tool.stat("error", picture.error);
+  const bool stated = can_state_error(tool, both_ends ? std::vector<LightWay>() : ways, picture);
+  if (!stated) picture.image = without_errors(picture.image);
   if (!scene.animation.empty()) picture.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
   set_provenance(picture.image, tool.provenance("image", scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
-  picture.image.attributes["phos.error"] = shortest(picture.error);
+  if (stated) picture.image.attributes["phos.error"] = shortest(picture.error);
+  if (stated) tool.stat("error", picture.error);
   const auto timer = tool.time("write");
   write_exr(tool.output(), picture.image);
   tool.say(text(tool.output(), ": ", reference.width, " x ", reference.height, ", ", picture.samples,
-                " samples a pixel, standard error ", shortest(static_cast<float>(100 * picture.error)),
-                " % of the mean luminance (RMS)"));
+                " samples a pixel", stated ? error_text(picture.error) : ""));
   if (reference.error && picture.error > *reference.error)
     tool.warn(text("--error ", shortest(*reference.error), " was not reached within --samples ",
                    reference.samples, "; raise --samples"));
@@ -85,6 +124,7 @@ int main(int argc, char** argv) {
             "with its "
             "standard error.",
             2, Tool::Output::optional);
+  tool.takes_strict();
   Options& options = tool.options();
   std::string scene_path, points_path;
   ReferenceOptions reference;

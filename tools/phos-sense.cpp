@@ -1,5 +1,6 @@
 // phos-sense: scene, caches, points -> lux and its standard error at sensors.
 #include <cstdio>
+#include <limits>
 
 #include "cache/daylight_factor.h"
 #include "cache/sensor_grid.h"
@@ -9,6 +10,7 @@
 #include "file/tool.h"
 #include "reference/bidirectional_points.h"
 #include "reference/method.h"
+#include "reference/point_doubts.h"
 #include "scene/daylight.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -59,6 +61,21 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
   file.commit();
 }
 
+/// Of sensors whose records do not hold all light: those of files that say so, and those made here.
+void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std::vector<LightWay>& ways,
+                      const SensorOptions& sense, const SensorReport& report,
+                      std::vector<Reading>& readings) {
+  const bool by_files = !tell_unsampled_in(tool, files).empty();
+  const auto rays = static_cast<double>(sense.rays);
+  std::vector<LightWay> missed;
+  if (report.uncovered > 0) missed = unsampled(ways, Sampler::gathering, rays);
+  tell_unsampled(tool, missed, Sampler::gathering, rays,
+                 text(report.uncovered, " sensors that no record of the caches reaches"));
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    if (report.is_covered(i) ? by_files : !missed.empty())
+      readings[i].stderr_lx = std::numeric_limits<float>::quiet_NaN();
+}
+
 void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::span<const Reading> readings,
                const SensorReport& report, std::optional<double> open_lx) {
   Json summary = summarise(readings);
@@ -95,6 +112,7 @@ int main(int argc, char** argv) {
             "are of "
             "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
             6, Tool::Output::optional);
+  tool.takes_strict();
   tool.output_has_no_key();
   Inputs inputs;
   SceneOptions scene_options;
@@ -121,10 +139,11 @@ int main(int argc, char** argv) {
   options.integer("samples", exactly.samples, "N", "paths for each sensor with --exact, at most", {2, 1e12});
   options.number("error", exactly.relative_error, "SHARE",
                  "with --exact, stop at this standard error relative to the value", kPositive);
-  declare_method(options, method,
-                 "with --exact: path: from the sensor alone, which does not find what comes from small lamps by "
-                 "mirrors and glass; bidirectional: from sensor and lamps; auto: bidirectional where the scene "
-                 "has mirrors, smooth glass or sharp gloss");
+  declare_method(
+      options, method,
+      "with --exact: path: from the sensor alone, which does not find what comes from small lamps by "
+      "mirrors and glass; bidirectional: from sensor and lamps; auto: bidirectional where the scene "
+      "has mirrors, smooth glass or sharp gloss");
   declare_isa(options, isa);
   options.flag(
       "daylight-factor", factors,
@@ -166,19 +185,25 @@ int main(int argc, char** argv) {
     sense.seed = exactly.seed = tool.seed();
     SensorReport report;
     std::uint64_t samples = 0;
+    const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
     std::vector<PointIrradiance> both_ends;
-    if (exact && is_bidirectional(method, scene)) {
+    if (exact && is_bidirectional(method, ways, static_cast<double>(exactly.samples))) {
       const auto timer = tool.time("light paths");
       std::vector<SensorPoint> points;
       for (const auto& p : sensors.points) points.push_back({p.position, p.normal});
       both_ends = estimate_bidirectionally(rays, lights, points, exactly);
     }
+    PointDoubts doubts(both_ends.empty() ? ways : std::vector<LightWay>(), Sampler::path_tracing);
+    doubts.prepare(exactly);
     const auto whole = [&](std::size_t i) {
       exactly.item = i;
-      const PointIrradiance e =
-          both_ends.empty()
-              ? estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly)
-              : both_ends[i];
+      PointIrradiance e;
+      if (!both_ends.empty()) {
+        e = both_ends[i];
+      } else {
+        e = estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
+        doubts.judge(e);
+      }
       if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
       samples += e.samples;
       return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};
@@ -195,6 +220,10 @@ int main(int argc, char** argv) {
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
+    if (exact)
+      doubts.tell(tool);
+    else
+      leave_out_errors(tool, files, ways, sense, report, readings);
     tool.counters().merge(report.counters);
     tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");

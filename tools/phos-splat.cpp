@@ -6,9 +6,11 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
+#include "image/without_errors.h"
 #include "scene/film.h"
 #include "scene/load.h"
 #include "scene/rays.h"
+#include "scene/unsampled.h"
 #include "splat/caches.h"
 #include "splat/picture_gloss.h"
 #include "splat/picture_report.h"
@@ -50,6 +52,7 @@ int main(int argc, char** argv) {
             "illuminance.Y in lx, weight, normal, position (m, counted from the scene's origin where "
             "phos-scene tells of one) and Z. Another camera, size or --accuracy needs no new cache.",
             9);
+  tool.takes_strict();
   Options& options = tool.options();
   std::string scene_path, misses_path, gloss_misses_path;
   std::vector<std::string> cache_paths;
@@ -111,6 +114,7 @@ int main(int argc, char** argv) {
     if (const auto frames = tool.frames()) require_frames(scene, *frames);
     if (!allow_mismatch)
       for (const Container& file : files) require_same_scene(file, scene_path, scene);
+    const bool stated = tell_unsampled_in(tool, files).empty();
     const bool glossy = !glossy_materials(scene).empty();
     tell_of_files(tool, files, render, glossy);
     SplatCaches caches = read_caches(files, scene, glossy);
@@ -135,6 +139,7 @@ int main(int argc, char** argv) {
     Rendering rendering =
         render_scene(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr);
     require_finite(rendering.image);
+    if (!stated) rendering.image = without_errors(rendering.image);
     if (!scene.animation.empty()) rendering.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
     set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
     const auto timer = tool.time("write");

@@ -233,7 +233,7 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
   std::vector<SurfaceSample> open;
   for (std::size_t i = 0; i < n; ++i)
     if (!covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
-  report.uncovered = open.size();
+  report.uncovered = open.size(), report.covered = std::move(covered);
   if (open.empty()) return readings;
   const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, options, report);
   parallel_for(uncovered.size(), kChunk, [&](std::size_t k) {
@@ -286,8 +286,10 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
            {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})
         out += ',', out += std::isnan(v) ? std::string() : shortest(v);
       if (open_lx)
-        for (const float lx : {r.illuminance_lx, r.stderr_lx})
-          out += ',', out += shortest(static_cast<float>(100 * static_cast<double>(lx) / *open_lx));
+        for (const float lx : {r.illuminance_lx, r.stderr_lx}) {
+          const auto percent = static_cast<float>(100 * static_cast<double>(lx) / *open_lx);
+          out += ',', out += std::isnan(lx) ? std::string() : shortest(percent);
+        }
       for (int c = 0; c < filled; ++c)
         out += ',', out += shortest(kLuminanceWeight[c] * static_cast<double>(r.components_lx[c]));
       out += '\n';

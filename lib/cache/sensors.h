@@ -59,6 +59,10 @@ struct SensorReport {
   std::uint64_t inside = 0;        ///< sensors inside of solids: rays from there mostly meet back faces
   std::uint64_t outside = 0;       ///< sensors beyond the scene's bounds
   Counters counters;               ///< numerical events of the new records
+  std::vector<std::uint8_t>
+      covered;  ///< of each sensor: by a record of the caches; empty where none is asked
+
+  bool is_covered(std::size_t sensor) const { return sensor < covered.size() && covered[sensor] != 0; }
 };
 
 /// Caches of one scene that are looked up together.

@@ -98,6 +98,11 @@ void Tool::declare_common() {
                                 "progress on standard error", Recorded::no);
   options_.flag("quiet", quiet_, "no messages but warnings and errors", Recorded::no);
   options_.flag("verbose", verbose_, "more messages", Recorded::no);
+  if (takes_strict_)
+    options_.flag("strict", strict_,
+                  "end with code 5 and no output where light is known to be left out, or the stated error is "
+                  "not to be trusted",
+                  Recorded::no);
   if (wants_output_ == Output::none || !keyed_) return;
   options_.flag("reuse", reuse_, "do nothing if the output already holds exactly this result", Recorded::no);
   options_.flag("why", why_, "print what differs from the existing output, and do nothing else",
@@ -266,6 +271,11 @@ void Tool::say(const std::string& line) const {
 }
 
 void Tool::warn(const std::string& line) const { tell("warning: ", line); }
+
+void Tool::doubt(const std::string& line) const {
+  if (strict_) throw Error(ExitCode::numerical, "", line);
+  warn(line);
+}
 
 void Tool::write_stats(double seconds) const {
   Json out = stats_;

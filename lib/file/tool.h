@@ -71,6 +71,12 @@ class Tool {
   const std::string& output() const { return output_; }
   bool verbose() const { return verbose_; }
 
+  /// Declares --strict: what the result cannot answer for is refused (see doubt()). Call before run().
+  void takes_strict() { takes_strict_ = true; }
+  /// Light that a result lacks, or an error that cannot be stated: a warning; with --strict, which every tool
+  /// that says such things takes, Error(numerical) and no output.
+  void doubt(const std::string& line) const;
+
   /// Registers an input by content hash (of several files together where one input is many). A phos
   /// container's own history is appended to ours.
   void add_input(const std::string& role, const std::string& path);
@@ -147,6 +153,7 @@ class Tool {
   ProvenanceReader provenance_reader_;
   bool keyed_ = true;
   bool quiet_ = false, verbose_ = false, reuse_ = false, why_ = false;
+  bool takes_strict_ = false, strict_ = false;
   ProgressMode progress_ = ProgressMode::automatic;
   ExitCode exit_ = ExitCode::done;
   Json stats_;

@@ -6,8 +6,8 @@
 
 #include "core/sampling.h"
 #include "reference/roulette.h"
-#include "scene/light_ways.h"
 #include "scene/passage.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {
@@ -39,7 +39,7 @@ Rgb glossy_share(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
 /// An eye path on its way: the edge that it goes along, and the vertex that it began at.
 struct BidirectionalTracer::Walk {
   Ray ray;
-  Vec3 from{0};             // where the ray was chosen, before it was lifted off the surface
+  Vec3 from{0};  // where the ray was chosen, before it was lifted off the surface
   Rgb throughput{1};
   float start = 1;          // throughput that it began with
   double density = 0;       // of the direction, per sr; 1 of a mirror's
@@ -80,7 +80,7 @@ struct BidirectionalTracer::Scattered {
 };
 
 BidirectionalTracer::BidirectionalTracer(const RayScene& rays, const Luminaires& luminaires,
-                                         const LampRays& lamps, const PathOptions& options)
+                                         const LightStarts& lamps, const PathOptions& options)
     : rays_(&rays), luminaires_(&luminaires), lamps_(&lamps), options_(options) {}
 
 bool BidirectionalTracer::samples_every_lamp(std::int64_t scatterings) const {
@@ -137,8 +137,8 @@ void BidirectionalTracer::add_hit_at(const SurfacePoint& point, const Walk& walk
     shadow_rays = (walk.every_lamp ? 1 : lamps_->share(i)) *
                   to_double(luminaires_->density(i, walk.from, point.triangle, point.distance_m, cos_lamp)) /
                   walk.density;
-  const double start = lamps_->density(i, point.position, point.triangle, point.geometric_normal,
-                                       -walk.ray.direction);
+  const double start =
+      lamps_->density(i, point.position, point.triangle, point.geometric_normal, -walk.ray.direction);
   const double light_path = start * walk.cos_leaving / (walk.density * to_double(cos_lamp)) * walk.behind;
   add_hit(luminance, shadow_rays, light_path, walk, sum);
 }
@@ -153,8 +153,8 @@ void BidirectionalTracer::add_hit_beyond(const Walk& walk, PathSample& sum) cons
     shadow_rays = (walk.every_lamp ? 1 : lamps_->share(i)) *
                   to_double(luminaires_->density_beyond(walk.from, walk.ray.direction)) / walk.density;
   const Vec3 towards = -walk.ray.direction;
-  const double light_path = lamps_->density(i, walk.from, 0, towards, towards) * walk.cos_leaving /
-                            walk.density * walk.behind;
+  const double light_path =
+      lamps_->density(i, walk.from, 0, towards, towards) * walk.cos_leaving / walk.density * walk.behind;
   add_hit(luminance, shadow_rays, light_path, walk, sum);
 }
 
@@ -256,8 +256,10 @@ void BidirectionalTracer::merge(const Vertex& at, const LightPass& pass, const W
     const float landed = std::fabs(glm::dot(wi, n));
     const Scattered s = scattered(at, wi);
     if (!positive(s.f_cos) || !(landed > 0)) return;
-    const double weight = balance(v.end.instead_of_merging(eta, s.onward), at.end().instead_of_merging(eta, s.back));
-    const Rgb light = walk.throughput * v.flux_lm * s.f_cos * static_cast<float>(weight / (to_double(landed) * eta));
+    const double weight =
+        balance(v.end.instead_of_merging(eta, s.onward), at.end().instead_of_merging(eta, s.back));
+    const Rgb light =
+        walk.throughput * v.flux_lm * s.f_cos * static_cast<float>(weight / (to_double(landed) * eta));
     const bool inner = distance2 <= inner2;
     if (inner) add(light, scatterings, at, wi, walk, sample.sum);
     sample.bias += (inner ? -0.5f : 0.5f) * light;
@@ -307,8 +309,7 @@ BidirectionalTracer::Next BidirectionalTracer::scatter(const Vertex& at, Walk& w
   }
   const double back = next.specular ? 1 : to_double(at.bsdf->density(next.direction, at.wo));
   const bool sharp = next.specular || at.sharp;
-  walk.behind =
-      (next.specular ? 0 : at.connect) + back * (at.before + (sharp ? at.merge_before : 0));
+  walk.behind = (next.specular ? 0 : at.connect) + back * (at.before + (sharp ? at.merge_before : 0));
   walk.merge_behind = next.specular ? 0 : at.merge;
   walk.density = next.specular ? 1 : to_double(next.density);
   walk.cos_leaving = std::fabs(to_double(glm::dot(next.direction, at.point->geometric_normal)));
@@ -420,8 +421,7 @@ PathSample BidirectionalTracer::splat(const LightVertex& vertex, const Vec3& tow
   const double weight = balance(end.left_to_the_other(density, s.back) / start.light_paths, 0);
   const Rgb light = s.light * static_cast<float>(density * weight);
   if (!positive(light)) return sum;
-  const Rgb share =
-      arriving_share(*rays_, Ray{vertex.point.leave(towards), towards, 0, distance_m});
+  const Rgb share = arriving_share(*rays_, Ray{vertex.point.leave(towards), towards, 0, distance_m});
   if (!positive(share)) return sum;
   if (scatterings == 1)
     sum.direct = share * light;

@@ -32,12 +32,12 @@ struct BidirectionalSample {
 
 /// Bidirectional path tracing with multiple importance sampling (balance heuristic) over all connections
 /// (Veach 1997, chapter 10), and vertex merging (Georgiev et al. 2012) where light comes by way of a mirror,
-/// glass or sharp gloss: no connection makes a path on which, of every two scatterings that follow each other,
-/// one is a mirror's. Merging blurs that light within a radius. Light passes straight through panes, which is
-/// no scattering. Const and usable from any thread; holds references.
+/// glass or sharp gloss: no connection makes a path on which, of every two scatterings that follow each
+/// other, one is a mirror's. Merging blurs that light within a radius. Light passes straight through panes,
+/// which is no scattering. Const and usable from any thread; holds references.
 class BidirectionalTracer {
  public:
-  BidirectionalTracer(const RayScene& rays, const Luminaires& luminaires, const LampRays& lamps,
+  BidirectionalTracer(const RayScene& rays, const Luminaires& luminaires, const LightStarts& lamps,
                       const PathOptions& options = {});
 
   /// Luminance along a camera ray, cd/m2, but for what light paths bring to the camera themselves (splat()).
@@ -90,7 +90,7 @@ class BidirectionalTracer {
 
   const RayScene* rays_;
   const Luminaires* luminaires_;
-  const LampRays* lamps_;
+  const LightStarts* lamps_;
   PathOptions options_;
 };
 

@@ -9,7 +9,7 @@
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/sensor_disc.h"
-#include "scene/light_ways.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {
@@ -54,7 +54,8 @@ class Measurement {
         merge_radius_m_(caustic_ ? first_merge_radius_m(rays.scene()) : 0) {
     each_ = std::clamp(options.samples / kUsualPasses, std::int64_t{1}, kMostOfPass);
     passes_ = (options.samples + each_ - 1) / each_;
-    light_paths_ = caustic_ ? std::max(kLightPaths, static_cast<std::size_t>(each_)) : static_cast<std::size_t>(each_);
+    light_paths_ =
+        caustic_ ? std::max(kLightPaths, static_cast<std::size_t>(each_)) : static_cast<std::size_t>(each_);
     sensors_.resize(sensors.size());
     for (std::size_t i = 0; i < sensors.size(); ++i)
       sensors_[i].point = sensor_at(rays.scene(), sensors[i].position, sensors[i].normal);
@@ -66,10 +67,10 @@ class Measurement {
  private:
   void set_discs(const RayScene& rays);
   void take_pass(std::uint64_t pass);
-  Part sample(std::size_t sensor, double radius_m, const LightPass& light, std::uint64_t pass, std::size_t begin,
-              std::size_t end) const;
+  Part sample(std::size_t sensor, double radius_m, const LightPass& light, std::uint64_t pass,
+              std::size_t begin, std::size_t end) const;
 
-  LampRays lamps_;
+  LightStarts lamps_;
   LightTracer light_;
   BidirectionalTracer eyes_;
   PointOptions options_;
@@ -116,8 +117,8 @@ Part Measurement::sample(std::size_t sensor, double radius_m, const LightPass& l
 
 void Measurement::take_pass(std::uint64_t pass) {
   const double shrunk = std::sqrt(shrunk_area(pass));
-  const LightPass light = make_pass(light_, options_.seed, pass, light_paths_,
-                                    merge_radius_m_ * static_cast<float>(shrunk));
+  const LightPass light =
+      make_pass(light_, options_.seed, pass, light_paths_, merge_radius_m_ * static_cast<float>(shrunk));
   const auto each = static_cast<std::size_t>(each_);
   const std::size_t chunks = (each + kPathsPerChunk - 1) / kPathsPerChunk;
   std::vector<std::size_t> open;
@@ -128,10 +129,12 @@ void Measurement::take_pass(std::uint64_t pass) {
   parallel_for(parts.size(), 1, [&](std::size_t k) {
     const Sensor& s = sensors_[open[k / chunks]];
     const std::size_t chunk = k % chunks, begin = chunk * kPathsPerChunk;
-    parts[k] = sample(open[k / chunks], shrunk * s.radius_m, light, pass, begin, std::min(each, begin + kPathsPerChunk));
+    parts[k] = sample(open[k / chunks], shrunk * s.radius_m, light, pass, begin,
+                      std::min(each, begin + kPathsPerChunk));
     if (chunk == 0 && s.disc)
       discs[k / chunks] = s.disc->light(light.paths, shrunk * s.radius_m,
-                                        static_cast<double>(light_paths_) / static_cast<double>(each_), options_.path.bounces);
+                                        static_cast<double>(light_paths_) / static_cast<double>(each_),
+                                        options_.path.bounces);
   });
   for (std::size_t k = 0; k < open.size(); ++k) {
     Sensor& s = sensors_[open[k]];

@@ -42,9 +42,12 @@ bool CameraView::see(const Vec3& point, Sight& sight) const {
   const double depth = glm::dot(way, DVec3(forward_));
   if (!(depth > 0)) return false;
   const double scale = perspective_ ? depth : 1;
-  const double x = 0.5 * (1 + glm::dot(way, DVec3(right_)) / (scale * half_width_)) * static_cast<double>(width_);
-  const double y = 0.5 * (1 - glm::dot(way, DVec3(up_)) / (scale * half_height_)) * static_cast<double>(height_);
-  if (!(x >= 0 && y >= 0 && x < static_cast<double>(width_) && y < static_cast<double>(height_))) return false;
+  const double x =
+      0.5 * (1 + glm::dot(way, DVec3(right_)) / (scale * half_width_)) * static_cast<double>(width_);
+  const double y =
+      0.5 * (1 - glm::dot(way, DVec3(up_)) / (scale * half_height_)) * static_cast<double>(height_);
+  if (!(x >= 0 && y >= 0 && x < static_cast<double>(width_) && y < static_cast<double>(height_)))
+    return false;
   sight.pixel = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
   const double distance = perspective_ ? glm::length(way) : depth;
   sight.distance_m = static_cast<float>(distance);

@@ -5,21 +5,21 @@
 
 #include "core/parallel.h"
 #include "reference/roulette.h"
-#include "scene/light_ways.h"
 #include "scene/passage.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 
 /// The edge that is gone along, and the vertex it began at.
 struct LightTracer::Walk {
-  LampRays::Start lamp;
+  LightStarts::Start lamp;
   Ray ray;
   Rgb flux{0};
-  double density = 0;      // of the direction, per sr
-  double cos_leaving = 1;  // where it began
-  double behind = 0;       // U + rho V there
-  std::int32_t scatterings = 0;  // so far
-  std::int32_t events = 0;       // scatterings and panes passed
+  double density = 0;                  // of the direction, per sr
+  double cos_leaving = 1;              // where it began
+  double behind = 0;                   // U + rho V there
+  std::int32_t scatterings = 0;        // so far
+  std::int32_t events = 0;             // scatterings and panes passed
   bool mirror = false, sharp = false;  // how it was scattered there
   bool straight = false, ends = false;
   // At the surface that was met.
@@ -27,7 +27,7 @@ struct LightTracer::Walk {
   float landed_m = 0;  // along the edge
 };
 
-LightTracer::LightTracer(const RayScene& rays, const Luminaires& luminaires, const LampRays& lamps,
+LightTracer::LightTracer(const RayScene& rays, const Luminaires& luminaires, const LightStarts& lamps,
                          const PathOptions& options)
     : rays_(&rays), luminaires_(&luminaires), lamps_(&lamps), options_(options) {}
 
@@ -41,7 +41,7 @@ bool LightTracer::meet(const SurfacePoint& point, const Bsdf& bsdf, double eta, 
   double every_light = 1;
   walk.end = SubPathEnd();
   if (walk.scatterings == 0) {
-    const LampRays::Start& lamp = walk.lamp;
+    const LightStarts::Start& lamp = walk.lamp;
     const double choice = lamps_->share(lamp.light), cos_lamp = static_cast<double>(lamp.cos_lamp);
     every_light = 1 / choice;
     // Densities of the lamp's place are of that place per m2, or of the direction per sr; what they share
@@ -49,7 +49,8 @@ bool LightTracer::meet(const SurfacePoint& point, const Bsdf& bsdf, double eta, 
     const double own = lamp.density * cosine;
     if (lamp.infinite)
       walk.end.connect =
-          choice * (lamp.extended ? static_cast<double>(luminaires_->density_beyond(point.position, -d)) : 1) / own;
+          choice *
+          (lamp.extended ? static_cast<double>(luminaires_->density_beyond(point.position, -d)) : 1) / own;
     else if (lamp.extended)
       walk.end.connect = choice *
                          static_cast<double>(luminaires_->density(lamp.light, point.position, lamp.triangle,
@@ -112,15 +113,29 @@ void LightTracer::trace(RandomStream& random, double eta, LightPaths& paths) con
       do {
         const bool met = way.next(point);
         if (walk.sharp) {
-          SharpSegment s{walk.ray.origin + before_m * walk.ray.direction, walk.ray.direction,
-                         met ? point.distance_m - before_m : kInfinity, before_m, met ? point.error_m : 0,
-                         walk.flux, walk.density, walk.cos_leaving, walk.behind, walk.scatterings, walk.mirror};
+          SharpSegment s{walk.ray.origin + before_m * walk.ray.direction,
+                         walk.ray.direction,
+                         met ? point.distance_m - before_m : kInfinity,
+                         before_m,
+                         met ? point.error_m : 0,
+                         walk.flux,
+                         walk.density,
+                         walk.cos_leaving,
+                         walk.behind,
+                         walk.scatterings,
+                         walk.mirror};
           paths.segment.push_back(s);
         }
-        if (!met) { goes_on = false; break; }
+        if (!met) {
+          goes_on = false;
+          break;
+        }
         before_m = point.distance_m;
         const Bsdf bsdf = way.bsdf(point);
-        if (options_.black_emitters && rays_->scene().material[point.material].emits()) { goes_on = false; break; }
+        if (options_.black_emitters && rays_->scene().material[point.material].emits()) {
+          goes_on = false;
+          break;
+        }
         walk.straight = false;
         goes_on = meet(point, bsdf, eta, walk, paths) && scatter(point, bsdf, walk, random);
       } while (goes_on && walk.straight);

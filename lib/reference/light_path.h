@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/lamp_rays.h"
+#include "reference/light_starts.h"
 #include "reference/path_tracer.h"
 #include "reference/path_weights.h"
 #include "scene/bsdf.h"
@@ -16,10 +16,10 @@ namespace phos {
 struct LightVertex {
   SurfacePoint point;
   Bsdf bsdf;
-  Vec3 towards_lamp{0};     ///< unit, along the path
-  Rgb flux_lm{0};           ///< that lands, of one path
+  Vec3 towards_lamp{0};  ///< unit, along the path
+  Rgb flux_lm{0};        ///< that lands, of one path
   SubPathEnd end;
-  double every_light = 1;   ///< factor of end.connect where shadow rays of the other side go to every lamp
+  double every_light = 1;  ///< factor of end.connect where shadow rays of the other side go to every lamp
   std::int32_t scatterings = 0;  ///< before it: 0 at the first surface
   bool after_sharp = false;      ///< came by a mirror, glass, or sharp gloss: eye paths may be merged here
   bool sharp = false;            ///< the material reflects sharply
@@ -32,9 +32,9 @@ struct SharpSegment {
   float before_m = 0;           ///< from the reflection to the start
   float slack_m = 0;            ///< rounding of the end
   Rgb flux_lm{0};
-  double density = 1;      ///< per sr, of the direction; 1 of a mirror's
-  double cos_leaving = 1;  ///< at the reflection
-  double behind = 0;       ///< U + rho V there
+  double density = 1;            ///< per sr, of the direction; 1 of a mirror's
+  double cos_leaving = 1;        ///< at the reflection
+  double behind = 0;             ///< U + rho V there
   std::int32_t scatterings = 0;  ///< the reflection included
   bool mirror = false;           ///< cannot be connected
 };
@@ -51,7 +51,7 @@ struct LightPaths {
 /// Follows light from the lamps. Const and usable from any thread; holds references.
 class LightTracer {
  public:
-  LightTracer(const RayScene& rays, const Luminaires& luminaires, const LampRays& lamps,
+  LightTracer(const RayScene& rays, const Luminaires& luminaires, const LightStarts& lamps,
               const PathOptions& options);
   /// Adds one path to `paths` (its vertices, its segments and the end of its range). `eta`: of merging.
   void trace(RandomStream& random, double eta, LightPaths& paths) const;
@@ -63,7 +63,7 @@ class LightTracer {
 
   const RayScene* rays_;
   const Luminaires* luminaires_;
-  const LampRays* lamps_;
+  const LightStarts* lamps_;
   PathOptions options_;
 };
 

@@ -1,6 +1,6 @@
 #include "reference/method.h"
 
-#include "scene/light_ways.h"
+#include "scene/unsampled.h"
 
 namespace phos {
 
@@ -12,9 +12,9 @@ void declare_method(Options& options, ReferenceMethod& method, const std::string
                                   help);
 }
 
-bool is_bidirectional(ReferenceMethod method, const Scene& scene) {
+bool is_bidirectional(ReferenceMethod method, const std::vector<LightWay>& ways, double samples) {
   return method == ReferenceMethod::bidirectional ||
-         (method == ReferenceMethod::automatic && has_caustic_ways(scene));
+         (method == ReferenceMethod::automatic && !unsampled(ways, Sampler::path_tracing, samples).empty());
 }
 
 }  // namespace phos

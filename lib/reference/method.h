@@ -3,14 +3,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/options.h"
-#include "scene/scene.h"
+#include "scene/light_ways.h"
 
 namespace phos {
 
 enum class ReferenceMethod : std::uint8_t {
-  automatic,      ///< bidirectional where has_caustic_ways(), else path
+  automatic,      ///< bidirectional where path tracing leaves light out, else path
   path,           ///< from the eye or sensor (path_tracer.h)
   bidirectional,  ///< from both ends (bidirectional.h)
 };
@@ -18,7 +19,8 @@ enum class ReferenceMethod : std::uint8_t {
 /// The option --method.
 void declare_method(Options& options, ReferenceMethod& method, const std::string& help);
 
-/// Is the method, `automatic` resolved, bidirectional?
-bool is_bidirectional(ReferenceMethod method, const Scene& scene);
+/// Is the method bidirectional, `automatic` resolved: where path tracing with so many samples leaves out one
+/// of these ways?
+bool is_bidirectional(ReferenceMethod method, const std::vector<LightWay>& ways, double samples);
 
 }  // namespace phos

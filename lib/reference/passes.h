@@ -8,7 +8,8 @@
 namespace phos {
 
 /// Square of the radius of pass i (from 0) over that of the first: r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1),
-/// i from 1 (Knaus and Zwicker 2011): the bias of the mean of all passes and its variance both fall to nothing.
+/// i from 1 (Knaus and Zwicker 2011): the bias of the mean of all passes and its variance both fall to
+/// nothing.
 double shrunk_area(std::uint64_t pass);
 
 /// Radius within which eye paths are merged with light paths in the first pass, m: a part of the scene's.

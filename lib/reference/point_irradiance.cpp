@@ -1,11 +1,13 @@
 #include "reference/point_irradiance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/json.h"
 #include "core/origin.h"
 #include "core/parallel.h"
+#include "reference/central_moments.h"
 #include "reference/moments.h"
 #include "scene/point_table.h"
 
@@ -18,6 +20,7 @@ constexpr std::int64_t kFirstPass = 256;
 
 struct Partial {
   Moments red, green, blue, luminous;
+  CentralMoments spread;  // of the luminance
   std::uint64_t rejected = 0;
 };
 
@@ -42,6 +45,7 @@ Partial sample_range(const PathTracer& tracer, const SurfacePoint& sensor, const
       continue;
     }
     part.red.add(lux.x), part.green.add(lux.y), part.blue.add(lux.z), part.luminous.add(luminance(lux));
+    part.spread.add(static_cast<double>(luminance(lux)));
   }
   return part;
 }
@@ -62,10 +66,11 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
   const SurfacePoint sensor = sensor_at(rays.scene(), p, n);
   const auto join = [](Partial& sum, const Partial& part) {
     sum.red.merge(part.red), sum.green.merge(part.green), sum.blue.merge(part.blue);
-    sum.luminous.merge(part.luminous);
+    sum.luminous.merge(part.luminous), sum.spread.merge(part.spread);
     sum.rejected += part.rejected;
   };
   Partial sum;
+  const auto settled = [&] { return luminaires.size() == 0 || trusted(sum.spread); };
   std::int64_t done = 0;
   while (done < options.samples) {
     std::int64_t next = options.samples;
@@ -78,7 +83,7 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
         },
         join);
     done = next;
-    if (options.relative_error &&
+    if (options.relative_error && done >= options.least_samples && settled() &&
         sum.luminous.standard_error() <= *options.relative_error * sum.luminous.mean())
       break;
   }
@@ -89,6 +94,7 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
   result.illuminance_stderr_lx = sum.luminous.standard_error();
   result.samples = static_cast<std::uint64_t>(done);
   result.rejected = sum.rejected;
+  result.trusted = settled();
   return result;
 }
 
@@ -130,7 +136,7 @@ std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector
                              lux.z};
     for (const float& value : columns) {
       if (&value != columns) out.push_back(',');
-      out.append(shortest(value));
+      if (!std::isnan(value)) out.append(shortest(value));
     }
     out.push_back('\n');
   }

@@ -18,11 +18,16 @@ struct PointIrradiance {
   double illuminance_stderr_lx = 0;
   std::uint64_t samples = 0;
   std::uint64_t rejected = 0;  ///< samples that were not finite, left out
+  /// Is illuminance_stderr_lx to be trusted: by how the samples lie, and with light in them (see
+  /// central_moments.h); always where the scene has no lamp.
+  bool trusted = true;
 };
 
 struct PointOptions {
-  std::int64_t samples = 4096;           ///< paths, at most
-  std::optional<double> relative_error;  ///< stop once stderr / value of the illuminance is at most this
+  std::int64_t samples = 4096;  ///< paths, at most
+  /// Stop once stderr / value of the illuminance is at most this, and the former is to be trusted.
+  std::optional<double> relative_error;
+  std::int64_t least_samples = 0;  ///< before that
   std::uint64_t seed = 0;
   std::uint64_t item = 0;  ///< tells apart the random numbers of several points (below 2^31)
   PathOptions path;
@@ -54,7 +59,8 @@ std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::
                                              const DVec3& origin_m = DVec3(0));
 
 /// `x,y,z,nx,ny,nz,illuminance_lx,stderr_lx,r_lx,g_lx,b_lx` and a line per point, shortest round-trip
-/// numbers. Points are counted from origin_m, the table's from the world's.
+/// numbers, and nothing for a standard error that is not a number. Points are counted from origin_m, the
+/// table's from the world's.
 std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light,
                        const DVec3& origin_m = DVec3(0));
 

@@ -7,11 +7,12 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "reference/camera_view.h"
+#include "reference/central_moments.h"
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/sample_shares.h"
 #include "scene/bsdf.h"
-#include "scene/light_ways.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 
@@ -43,6 +44,7 @@ struct Pixel {
   Channels total, indirect, bias;
   DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
   Moments scattered, illuminance, illuminance_bias;
+  CentralMoments spread;  // of what is scattered
 };
 
 PathSample& operator+=(PathSample& sum, const PathSample& part) {
@@ -63,7 +65,7 @@ struct BothEnds {
         view(camera, static_cast<std::size_t>(options.width), static_cast<std::size_t>(options.height),
              static_cast<double>(light_paths)),
         merge_radius_m(has_caustic_ways(rays.scene()) ? first_merge_radius_m(rays.scene()) : 0) {}
-  LampRays lamps;
+  LightStarts lamps;
   LightTracer light;
   BidirectionalTracer eyes;
   std::size_t light_paths;
@@ -81,13 +83,13 @@ class Renderer {
         camera_(camera),
         options_(options),
         pixels_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)) {
-    if (is_bidirectional(options.method, rays.scene()))
-      both_.emplace(rays, luminaires, camera, options);
+    if (options.method == ReferenceMethod::bidirectional) both_.emplace(rays, luminaires, camera, options);
   }
 
   /// As many more samples of every pixel; or, if they are to be shared out, on the mean.
   void pass(std::int64_t more, bool shared_out);
   double error() const;
+  bool trusted() const;
   std::uint64_t rejected() const { return rejected_; }
   Image image() const;
 
@@ -153,6 +155,7 @@ std::uint64_t Renderer::add(std::size_t pixel, const PathSample& light, const Rg
   sum.emission += DVec3(light.emission), sum.direct += DVec3(light.direct), sum.glossy += DVec3(light.glossy),
       sum.specular += DVec3(light.specular);
   sum.scattered.add(luminance(total - light.emission));
+  sum.spread.add(static_cast<double>(luminance(total - light.emission)));
   if (options_.illuminance) sum.illuminance.add(lux), sum.illuminance_bias.add(lux_bias);
   return 0;
 }
@@ -273,6 +276,14 @@ double Renderer::error() const {
   return mean > 0 ? std::sqrt(squares / n) / (mean / n) : 0;
 }
 
+bool Renderer::trusted() const {
+  double squares = 0, fourths = 0;
+  bool any = false;
+  for (const Pixel& p : pixels_)
+    squares += p.spread.squares(), fourths += p.spread.fourths(), any |= p.spread.any();
+  return any && !(fourths > kFewBright * squares * squares);
+}
+
 Rgb mean(const std::array<double, 3>& sum, double n) { return {sum[0] / n, sum[1] / n, sum[2] / n}; }
 
 Rgb standard_error(const Channels& c, double n) {
@@ -370,7 +381,8 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
     renderer.pass(next - result.samples, options.adaptive && result.samples > 0);
     result.samples = next;
     result.error = renderer.error();
-    if (options.error && result.error <= *options.error) break;
+    result.trusted = luminaires.size() == 0 || renderer.trusted();
+    if (options.error && result.error <= *options.error && result.trusted) break;
   }
   result.image = renderer.image();
   const std::uint64_t rejected = renderer.rejected();

@@ -20,7 +20,7 @@ struct ReferenceOptions {
   std::int64_t width = 0,
                height = 0;    ///< 0 = from the other and the camera's aspect (both 0: 512 on the longer side)
   std::int64_t samples = 64;  ///< a pixel (or a point); at most, where `error` is given
-  std::optional<double> error;  ///< stop once ReferencePicture::error is at most this
+  std::optional<double> error;  ///< stop once ReferencePicture::error is at most this, and to be trusted
   bool adaptive = false;        ///< shares samples out by noise: `samples` are the mean (sample_shares.h)
   bool illuminance = false;     ///< also the illuminance.Y layer (one more path a sample)
   std::uint64_t seed = 0;
@@ -46,6 +46,9 @@ struct ReferencePicture {
   /// Samples are stratified in fours over the pixel, so that this errs, where the picture has edges, on the
   /// high side.
   double error = 0;
+  /// Is it to be trusted: do not few bright samples make it, and was there light (central_moments.h, of the
+  /// picture as a whole)? Always where the scene has no lamp.
+  bool trusted = true;
   Counters counters;  ///< "non-finite sample"
 };
 

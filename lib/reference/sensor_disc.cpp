@@ -28,7 +28,8 @@ SensorDisc::SensorDisc(const RayScene& rays, const SurfacePoint& sensor, float m
       most_m_(most_m) {
   for (std::size_t k = 0; k < kSectors; ++k) {
     const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.5) / kSectors;
-    const Vec3 along = frame_.to_world({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    const Vec3 along =
+        frame_.to_world({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
     // Above the sensor's own surface.
     Hit hit;
     const Ray ray{centre_ + 2 * slack_m_ * frame_.z, glm::normalize(along), 0, most_m / kFree};
@@ -52,7 +53,8 @@ bool SensorDisc::cross(const SharpSegment& s, Crossing& crossing) const {
   if (!(height > slack) || !(height - s.length_m * cosine <= slack)) return false;
   const float along = std::min(s.length_m, height / cosine);
   const Vec3 way = s.start + along * s.direction - centre_;
-  const double x = static_cast<double>(glm::dot(way, frame_.x)), y = static_cast<double>(glm::dot(way, frame_.y));
+  const double x = static_cast<double>(glm::dot(way, frame_.x)),
+               y = static_cast<double>(glm::dot(way, frame_.y));
   crossing.aside_m = std::hypot(x, y);
   if (!(crossing.aside_m <= static_cast<double>(most_m_))) return false;
   const double turns = std::atan2(y, x) / (2 * std::numbers::pi);

@@ -9,9 +9,9 @@
 
 namespace phos {
 
-/// The part of a sensor's plane that it sees within a radius: sectors of a disc, each up to what stands in its
-/// way. Illuminance there is the flux that crosses it from the front over its area, without a cosine. Only
-/// light counts that came by way of a mirror, glass or sharp gloss.
+/// The part of a sensor's plane that it sees within a radius: sectors of a disc, each up to what stands in
+/// its way. Illuminance there is the flux that crosses it from the front over its area, without a cosine.
+/// Only light counts that came by way of a mirror, glass or sharp gloss.
 class SensorDisc {
  public:
   /// Looks how far the plane is free, up to `most_m`.
@@ -41,8 +41,8 @@ class SensorDisc {
     return 0.5 * light_paths_each * area_m2(radius_m);
   }
 
-  /// The largest radius at which the light of `paths` is still that of any smaller one, to within the noise of
-  /// these (Lepski's rule): where noise and bias are alike. most_m() where next to no path comes.
+  /// The largest radius at which the light of `paths` is still that of any smaller one, to within the noise
+  /// of these (Lepski's rule): where noise and bias are alike. most_m() where next to no path comes.
   double balanced_radius_m(const LightPaths& paths) const;
 
  private:

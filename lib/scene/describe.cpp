@@ -8,10 +8,12 @@
 #include "core/origin.h"
 #include "scene/bands.h"
 #include "scene/environment.h"
+#include "scene/light_ways.h"
 #include "scene/merl.h"
 #include "scene/passage.h"
 #include "scene/photometric_file.h"
 #include "scene/texture.h"
+#include "scene/unsampled.h"
 
 namespace phos {
 namespace {
@@ -198,6 +200,18 @@ std::uint64_t scene_bytes(const Scene& s) {
   return n;
 }
 
+/// Of light that comes to surfaces by mirrors, glass or sharp gloss so that rays seldom find it.
+void add_ways(const std::vector<LightWay>& all, std::vector<Requirement>& out) {
+  constexpr std::size_t kShown = 3;
+  const std::vector<LightWay> ways = unsampled(all, Sampler::gathering, kUsualRays);
+  if (ways.empty()) return;
+  std::string why;
+  for (std::size_t i = 0; i < std::min(kShown, ways.size()); ++i)
+    why += (i > 0 ? "; " : "") + share_text(ways[i]);
+  if (ways.size() > kShown) why += text("; and ", ways.size() - kShown, " more such ways");
+  out.push_back({kCausticPhotons, why});
+}
+
 }  // namespace
 
 const char* model_name(Model model) {
@@ -236,9 +250,7 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
     out.push_back({"direct light", "lights: " + std::to_string(scene.light.size())});
     out.push_back({"global photons", "light is reflected between surfaces that are not mirrors"});
   }
-  if (lit && scatters && !specular.empty()) {
-    out.push_back({"caustic photons", "light can reach other surfaces by way of " + names_of(specular)});
-  }
+  if (lit && sends_light_on(scene)) add_ways(light_ways(RayScene(scene), Luminaires(scene)), out);
   if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
   if (lit && !glossy.empty()) out.push_back({"gloss", "glossy: " + names_of(glossy)});
   if (!specular.empty())

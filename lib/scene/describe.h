@@ -30,6 +30,9 @@ struct Requirement {
   std::string why;
 };
 std::vector<Requirement> scene_requirements(const Scene& scene);
+/// What light asks for that reaches surfaces by mirrors, curved glass or sharp gloss alone, so that rays of
+/// records seldom find it (unsampled.h).
+inline constexpr const char* kCausticPhotons = "caustic photons";
 
 /// Everything phos-scene tells, with the findings of the lint.
 Json describe_scene(const Scene& scene, const std::vector<Finding>& findings);

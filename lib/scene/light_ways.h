@@ -1,23 +1,65 @@
-// By what ways light may reach surfaces: what shadow rays and path tracing find, and what they do not.
+// The ways other than straight ones by which lamps can light surfaces: what mirrors, panes, curved glass and
+// sharp gloss send on.
 #pragma once
 
-#include "scene/scene.h"
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "scene/luminaires.h"
+#include "scene/rays.h"
 
 namespace phos {
 
-/// Does a material reflect light within a few degrees about one direction, or in that direction alone: a
-/// mirror, smooth glass (a pane reflects too), gloss of a GGX or Ward roughness below 0.1, or of a Phong
-/// exponent above 200? Roughness maps are left out: the material's own roughness counts. False for measured
-/// tables.
-bool reflects_sharply(const Material& material);
+/// Light of a lamp that reaches surfaces by way of such materials alone (paths L S+ D of Heckbert 1990, and
+/// L G S* D where the lobe G is sharp). Straight ways, through panes too, are none of these, nor are those
+/// over flat mirrors in which lamps have images (scene/mirror_images.h): direct light holds them.
+struct LightWay {
+  enum class Kind : std::uint8_t {
+    mirrored,  ///< by plane mirrors and by what plane panes reflect: images of the lamp
+    bent,      ///< by curved mirrors and by glass that refracts: caustics
+    gloss,     ///< by a lobe that is sharper than kSharpLobe, first of all
+  };
+  std::string lamp;  ///< as lamps_of() names it
+  Kind kind = Kind::mirrored;
+  std::vector<std::string> materials;  ///< names, those that send most of it first
+  std::vector<std::string> by;         ///< the same for people: mirror "wall"
+  double share = 0;                    ///< of the lamp's flux; of what hits the scene, or comes through its
+                                       ///< portals, where the lamp is infinitely far away
+  /// Probability that a cosine-weighted direction from where this light arrives leads back to the lamp: its
+  /// projected solid angle over pi, harmonic mean over the light; of a lobe, that solid angle of the lobe if
+  /// it is larger. 0: a lamp without extent, which no such ray can hit.
+  double hit_share = 0;
+};
+const char* name_of(LightWay::Kind kind);
+/// mirror "wall" and pane "window"
+std::string by_text(const LightWay& way);
+/// 3.1 % of lamp "sun" by way of mirror "wall"
+std::string share_text(const LightWay& way);
 
-/// The same of a mirror, smooth glass, or a pane: is there a direction into which light goes as a ray, other
-/// than straight on?
-bool reflects_as_mirror(const Material& material);
+/// Is anything in the scene a mirror, smooth glass or sharp gloss? A film that lets light pass is none.
+bool sends_light_on(const Scene& scene);
 
-/// Has the scene light that reaches a diffuse surface by way of a mirror, of glass that bends or reflects it,
-/// or of sharp gloss? Path tracing finds such light only where its paths hit a lamp by chance, and that of
-/// point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().
-bool has_caustic_ways(const Scene& scene);
+/// The ways of every lamp, lamp by lamp in the order of the scene, that carry kLeastShare of its light or
+/// more. Tried with up to kRaysOfALamp rays from each, fewer where lamps are many, but kLeastRaysOfALamp:
+/// the same for any number of threads. None, and no ray is sent, where nothing sends_light_on(). Light that
+/// leaves the scene counts for nothing.
+std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminaires);
+inline constexpr double kLeastShare = 1e-3;
+inline constexpr std::uint32_t kRaysOfALamp = 4096, kLeastRaysOfALamp = 256;
+
+/// A lobe is sharp if a cosine-weighted ray falls into it, towards a lamp, with less than this probability:
+/// so that 64 rays find it less than ten times. Of GGX: roughness alpha below 0.11.
+inline constexpr double kSharpLobe = 10.0 / 64;
+/// That probability: solid angle that would hold the lobe if it were even, 1 / integral of its square
+/// density, over pi. 12 ax ay for GGX, 8 ax ay for Ward, 2 (2n + 1) / (n + 1)^2 for Phong; 1 for a material
+/// without a lobe, and for measured ones.
+double lobe_hit_share(const Scene& scene, const Material& material);
+
+/// [{"lamp":..,"way":"mirrored","materials":[..],"by":[..],"share":..,"hit_share":..}]
+Json to_json(const std::vector<LightWay>& ways);
+/// The inverse; what is no such thing is passed over.
+std::vector<LightWay> light_ways_from(const Json& json);
 
 }  // namespace phos

@@ -65,21 +65,24 @@ void fit(PlanModel& model, const std::string& part, const std::vector<Observatio
 
 /// The pair of references that the rest is judged by: a first cheap one tells how noisy a better one has to
 /// be.
-void choose_references(PilotRuns& runs, bool lux, double target, double seconds, ReferenceCost& cost) {
+ReferenceDoubts choose_references(PilotRuns& runs, bool lux, double target, double seconds,
+                                  ReferenceCost& cost) {
   double samples = lux ? kReferencePaths : kReferenceSamples;
   ReferenceRun run = runs.references(lux, samples);
   cost.variance = run.variance * samples;
   const double per_place = run.seconds / samples / run.places;  // of one of the pair; its start is in it
   cost.sample_s = per_place, cost.places = run.places;
-  const double wanted = cost.samples(target),
+  // How noisy they are is not known from few bright paths.
+  const double wanted = std::max(cost.samples(target), run.doubts.too_few_bright() ? kMostSamples : 0.0),
                affordable = seconds / 2 / std::max(per_place * run.places, 1e-12);
   const double better = std::floor(std::min({wanted, affordable, kMostSamples}));
-  if (better < 2 * samples) return;
+  if (better < 2 * samples) return run.doubts;
   run = runs.references(lux, better);
   const double first = per_place * samples * run.places;
   cost.sample_s = std::max(run.seconds - first, 0.1 * run.seconds) / (better - samples) / run.places;
   cost.fixed_s = std::max(0.0, first - cost.sample_s * samples * run.places);
   cost.variance = run.variance * better;
+  return run.doubts;
 }
 
 double resolution_of(const std::vector<Observation>& bias_rows) {
@@ -137,8 +140,10 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   const int kinds = (task.image ? 1 : 0) + (task.lux ? 1 : 0);
   for (const bool lux : {false, true}) {
     if (!(lux ? task.lux : task.image)) continue;
-    choose_references(runs, lux, options.error / 2, kReferenceShare * options.seconds / kinds,
-                      lux ? pilot.lux_reference : pilot.image_reference);
+    const ReferenceDoubts doubts =
+        choose_references(runs, lux, options.error / 2, kReferenceShare * options.seconds / kinds,
+                          lux ? pilot.lux_reference : pilot.image_reference);
+    for (const std::string& line : doubts.lines()) pilot.doubts.push_back(line);
   }
   if (task.lux) pilot.sensors = runs.sensors();
 
@@ -183,7 +188,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
     pilot.image_reference.places = static_cast<double>(task.width * task.height);
   }
   if (task.lux) {
-    pilot.lux_error = lux_error_model();
+    pilot.lux_error = lux_error_model(task);
     fit_errors(*pilot.lux_error, lux, options.seed + 30, "direct light");
     pilot.lux_resolution = resolution_of(lux.indirect_bias);
     pilot.lux_reference.places = static_cast<double>(std::min(pilot.sensors, kPilotSensors));

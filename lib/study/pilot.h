@@ -52,6 +52,8 @@ struct Pilot {
   std::optional<double> image_resolution, lux_resolution;  ///< what the pilot's own references tell from none
   double seconds = 0;                                      ///< that it took
   std::size_t sensors = 0;
+  /// Why its references, and so all errors that it foretells, are not to be trusted; empty: they are.
+  std::vector<std::string> doubts;
 };
 
 struct PilotOptions {
@@ -86,7 +88,7 @@ PlanModel image_error_model(const PlanTask& task, double detail);
 /// square, for a texture that pixels nearly resolve is smooth within them (Sponza, 400 wide: 5.3e-3, 8.3e-4
 /// with 1 and 4 samples; 92 wide: 7.8e-3, 2.0e-3).
 void add_missed_detail(PlanModel& image_error, double detail, double sampled, double growth);
-PlanModel lux_error_model();
+PlanModel lux_error_model(const PlanTask& task = {});
 PlanModel time_model(const PlanTask& task);
 
 /// At most `most` rows of a table, evenly from first to last, of those columns alone (of numbers: nothing is

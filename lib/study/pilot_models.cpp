@@ -23,6 +23,9 @@ const Monomial kInterpolation{"interpolation between records", {{K::accuracy, 2}
 /// rays, accuracies 0.56 to 0.1: what noise is left goes as that number to a power of -0.7 to -0.9, and from
 /// 0.2 down, where places read no more of them, it stays.
 const std::pair<Knob, double> kBlended{K::read, -0.8};
+const Monomial kPhotonNoise{"noise of photons", {{K::photons, -1}}};
+/// Of records of photons alone: a zone that has as many as it may hold has no more where there are more.
+const Monomial kZoneNoise{"noise of full zones", {{K::photons, -0.1}}};
 constexpr const char* kTextures = "textures and shadows within pixels";
 const Monomial kUnmended{"what no setting mends", {}};
 
@@ -77,6 +80,10 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
              {"noise of records seen in gloss", {kBlended, {K::rays, -1}}}};
   }
   if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
+  std::vector<Monomial> indirect = {{"noise of gathered rays", {kBlended, {K::rays, -1}}},
+                                    {"noise of gathered rays, fast part", {kBlended, {K::rays, -1.5}}},
+                                    kPhotonNoise};
+  if (task.by_photons) indirect = {kPhotonNoise, kZoneNoise};
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
       // Finer pixels show more of a texture.
       textures{kTextures, {{K::pixel_samples, -1}, {K::pixels, -detail}}},
@@ -84,9 +91,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   PlanModel model{
       {{"direct light, noise", sum_of(direct)},
        {"direct light and gloss, bias", sum_of({edges, textures, blur})},
-       {"indirect light, noise", sum_of({{"noise of gathered rays", {kBlended, {K::rays, -1}}},
-                                         {"noise of gathered rays, fast part", {kBlended, {K::rays, -1.5}}},
-                                         {"noise of photons", {{K::photons, -1}}}})},
+       {"indirect light, noise", sum_of(indirect)},
        {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
   if (!gloss.empty()) model.part.emplace_back("gloss, noise", sum_of(gloss));
   return model;
@@ -100,7 +105,7 @@ void add_missed_detail(PlanModel& image_error, double detail, double sampled, do
              missed);
 }
 
-PlanModel lux_error_model() {
+PlanModel lux_error_model(const PlanTask& task) {
   // Each sensor has a record, and reads its neighbours' too: as many as lie within the accuracy that it reads
   // at, whose square read x accuracy^2 is. What 0.25 leaves of 0.5's blending is 1.04 (a box with two blocks)
   // to 1.9 (an empty one) times the noise.
@@ -112,26 +117,27 @@ PlanModel lux_error_model() {
     powers.emplace_back(K::rays, power);
     return powers;
   };
+  std::vector<Monomial> indirect = {
+      {"noise of gathered rays", rays(-1)}, {"noise of gathered rays, fast part", rays(-1.5)}, kPhotonNoise};
+  if (task.by_photons) indirect = {kPhotonNoise, kZoneNoise};
   return {{{"direct light, noise", sum_of({{"noise of shadow rays", {{K::sensor_rays, -1}}}})},
            {"direct light, bias", sum_of({kUnmended})},
-           {"indirect light, noise", sum_of({{"noise of gathered rays", rays(-1)},
-                                             {"noise of gathered rays, fast part", rays(-1.5)},
-                                             {"noise of photons", {{K::photons, -1}}}})},
+           {"indirect light, noise", sum_of(indirect)},
            {"indirect light, bias",
             sum_of({{"interpolation between records", reading(1)}, kZoneBlur, kUnmended})}}};
 }
 
 PlanModel time_model(const PlanTask& task) {
   PlanModel model;
+  std::vector<Monomial> records = {
+      {"start", {}}, {"places", {{K::pixels, 1}}}, {"records", {{K::records, 1}}}};
+  if (!task.by_photons) records.push_back({"their rays", {{K::records, 1}, {K::rays, 1}}});
   model.part = {{"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
                 {"coarse records",
                  // Many photons lie in zones that have one already: up to 1.3 million, seconds follow their
                  // number to a power of 0.47 (Sponza) to 0.66 (Cornell box).
                  sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}})},
-                {"records", sum_of({{"start", {}},
-                                    {"places", {{K::pixels, 1}}},
-                                    {"records", {{K::records, 1}}},
-                                    {"their rays", {{K::records, 1}, {K::rays, 1}}}})}};
+                {"records", sum_of(records)}};
   if (task.image) {
     std::vector<Monomial> terms = {{"start", {}},
                                    {"pixels", {{K::pixels, 1}}},

@@ -90,12 +90,15 @@ double PilotRuns::records_run(const Knobs& knobs, const Command& command) {
 
 ReferenceRun PilotRuns::references(bool lux, double samples) {
   ReferenceRun out;
+  Json stats[2];
   const auto n = static_cast<std::int64_t>(samples);
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string path = name(lux ? "reference-lux" : "reference", i);
     const Command command = lux ? reference_points_command(small_, n, folder_.file("some.csv"), path)
                                 : reference_picture_command(small_, n, path);
-    out.seconds += 0.5 * require(seeded(command, options_.seed + kReferenceSeed + i)).wall_s;
+    const CommandRun run = require(seeded(command, options_.seed + kReferenceSeed + i));
+    out.seconds += 0.5 * run.wall_s;
+    stats[i] = run.stats;
     if (lux)
       lux_reference_[i] = lux_of(path, "illuminance_lx");
     else
@@ -113,6 +116,8 @@ ReferenceRun PilotRuns::references(bool lux, double samples) {
               "phos-scene");
   const std::size_t components = lux ? 1 : 3;
   out.places = static_cast<double>(a.size() / components);
+  const double all = lux ? out.places : pixels_of(small_);
+  for (const Json& of_one : stats) out.doubts.add(of_one, all);
   // The mean of d^2 / 2 deviates by the root of twice that of products of the two errors: see ReferenceCost.
   out.variance = separate(a, b, a, b, components).over(mean).noise2_sigma * std::sqrt(out.places / 2);
   return out;

@@ -9,6 +9,7 @@
 #include "study/picture_detail.h"
 #include "study/pilot.h"
 #include "study/plan_separate.h"
+#include "study/reference_doubts.h"
 #include "study/scratch_folder.h"
 
 namespace phos {
@@ -17,6 +18,7 @@ struct ReferenceRun {
   double seconds = 0;   ///< of one of the pair
   double places = 0;    ///< pixels, sensors
   double variance = 0;  ///< of one, as ReferenceCost has it
+  ReferenceDoubts doubts;
 };
 
 /// Relative to the mean of the whole.

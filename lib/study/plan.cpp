@@ -52,7 +52,9 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   // From half of what the pilot's least cache has.
   groups.push_back({{Knob::photons}, {half_doubling(10000, 1e8)}});
   // What sensors read of two rings is up to twice as noisy as three and more foretell, and saves no time.
-  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, rays_of_rings(task.lux ? 3 : 2, 16384)}};
+  const std::vector<double> rays =
+      task.by_photons ? std::vector<double>{1} : rays_of_rings(task.lux ? 3 : 2, 16384);
+  KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, rays}};
   records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
@@ -236,7 +238,9 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
           ExitCode::usage, "--error",
           text(percent(*goal.error), " is out of reach of photons and records here: the least is about ",
                percent(least.error()), " (", percent(least.error_low()), " to ", percent(least.error_high()),
-               "), after ", duration(least.seconds.value), "; ask for more, or use phos-reference --error"));
+               "), after ", duration(least.seconds.value), "; ask for more",
+               pilot.doubts.empty() ? ", or use phos-reference --error"
+                                    : "; nor are the references to be trusted: " + pilot.doubts.front()));
     }
     plan.chosen = *found;
     if (wide)
@@ -261,6 +265,7 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
                                    percent(*resolution), " from none, and ", percent(asked),
                                    goal.error ? " is asked for" : " is predicted",
                                    "; a longer --pilot makes better ones"));
+  for (const std::string& doubt : pilot.doubts) plan.warnings.push_back("no error is promised: " + doubt);
   for (const double other : kOtherErrors)
     plan.others.emplace_back(other, cheapest(task, pilot, front, other));
   return plan;

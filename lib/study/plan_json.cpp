@@ -13,8 +13,8 @@ Json json_of(const Interval& i) {
 Json json_of(const Prediction& p, const PlanTask& task) {
   Json out;
   Json& settings = out["settings"];
-  for (const Knob knob : {Knob::photons, Knob::accuracy, Knob::rays})
-    settings[name_of(knob)] = p.knobs[at(knob)];
+  for (const Knob knob : {Knob::photons, Knob::accuracy}) settings[name_of(knob)] = p.knobs[at(knob)];
+  if (!task.by_photons) settings[name_of(Knob::rays)] = p.knobs[at(Knob::rays)];
   if (task.image) {
     for (const Knob knob : {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays})
       settings[name_of(knob)] = p.knobs[at(knob)];
@@ -51,6 +51,7 @@ Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, con
   Json warnings = Json::Array{};
   for (const std::string& w : plan.warnings) warnings.push_back(w);
   out["warnings"] = warnings;
+  out["promised"] = pilot.doubts.empty();
   Json& ran = out["pilot"];
   ran["seconds"] = pilot.seconds;
   ran["time"] = pilot.time.to_json(plan.chosen.knobs);

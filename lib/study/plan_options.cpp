@@ -43,6 +43,11 @@ void declare_options(Options& options, PlanOptions& p) {
            kManyLamps,
            " lamps of an extent or more (the environment is one), takes "
            "twice the pilot, and keeps the records where they promise a third of the time or of the error"));
+  options.choice<PlanRecords>(
+      "estimate", p.records,
+      {{"auto", PlanRecords::automatic}, {"gather", PlanRecords::gather}, {"hull", PlanRecords::hull}},
+      "records by rays that read a coarse cache, or of the photons about them; auto: of photons where lamps "
+      "light surfaces by mirrors, curved glass or sharp gloss so that rays would not find it");
   options.number("pilot", p.pilot_s, "S",
                  "time for the pilot, about: half of it goes into references, and what they cannot tell is "
                  "not known; 0: 10, "

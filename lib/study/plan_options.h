@@ -7,6 +7,7 @@
 #include "core/options.h"
 #include "scene/load.h"
 #include "study/plan_direct.h"
+#include "study/plan_estimate.h"
 
 namespace phos {
 
@@ -18,6 +19,7 @@ struct PlanOptions {
   GridOptions grid;
   std::int64_t width = 0, height = 0;
   PlanDirect direct = PlanDirect::automatic;
+  PlanRecords records = PlanRecords::automatic;
   double pilot_s = 0, reference_s = 0;
   std::int64_t rounds = 5;
   bool script = false, json = false, run = false;

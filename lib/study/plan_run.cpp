@@ -69,7 +69,7 @@ double left_over_s(const PlanTask& task, const Pilot& pilot, const Knobs& there,
   return sum;
 }
 
-std::string verdict(const PlanGoal& goal, const PlanReport& report, const char* why) {
+std::string verdict(const PlanGoal& goal, const PlanReport& report, const std::string& why) {
   const PlanRound& last = report.rounds.back();
   const bool dim = last.error() <= report.resolution;  // no more than the references' noise may feign
   std::string out =
@@ -81,7 +81,7 @@ std::string verdict(const PlanGoal& goal, const PlanReport& report, const char* 
            duration(report.reference_s));
   if (goal.error) out = text(report.met ? "met: " : "not met: ", out, "; asked for ", percent(*goal.error));
   if (goal.seconds) out += text(goal.error ? " in " : "; asked for ", duration(*goal.seconds));
-  if (*why) out += text("; ", why);
+  if (!why.empty()) out += text("; ", why);
   return out;
 }
 
@@ -172,12 +172,12 @@ PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& first
                             : std::max(kReferenceSeconds, plan.chosen.seconds.value);
   report.reference_s = runner.make_references(pilot, aim, most_s);
   std::optional<Prediction> next = plan.chosen;
-  const char* why = "";
+  std::string why;
   while (next) {
     PlanRound round{*next, 0, {}, {}, 0};
     runner.run(round, !report.rounds.empty());
     runner.measure(round);
-    const auto judged = [&] { return !goal.error || round.judged(*goal.error); };
+    const auto judged = [&] { return !goal.error || (round.judged(*goal.error) && runner.doubts().empty()); };
     const double patience = judged() ? 1 : kPatience;
     const double left_s = patience * most_s - report.reference_s;
     if (const double took = runner.better_references(round, aim, left_s); took > 0) {
@@ -195,6 +195,8 @@ PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& first
     const bool small = goal.error ? round.error() <= *goal.error : report.pipeline_s <= *goal.seconds;
     report.met = small && judged();
     if (!judged()) why = "whether it is met cannot be told; raise --reference-seconds";
+    report.doubts = runner.doubts();
+    if (!report.doubts.empty()) why = report.doubts.front();
     if (!judged() || small || !goal.error) break;
     next = next_try(task, pilot, *goal.error, report.rounds);
     if (!next) {
@@ -219,6 +221,10 @@ Json to_json(const PlanReport& report) {
   out["met"] = report.met, out["verdict"] = report.verdict;
   out["pipeline_s"] = report.pipeline_s, out["reference_s"] = report.reference_s;
   out["resolution"] = report.resolution;
+  if (!report.doubts.empty()) {
+    Json& doubts = out["doubts"] = Json::Array{};
+    for (const std::string& line : report.doubts) doubts.push_back(line);
+  }
   Json rounds = Json::Array{};
   for (const PlanRound& r : report.rounds) {
     Json round;

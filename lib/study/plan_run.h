@@ -41,7 +41,8 @@ struct PlanReport {
   double pipeline_s = 0, reference_s = 0;
   double resolution = 0;  ///< the least error that the references tell from none
   bool met = false;
-  std::string verdict;  ///< in a line
+  std::string verdict;              ///< in a line
+  std::vector<std::string> doubts;  ///< why the references of the last round are not to be trusted, if so
 };
 
 /// Makes two references (their time is stated apart), then runs the pipeline of `plan` in the folder. Where

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint64_t kReferenceSeed = 201;
 constexpr double kLeastSamples = 4;
+constexpr double kForBright = 4;  ///< times as many, where too few bright paths make their light
 constexpr double kPixelSamples = 64, kSensorPaths = 16384;  ///< of references, where time allows
 
 std::vector<std::string> words(std::vector<std::string> common) {
@@ -48,7 +49,8 @@ double PlanRunner::better_references(const PlanRound& round, double error, doubl
     const std::optional<MeasuredError>& e = lux ? round.lux : round.image;
     if (!e) continue;
     // The pair before tells what a sample takes.
-    const double times = std::min(times_as_many(*e, error), (seconds - took) / pair_s_[lux]);
+    const double wanted = std::max(times_as_many(*e, error), doubts_[lux].too_few_bright() ? kForBright : 1);
+    const double times = std::min(wanted, (seconds - took) / pair_s_[lux]);
     if (times >= 2) took += make_pair(lux, std::floor(samples_[lux] * times));
   }
   return took;
@@ -85,6 +87,13 @@ void PlanRunner::measure(PlanRound& round) const {
   }
 }
 
+std::vector<std::string> PlanRunner::doubts() const {
+  std::vector<std::string> all;
+  for (const ReferenceDoubts& of_kind : doubts_)
+    for (const std::string& line : of_kind.lines()) all.push_back(line);
+  return all;
+}
+
 std::string PlanRunner::file(const std::string& name) const { return options_.folder + "/" + name; }
 std::string PlanRunner::reference(bool lux, std::size_t i) const {
   return file(text(lux ? "reference-lux-" : "reference-", i, lux ? ".csv" : ".exr"));
@@ -99,12 +108,16 @@ double PlanRunner::set_out_sensors() const {
 }
 double PlanRunner::make_pair(bool lux, double samples) {
   const auto n = static_cast<std::int64_t>(samples);
-  samples_[lux] = samples, pair_s_[lux] = 0;
+  samples_[lux] = samples, pair_s_[lux] = 0, doubts_[lux] = {};
+  const double places =
+      lux ? static_cast<double>(kPilotSensors) : static_cast<double>(task_.width * task_.height);
   for (std::size_t i = 0; i < 2; ++i) {
     const Command command =
         lux ? reference_points_command(task_, n, file("reference-sensors.csv"), reference(true, i))
             : reference_picture_command(task_, n, reference(false, i));
-    pair_s_[lux] += runner_.require(seeded(command, options_.seed + kReferenceSeed + i)).wall_s;
+    const CommandRun run = runner_.require(seeded(command, options_.seed + kReferenceSeed + i));
+    pair_s_[lux] += run.wall_s;
+    doubts_[lux].add(run.stats, places);
   }
   return pair_s_[lux];
 }

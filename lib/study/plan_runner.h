@@ -6,6 +6,7 @@
 
 #include "study/command.h"
 #include "study/plan_run.h"
+#include "study/reference_doubts.h"
 
 namespace phos {
 
@@ -23,6 +24,8 @@ class PlanRunner {
   /// Runs the pipeline with the round's settings and adds up its time; `again`: stages that are there already
   /// are kept.
   void run(PlanRound& round, bool again) const;
+  /// Why the references that are there are not to be trusted; empty: they are.
+  std::vector<std::string> doubts() const;
   /// Fills in the errors.
   void measure(PlanRound& round) const;
 
@@ -36,6 +39,7 @@ class PlanRunner {
   const PlanRunOptions& options_;
   CommandRunner runner_;
   double samples_[2] = {0, 0}, pair_s_[2] = {0, 0};  ///< of picture and sensors
+  ReferenceDoubts doubts_[2];
 };
 
 }  // namespace phos

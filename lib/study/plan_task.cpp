@@ -22,9 +22,12 @@ Words view(const PlanTask& task) {
   return words;
 }
 
-Words gathered(const Knobs& k) {
-  return {
-      "--estimate", "gather", "--accuracy", knob_word(k, Knob::accuracy), "--rays", knob_word(k, Knob::rays)};
+Words estimated(const PlanTask& task, const Knobs& k) {
+  const Words accuracy{"--accuracy", knob_word(k, Knob::accuracy)};
+  Words words{"--estimate", task.by_photons ? "hull" : "gather"};
+  add(words, accuracy);
+  if (!task.by_photons) add(words, {"--rays", knob_word(k, Knob::rays)});
+  return words;
 }
 
 /// Of accuracy times the scene's diagonal: smallest radius of records of a picture, so that what they leave
@@ -58,7 +61,7 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   Words words = of_scene(task, scene);
   add(words, {photons, "--place", "view"});
   add(words, view(task));
-  add(words, gathered(knobs));
+  add(words, estimated(task, knobs));
   if (task.cached_direct)
     add(words, {"--direct", "cached", "--footprint", "adaptive"});
   else if (task.diagonal_m > 0)
@@ -75,7 +78,7 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
   Words words = of_scene(task, scene);
   add(words, {photons, "--at", points, "--place", "given"});
   if (add_to.empty())
-    add(words, gathered(knobs));  // else they are those of the file
+    add(words, estimated(task, knobs));  // else they are those of the file
   else
     add(words, {"--add-to", add_to});
   return {"phos-irradiance", words, out};
@@ -157,6 +160,8 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
           task.cached_direct
               ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
                 "photons"
+          : task.by_photons
+              ? "indirect light where the camera looks, of the photons there"
               : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
           view_records_command(task, knobs, scene, photons, records));
   if (task.lux)

@@ -23,6 +23,7 @@ struct PlanTask {
   std::vector<std::string> grid;  ///< or the options of phos-sense that set them out; empty: there is a CSV
   bool gloss = false;             ///< something glossy is traced: --gloss-samples counts
   bool specular = false;          ///< mirrors or smooth glass are
+  bool by_photons = false;        ///< records are made of photons alone (hull), not by gathered rays
   bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
 };
 

@@ -134,9 +134,10 @@ std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& p
                         const Plan& plan, std::uint64_t seed, const std::string& measured) {
   std::string out = "#!/usr/bin/env bash\n";
   out += comment(text("Asked for: ", goal_line(task, goal)), "  ");
-  out += comment(
-      "Predicted: " + prediction_line(plan.chosen) + ", 9 of 10 times, with as many threads on this machine",
-      "  ");
+  const bool promised = pilot.doubts.empty();
+  out += comment(text(promised ? "Predicted: " : "Not promised, only guessed: ", prediction_line(plan.chosen),
+                      promised ? ", 9 of 10 times" : "", ", with as many threads on this machine"),
+                 "  ");
   if (!measured.empty()) out += comment("Measured: " + measured, "  ");
   if (pilot.image_error)
     out += comment("  the image's error comes from " + largest_parts(*pilot.image_error, plan.chosen.knobs),

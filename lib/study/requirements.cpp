@@ -72,8 +72,11 @@ Needs plan_needs(const Scene& scene, const Json& gloss) {
       needs.wanted.push_back(r);
     }
   }
-  if (!has(needs.wanted, "caustic photons"))
-    needs.unwanted.push_back({"caustic photons", "nothing is a mirror or smooth glass"});
+  if (has(needs.wanted, kCausticPhotons))
+    needs.ways = light_ways(RayScene(scene), Luminaires(scene));
+  else
+    needs.unwanted.push_back(
+        {kCausticPhotons, "no lamp's light reaches surfaces by way of mirrors, curved glass or sharp gloss"});
   if (!has(needs.wanted, "specular tracing"))
     needs.unwanted.push_back({"specular tracing", "nothing is a mirror or smooth glass"});
   tell_of_gloss(gloss, needs);

@@ -7,13 +7,15 @@
 #include "cache/gloss_report.h"
 #include "core/json.h"
 #include "scene/describe.h"
+#include "scene/light_ways.h"
 
 namespace phos {
 
 struct Needs {
-  bool lit = false;       ///< there is a lamp
-  bool gloss = false;     ///< something glossy, a mirror or glass: rays of the picture follow it
-  bool specular = false;  ///< mirrors or smooth glass among them
+  bool lit = false;            ///< there is a lamp
+  bool gloss = false;          ///< something glossy, a mirror or glass: rays of the picture follow it
+  bool specular = false;       ///< mirrors or smooth glass among them
+  std::vector<LightWay> ways;  ///< of lamps to surfaces, by mirrors, curved glass or sharp gloss
   bool animated = false;
   std::int64_t frames = 0;
   std::vector<Requirement> wanted;    ///< what the plan makes, and why

@@ -13,9 +13,9 @@ namespace phos {
 /// Draws a lamp, a place on it and a direction. Half of the rays are aimed at what casts caustics, where that
 /// is small: spheres about the instances that reflect or refract sharply. Const and usable from any thread;
 /// holds references.
-class LampRays {
+class LightStarts {
  public:
-  LampRays(const Scene& scene, const Luminaires& luminaires);
+  LightStarts(const Scene& scene, const Luminaires& luminaires);
 
   struct Start {
     Ray ray;

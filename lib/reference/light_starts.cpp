@@ -1,4 +1,4 @@
-#include "reference/lamp_rays.h"
+#include "reference/light_starts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/sampling.h"
 #include "scene/environment.h"
-#include "scene/light_ways.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {
@@ -47,17 +47,15 @@ double cone_sr(double sine) {
 
 }  // namespace
 
-LampRays::LampRays(const Scene& scene, const Luminaires& luminaires)
-    : scene_(&scene),
-      luminaires_(&luminaires),
-      radius_m_(static_cast<double>(bounding_radius_m(scene))) {
+LightStarts::LightStarts(const Scene& scene, const Luminaires& luminaires)
+    : scene_(&scene), luminaires_(&luminaires), radius_m_(static_cast<double>(bounding_radius_m(scene))) {
   if (luminaires.size() > 0) share_ = luminaires.power_shares(kMinimumShare);
   double sum = 0;
   for (const double share : share_) cdf_.push_back(sum += share);
   find_targets();
 }
 
-void LampRays::find_targets() {
+void LightStarts::find_targets() {
   Bounds all;
   for (const Instance& instance : scene_->instance) {
     if (!reflects_sharply(scene_->material[instance.material])) continue;
@@ -78,14 +76,14 @@ void LampRays::find_targets() {
     target_ = {{DVec3(all.centre()), 0.5 * static_cast<double>(all.diagonal_m())}};
 }
 
-std::size_t LampRays::choose_light(double u) const {
+std::size_t LightStarts::choose_light(double u) const {
   const auto i = std::upper_bound(cdf_.begin(), cdf_.end() - 1, u * cdf_.back()) - cdf_.begin();
   return static_cast<std::size_t>(i);
 }
 
 /// Towards a target, uniform over the solid angle under which its sphere is seen. False: not to be aimed,
 /// this time.
-bool LampRays::aim(const Vec3& place, RandomStream& random, Vec3& direction) const {
+bool LightStarts::aim(const Vec3& place, RandomStream& random, Vec3& direction) const {
   if (target_.empty() || !(random.uniform_double() < kAimed)) return false;
   const auto n = static_cast<double>(target_.size());
   const auto k = std::min(static_cast<std::size_t>(random.uniform_double() * n), target_.size() - 1);
@@ -97,13 +95,14 @@ bool LampRays::aim(const Vec3& place, RandomStream& random, Vec3& direction) con
   const double side = std::sqrt(one_less_cosine * (2 - one_less_cosine));
   const Frame frame = make_frame(Vec3(towards));
   const Vec2 turn = cos_sin(random.uniform());
-  const DVec3 across = static_cast<double>(turn.x) * DVec3(frame.x) + static_cast<double>(turn.y) * DVec3(frame.y);
+  const DVec3 across =
+      static_cast<double>(turn.x) * DVec3(frame.x) + static_cast<double>(turn.y) * DVec3(frame.y);
   direction = Vec3(glm::normalize((1 - one_less_cosine) * towards + side * across));
   return true;
 }
 
 /// Of the directions that are not aimed, per sr.
-double LampRays::lobe_density(std::size_t i, const Vec3& normal, const Vec3& direction) const {
+double LightStarts::lobe_density(std::size_t i, const Vec3& normal, const Vec3& direction) const {
   const Light& light = (*luminaires_)[i];
   switch (light.kind) {
     case Light::Kind::area: {
@@ -112,7 +111,8 @@ double LampRays::lobe_density(std::size_t i, const Vec3& normal, const Vec3& dir
       return std::max(cosine, 0.0) / std::numbers::pi * (both ? 0.5 : 1);
     }
     case Light::Kind::spot:
-      return spot_falloff(light, DVec3(direction)) > 0 ? 1 / (2 * std::numbers::pi * (1 - light.cos_outer)) : 0;
+      return spot_falloff(light, DVec3(direction)) > 0 ? 1 / (2 * std::numbers::pi * (1 - light.cos_outer))
+                                                       : 0;
     case Light::Kind::measured: {
       const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(light.fitting)];
       return ratio(fitting.intensity_cd(direction), fitting.flux_lm());
@@ -122,7 +122,7 @@ double LampRays::lobe_density(std::size_t i, const Vec3& normal, const Vec3& dir
   }
 }
 
-Vec3 LampRays::sample_lobe(const Light& light, const Vec3& normal, RandomStream& random) const {
+Vec3 LightStarts::sample_lobe(const Light& light, const Vec3& normal, RandomStream& random) const {
   const Vec2 u = random.uniform2();
   switch (light.kind) {
     case Light::Kind::area:
@@ -140,7 +140,7 @@ Vec3 LampRays::sample_lobe(const Light& light, const Vec3& normal, RandomStream&
 }
 
 /// Of lines along a direction, per m2 across it: discs about the scene and about each target.
-double LampRays::across_density(const Vec3& place, const Vec3& direction) const {
+double LightStarts::across_density(const Vec3& place, const Vec3& direction) const {
   const DVec3 p(place), d(direction);
   const auto in_disc = [&](const DVec3& centre, double radius_m) {
     const DVec3 aside = glm::cross(p - centre, d);
@@ -153,7 +153,7 @@ double LampRays::across_density(const Vec3& place, const Vec3& direction) const 
   return (1 - kAimed) * whole + kAimed * aimed / static_cast<double>(target_.size());
 }
 
-Vec3 LampRays::sample_across(const Vec3& direction, RandomStream& random) const {
+Vec3 LightStarts::sample_across(const Vec3& direction, RandomStream& random) const {
   Target disc{DVec3(scene_->bounds.centre()), radius_m_};
   if (!target_.empty() && random.uniform_double() < kAimed) {
     const auto n = static_cast<double>(target_.size());
@@ -161,14 +161,15 @@ Vec3 LampRays::sample_across(const Vec3& direction, RandomStream& random) const 
   }
   const Frame frame = make_frame(direction);
   const Vec2 u = sample_disc(random.uniform2());
-  const DVec3 d(direction), middle = disc.centre + disc.radius_m * (static_cast<double>(u.x) * DVec3(frame.x) +
-                                                                    static_cast<double>(u.y) * DVec3(frame.y));
+  const DVec3 d(direction),
+      middle = disc.centre + disc.radius_m * (static_cast<double>(u.x) * DVec3(frame.x) +
+                                              static_cast<double>(u.y) * DVec3(frame.y));
   const double back = glm::dot(middle - DVec3(scene_->bounds.centre()), d) + kBeforeScene * radius_m_;
   return Vec3(middle - back * d);
 }
 
-double LampRays::density(std::size_t i, const Vec3& place, std::uint32_t triangle, const Vec3& normal,
-                         const Vec3& direction) const {
+double LightStarts::density(std::size_t i, const Vec3& place, std::uint32_t triangle, const Vec3& normal,
+                            const Vec3& direction) const {
   const Light& light = (*luminaires_)[i];
   if (light.kind == Light::Kind::environment)
     return share_[i] * scene_->environment->flux_density(-direction) * across_density(place, direction);
@@ -197,7 +198,7 @@ double LampRays::density(std::size_t i, const Vec3& place, std::uint32_t triangl
   return share_[i] * where * (own * lobe_density(i, normal, direction) + aimed);
 }
 
-bool LampRays::start_at_infinity(const Light& light, RandomStream& random, Start& result) const {
+bool LightStarts::start_at_infinity(const Light& light, RandomStream& random, Start& result) const {
   Rgb value = light.intensity;
   result.infinite = true;
   if (light.kind == Light::Kind::environment) {
@@ -217,11 +218,12 @@ bool LampRays::start_at_infinity(const Light& light, RandomStream& random, Start
 }
 
 /// First the direction, by the intensities; then a place on what is seen of the opening from there.
-bool LampRays::start_at_opening(const Light& light, RandomStream& random, Start& result) const {
+bool LightStarts::start_at_opening(const Light& light, RandomStream& random, Start& result) const {
   const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(light.fitting)];
   const Vec3 direction = fitting.sample_direction(random.uniform2());
   const float u_triangle = random.uniform();
-  const EmissionPoint point = luminaires_->sample_seen_from(result.light, direction, u_triangle, random.uniform2());
+  const EmissionPoint point =
+      luminaires_->sample_seen_from(result.light, direction, u_triangle, random.uniform2());
   if (!(point.density > 0)) return false;
   result.extended = true;
   result.triangle = point.triangle;
@@ -233,7 +235,7 @@ bool LampRays::start_at_opening(const Light& light, RandomStream& random, Start&
   return true;
 }
 
-bool LampRays::start_near(const Light& light, RandomStream& random, Start& result) const {
+bool LightStarts::start_near(const Light& light, RandomStream& random, Start& result) const {
   const bool area = light.kind == Light::Kind::area;
   EmissionPoint point;
   point.position = light.position;
@@ -241,7 +243,8 @@ bool LampRays::start_near(const Light& light, RandomStream& random, Start& resul
     const float u_triangle = random.uniform();
     point = luminaires_->sample_point(result.light, u_triangle, random.uniform2());
     if (!(point.density > 0)) return false;
-    if (scene_->material_of(point.triangle).double_sided && random.uniform() < 0.5f) point.normal = -point.normal;
+    if (scene_->material_of(point.triangle).double_sided && random.uniform() < 0.5f)
+      point.normal = -point.normal;
     result.extended = true;
     result.triangle = point.triangle;
   }
@@ -257,14 +260,15 @@ bool LampRays::start_near(const Light& light, RandomStream& random, Start& resul
   } else {
     value = light.intensity * intensity_share(*scene_, light, DVec3(direction));
   }
-  result.ray = {area ? point.position + point.error_m * point.normal : point.position, direction, 0, kInfinity};
+  result.ray = {area ? point.position + point.error_m * point.normal : point.position, direction, 0,
+                kInfinity};
   result.density = density(result.light, point.position, point.triangle, point.normal, direction);
   if (!(result.density > 0)) return false;
   result.flux_lm = Rgb(DVec3(value) / result.density);
   return max_component(result.flux_lm) > 0;
 }
 
-bool LampRays::start(RandomStream& random, Start& result) const {
+bool LightStarts::start(RandomStream& random, Start& result) const {
   if (share_.empty()) return false;
   result = Start();
   result.light = choose_light(random.uniform_double());

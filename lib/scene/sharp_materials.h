@@ -1,0 +1,23 @@
+// Materials that reflect light into few directions, and whether a scene has any.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace phos {
+
+/// Does a material reflect light within a few degrees about one direction, or in that direction alone: a
+/// mirror, smooth glass (a pane reflects too), gloss of a GGX or Ward roughness below 0.1, or of a Phong
+/// exponent above 200? Roughness maps are left out: the material's own roughness counts. False for measured
+/// tables.
+bool reflects_sharply(const Material& material);
+
+/// The same of a mirror, smooth glass, or a pane: is there a direction into which light goes as a ray, other
+/// than straight on?
+bool reflects_as_mirror(const Material& material);
+
+/// Has the scene light that reaches a diffuse surface by way of a mirror, of glass that bends or reflects it,
+/// or of sharp gloss? Path tracing finds such light only where its paths hit a lamp by chance, and that of
+/// point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().
+bool has_caustic_ways(const Scene& scene);
+
+}  // namespace phos
