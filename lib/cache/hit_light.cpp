@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/mirror_images.h"
 #include "scene/passage.h"
 #include "scene/texture.h"
 
@@ -411,6 +412,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     SurfacePoint next;
     if (!way.next(next)) {
       if (from) sum += throughput * beyond(*from, last);
+      if (from && mirrors_alone && has_image()) sum -= throughput * sun_luminance(scene, -wo);
       if (landing && !from) landing->distance_m = kInfinity, landing->normal = wo;
       break;
     }

@@ -127,7 +127,7 @@ DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const
   const MirrorPlanes& mirrors = lights_.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-      if (!has_images(lights_[i])) continue;
+      if (!has_images(rays_.scene(), lights_[i])) continue;
       const float u_triangle = sequence.uniform();
       const Vec2 u = sequence.uniform2();
       Illumination light;

@@ -99,7 +99,7 @@ class PathTracer {
     Flight flight;
     flight.ray = start.ray, flight.flux_lm = start.flux_lm, flight.units = units(start.flux_lm);
     flight.source_normal = start.source_normal, flight.from_infinity = start.from_infinity;
-    flight.mirrored = !mirrors_.empty() && has_images(emitter_.light(path));
+    flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(path), start.ray.direction);
     part.emitted += flight.units;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
@@ -136,6 +136,13 @@ class PathTracer {
       part.absorbed -= flight.units;
       if (after == After::scattered) return true;
     }
+  }
+
+  /// Light of a lamp that has images in flat mirrors; of an environment, of its sun.
+  bool is_of_image(const Light& light, const Vec3& direction) const {
+    const Scene& scene = rays_.scene();
+    if (light.kind != Light::Kind::environment) return has_images(scene, light);
+    return sun_luminance(scene, -direction) != Rgb(0);
   }
 
   enum class After : std::uint8_t { ended, scattered, passed };

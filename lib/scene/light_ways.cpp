@@ -152,7 +152,8 @@ class Finder {
     if (!(start.flux_lm > 0)) return;
     Flight first;
     first.ray = start.ray, first.flux_lm = start.flux_lm, first.lamp = start;
-    first.images = !mirrors_.empty() && has_images(scene_.light[lamp.light]);
+    first.images =
+        !mirrors_.empty() && lamp.part != Lamp::Part::sky && has_images(scene_, scene_.light[lamp.light]);
     if (!beyond) found.started_lm += start.flux_lm;
     std::vector<Flight> open{first};
     for (std::uint32_t turn = 0; turn < kMostTurns && !open.empty(); ++turn) {
