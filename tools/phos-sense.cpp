@@ -187,7 +187,8 @@ int main(int argc, char** argv) {
     std::uint64_t samples = 0;
     const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
     std::vector<PointIrradiance> both_ends;
-    if (exact && is_bidirectional(method, ways, static_cast<double>(exactly.samples))) {
+    if (exact && !sense.direct_only &&
+        is_bidirectional(method, scene, ways, static_cast<double>(exactly.samples))) {
       const auto timer = tool.time("light paths");
       std::vector<SensorPoint> points;
       for (const auto& p : sensors.points) points.push_back({p.position, p.normal});
