@@ -53,6 +53,7 @@ struct RadianceCache {
   std::vector<RadianceRecord> records;  ///< of any orders; all with gradients or all without
   double accuracy = 0.2;                ///< a that placed them
   std::string scene_hash;
+  std::shared_ptr<const CausticPhotons> caustics{};  ///< as IrradianceCache::caustics
   int order() const;  ///< the greatest; 0: there are no records
 };
 

@@ -53,12 +53,23 @@ struct Flight {
   std::uint32_t events = 0;  // bounces and panes passed straight: numbers the random draws
   bool from_infinity = false;
   bool specular_only = true;  // since the light
+  bool in_glass = false;      // in solid glass
+  Vec3 stretch_from{0};       // where the ray began, or the pane that it has passed last
 
   PhotonPath path() const {
     if (bounce == 0) return PhotonPath::direct;
     return specular_only ? PhotonPath::caustic : PhotonPath::indirect;
   }
 };
+
+/// Notes the stretch that caustic light has flown since the last surface, where no photon tells of it.
+void note_flight(Flights& flights, const Flight& flight, float length_m) {
+  if (!is_caustic(flight.path()) || flight.in_glass) return;
+  flights.from.push_back(flight.stretch_from);
+  flights.flux.push_back(flight.flux_lm);
+  flights.direction.push_back(encode_octahedral(flight.ray.direction));
+  flights.length.push_back(length_m);
+}
 
 bool stores(const Bsdf& bsdf) { return !bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss(); }
 
@@ -105,6 +116,7 @@ class PathTracer {
   bool step(Flight& flight, RandomStream& random, Part& part) const {
     if (log_) part.rays.push_back(flight.ray);
     Way way(rays_, flight.ray);
+    flight.stretch_from = flight.ray.origin;
     for (;;) {
       // Drawn before the ray is traced, so that the processor can work them out in the waits of the
       // traversal.
@@ -113,6 +125,7 @@ class PathTracer {
       const Vec2 u = random.uniform2();
       SurfacePoint point;
       if (!way.next(point)) {
+        note_flight(part.photons.flights, flight, kInfinity);
         part.escaped += flight.units;
         ++part.escaped_paths;
         return false;
@@ -121,7 +134,10 @@ class PathTracer {
       if (stores(bsdf)) {
         store(part.photons, flight, point);
         part.stored += flight.units;
+      } else {
+        note_flight(part.photons.flights, flight, glm::distance(flight.stretch_from, point.position));
       }
+      flight.stretch_from = point.position;
       part.absorbed += flight.units;
       const After after = scatter(bsdf, point, u_lobe, u, flight, random, part);
       if (after == After::ended) return false;
@@ -159,6 +175,9 @@ class PathTracer {
                                                                                    : -point.geometric_normal;
     flight.from_infinity = false;
     flight.specular_only = flight.specular_only && sample.specular;
+    const bool ahead = glm::dot(sample.direction, point.geometric_normal) >= 0;
+    flight.in_glass =
+        rays_.scene().material[point.material].model == Model::dielectric && ahead != point.front;
     return After::scattered;
   }
 
@@ -196,6 +215,13 @@ void join_column(std::vector<T> Photons::*column, std::span<Part> parts, Photons
   }
 }
 
+void join_flights(std::span<Part> parts, Flights& all) {
+  for (Part& part : parts) {
+    append(all, columns_of(part.photons.flights));
+    part.photons.flights = {};
+  }
+}
+
 void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows) {
   const auto join_number = [&](std::size_t column) {
     switch (column) {
@@ -213,11 +239,13 @@ void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows
         return join_column(&Photons::distance, parts, all, expected_rows);
       case 6:
         return join_column(&Photons::path, parts, all, expected_rows);
+      case 7:
+        return join_flights(parts, all.flights);
       default:
         return join_column(&Photons::bounce, parts, all, expected_rows);
     }
   };
-  parallel_for(8, 1, join_number);
+  parallel_for(9, 1, join_number);
 }
 
 /// How many rows all paths will give, by those that are done, and a little more.

@@ -14,6 +14,10 @@ namespace phos {
 /// its faces are plane and parallel; that is not told by the material.
 bool passes_straight(const Scene& scene, const Material& material);
 
+/// Can light of a lamp reach surfaces by way of mirrors or glass that turn it (caustic light)? What light only
+/// passes straight does not: thin films and sheets that reflect nothing.
+bool casts_caustics(const Scene& scene);
+
 /// What a ray passes straight through: a thin pane, a sheet, a film, a plate of solid glass between parallel
 /// faces, or a pack of such panes, parallel and next to each other, with all interreflection in it.
 struct Crossing {
