@@ -115,7 +115,8 @@ void require_records_of(RecordsOf of, const Container& file) {
 
 namespace {
 
-constexpr const char* kCausticLight = "caustic_light";  // entry of a header
+// Entries of a header.
+constexpr const char *kCausticLight = "caustic_light", *kPhoton = "photon_lm";
 
 }  // namespace
 
@@ -131,12 +132,23 @@ void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, Contain
                   Provenance& provenance) {
   if (!caustics) return;
   add_columns(file, *caustics);
-  provenance.extra[kCausticLight] = "apart";
+  const Rgb& one = caustics->photon_lm;
+  provenance.extra[kCausticLight][kPhoton] = Json::Array{one.x, one.y, one.z};
 }
 
 std::shared_ptr<const CausticPhotons> caustics_of(const Container& file) {
-  if (!file.provenance().extra.find(kCausticLight)) return nullptr;
-  return std::make_shared<CausticPhotons>(read_caustics(file));
+  const Json* said = file.provenance().extra.find(kCausticLight);
+  if (!said) return nullptr;
+  auto photons = std::make_shared<CausticPhotons>(read_caustics(file));
+  const Json* one = said->is_object() ? said->find(kPhoton) : nullptr;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const bool sound = one && one->is_array() && one->as_array().size() == 3 && one->as_array()[c].is_number();
+    if (!sound)
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("its header does not rightly say \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
+    photons->photon_lm[static_cast<int>(c)] = static_cast<float>(one->as_array()[c].as_number());
+  }
+  return photons;
 }
 
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,

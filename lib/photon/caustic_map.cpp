@@ -29,6 +29,8 @@ CausticPhotons caustics_of(const PhotonMap& photons) {
     c.distance.push_back(photons.distance[i]);
   }
   append(c.flights, photons.flights);
+  if (photons.totals.emitted > 0)
+    c.photon_lm = photons.totals.emitted_flux_lm / static_cast<float>(photons.totals.emitted);
   return c;
 }
 
@@ -77,7 +79,7 @@ CausticMap::CausticMap(CausticPhotons photons) : photons_(std::move(photons)) {
   DVec3 sum(0);
   for (const Rgb& f : photons_.flux) sum += DVec3(f);
   for (const Rgb& f : photons_.flights.flux) sum += DVec3(f);
-  if (!way_.empty()) one_photon_lm_ = Rgb(sum / static_cast<double>(way_.size()));
+  one_photon_lm_ = way_.empty() ? photons_.photon_lm : Rgb(sum / static_cast<double>(way_.size()));
 }
 
 void CausticMap::sort(std::vector<CausticHit>& hits) {

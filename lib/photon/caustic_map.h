@@ -23,6 +23,7 @@ struct CausticPhotons {
   std::vector<std::uint32_t> normal;     ///< octahedral, smooth, of the side it landed on
   std::vector<float> distance;           ///< m, to the last surface that turned it
   Flights flights;
+  Rgb photon_lm{0};  ///< that a path of the run starts with, mean: what one photon brings where there is none
   std::size_t size() const { return position.size(); }
   bool empty() const { return size() == 0 && flights.size() == 0; }
 };
@@ -33,7 +34,7 @@ CausticPhotons caustics_of(const PhotonMap& photons);
 /// Tensors caustic_position, caustic_flux, caustic_direction, caustic_normal, caustic_distance and those of
 /// flights (caustic_flight_from, ...), each absent where there are none of its kind.
 void add_columns(ContainerWriter& writer, const CausticPhotons& photons);
-/// Throws Error(bad_input) for damaged columns.
+/// Throws Error(bad_input) for damaged columns. photon_lm is not in columns.
 CausticPhotons read_caustics(const Container& file);
 
 /// One that counts for a disc.
@@ -49,7 +50,7 @@ class CausticMap {
  public:
   explicit CausticMap(CausticPhotons photons);
   const CausticPhotons& photons() const { return photons_; }
-  /// What one photon carries: mean of all, lm.
+  /// What one photon carries: mean of all, lm; CausticPhotons::photon_lm where there are none.
   const Rgb& one_photon_lm() const { return one_photon_lm_; }
 
   /// Memory of one thread.
