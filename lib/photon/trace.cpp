@@ -4,12 +4,14 @@
 #include <cmath>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "photon/caustic_aim.h"
 #include "photon/emission.h"
 #include "photon/photon_file.h"
 #include "scene/bsdf.h"
@@ -22,6 +24,7 @@ constexpr std::size_t kPathChunk = 1024;
 // Chunks of a wave wait in memory for each other before they are joined in order. Enough of them to keep
 // every thread busy, and no more, so that their memory is used again before it has left the cache.
 constexpr std::uint64_t kChunksPerThread = 16;
+constexpr std::uint64_t kAimedItems = std::uint64_t{1} << 63;  // random streams: + number of the aimed path
 constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
 // Of a chunk: more, and nothing absorbs the light, whose photons would fill any memory.
 constexpr std::uint64_t kMostTooLong = 16;
@@ -55,6 +58,14 @@ struct Flight {
   bool specular_only = true;  // since the light
   bool in_glass = false;      // in solid glass
   Vec3 stretch_from{0};       // where the ray began, or the pane that it has passed last
+  enum class Keep : std::uint8_t { all, others, caustics } keep = Keep::all;  // photons that are stored
+  bool aimed_class = false;  // the first event was on what paths are aimed at
+  std::uint32_t aimed_at = 0;  // triangle
+
+  /// Is the photon, or the stretch, this path's to tell of?
+  bool tells() const {
+    return keep == Keep::all || (keep == Keep::caustics) == (is_caustic(path()) && aimed_class);
+  }
 
   PhotonPath path() const {
     if (bounce == 0) return PhotonPath::direct;
@@ -64,7 +75,7 @@ struct Flight {
 
 /// Notes the stretch that caustic light has flown since the last surface, where no photon tells of it.
 void note_flight(Flights& flights, const Flight& flight, float length_m) {
-  if (!is_caustic(flight.path()) || flight.in_glass) return;
+  if (!is_caustic(flight.path()) || flight.in_glass || !flight.tells()) return;
   flights.from.push_back(flight.stretch_from);
   flights.flux.push_back(flight.flux_lm);
   flights.direction.push_back(encode_octahedral(flight.ray.direction));
@@ -86,12 +97,28 @@ void store(Photons& photons, const Flight& flight, const SurfacePoint& point) {
 
 class PathTracer {
  public:
-  PathTracer(const RayScene& rays, const Emitter& emitter, std::uint64_t seed, bool log)
+  /// `aim` null: no path is aimed. `aimed_paths` are all of them.
+  PathTracer(const RayScene& rays, const Emitter& emitter, const CausticAim* aim, std::uint64_t paths,
+             std::uint64_t aimed_paths, std::uint64_t seed, bool log)
       : rays_(rays),
         emitter_(emitter),
+        aim_(aim),
+        paths_(paths),
+        aimed_paths_(aimed_paths),
         seed_(seed),
         log_(log),
         units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {}
+
+  /// The aimed paths that go with a path: all of them are dealt out in order.
+  void trace_aimed(std::uint64_t path, Part& part) const {
+    if (!aim_) return;
+    const auto until = [&](std::uint64_t p) {
+      return static_cast<std::uint64_t>(static_cast<double>(p) / static_cast<double>(paths_) *
+                                        static_cast<double>(aimed_paths_));
+    };
+    const std::uint64_t last = path + 1 == paths_ ? aimed_paths_ : until(path + 1);
+    for (std::uint64_t i = until(path); i < last; ++i) trace_one_aimed(i, part);
+  }
 
   void trace_path(std::uint64_t path, Part& part) const {
     RandomStream random(seed_, Stage::photon_path, path);
@@ -105,11 +132,39 @@ class PathTracer {
     flight.ray = start.ray, flight.flux_lm = start.flux_lm, flight.units = units(start.flux_lm);
     flight.source_normal = start.source_normal, flight.from_infinity = start.from_infinity;
     part.emitted += flight.units;
+    if (aim_) flight.keep = Flight::Keep::others;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
   }
 
  private:
+  void trace_one_aimed(std::uint64_t number, Part& part) const {
+    RandomStream random(seed_, Stage::photon_path, kAimedItems + number);
+    random.start_bounce(0);
+    const std::size_t light = emitter_.light_of(number);
+    CausticAim::Start start = aim_->start(light, random);
+    const double per_path = static_cast<double>(paths_) / static_cast<double>(aimed_paths_);
+    start.photon.flux_lm *= emitter_.scale(light) * static_cast<float>(per_path);
+    if (!is_finite(start.photon.flux_lm)) {
+      ++part.non_finite;
+      return;
+    }
+    Flight flight;
+    flight.ray = start.photon.ray, flight.flux_lm = start.photon.flux_lm;
+    flight.units = units(flight.flux_lm);
+    flight.source_normal = start.photon.source_normal, flight.from_infinity = start.photon.from_infinity;
+    flight.keep = Flight::Keep::caustics, flight.aimed_at = start.triangle;
+    // Its light is in the totals already: only what is stored counts.
+    Part uncounted;
+    std::swap(uncounted.photons, part.photons);
+    while (largest(flight.flux_lm) > 0 && step(flight, random, uncounted)) {
+    }
+    std::swap(uncounted.photons, part.photons);
+    part.stored += uncounted.stored;
+    part.non_finite += uncounted.non_finite, part.too_long += uncounted.too_long;
+    if (log_) part.rays.insert(part.rays.end(), uncounted.rays.begin(), uncounted.rays.end());
+  }
+
   FluxSum units(const Rgb& flux_lm) const { return FluxSum::of(flux_lm, units_per_lm_); }
 
   /// To the next surface and off it again; straight through panes on the way. False: the photon is no more.
@@ -132,8 +187,10 @@ class PathTracer {
       }
       const Bsdf bsdf = way.bsdf(point);
       if (stores(bsdf)) {
-        store(part.photons, flight, point);
-        part.stored += flight.units;
+        if (flight.tells()) {
+          store(part.photons, flight, point);
+          part.stored += flight.units;
+        }
       } else {
         note_flight(part.photons.flights, flight, glm::distance(flight.stretch_from, point.position));
       }
@@ -169,6 +226,11 @@ class PathTracer {
     if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return After::ended;
     flight.flux_lm = (1 / survival) * flux;
     if (sample.straight) return After::passed;
+    if (aim_ && flight.bounce == 0) {
+      flight.aimed_class = aim_->takes(point.material);
+      if (flight.keep == Flight::Keep::caustics && point.triangle != flight.aimed_at) return After::ended;
+    }
+    if (flight.keep == Flight::Keep::caustics && !sample.specular) return After::ended;
     ++flight.bounce;
     flight.ray = Ray{point.leave(sample.direction), sample.direction};
     flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
@@ -183,6 +245,8 @@ class PathTracer {
 
   const RayScene& rays_;
   const Emitter& emitter_;
+  const CausticAim* aim_;
+  std::uint64_t paths_, aimed_paths_;
   std::uint64_t seed_;
   bool log_;
   double units_per_lm_;
@@ -263,6 +327,11 @@ void declare_options(Options& options, PhotonOptions& p) {
       "paths emitted from the lights; each stores a photon on every surface it reaches that is not purely "
       "mirror or glass (both numbers are printed)",
       {0, 0x1p40});
+  options.integer("caustic-photons", p.caustic_paths, "N",
+                  "where there are mirrors or glass: paths aimed from the lamps at these, which find all light "
+                  "that reaches surfaces by way of them alone; -1: as many as --photons; 0: none, such light "
+                  "is what other paths find",
+                  {-1, 0x1p40}, Recorded::unless_default);
   options.number(
       "minimum-share", p.minimum_share, "SHARE",
       "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
@@ -288,7 +357,12 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   if (options.paths == 0) return photons;
   const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed);
   totals.flux_exponent = emitter.flux_exponent();
-  const PathTracer tracer(rays, emitter, seed, log != nullptr);
+  const std::uint64_t aimed =
+      static_cast<std::uint64_t>(options.caustic_paths < 0 ? options.paths : options.caustic_paths);
+  std::optional<CausticAim> aim;
+  if (aimed > 0 && casts_caustics(rays.scene())) aim.emplace(rays);
+  if (aim && aim->empty()) aim.reset();
+  const PathTracer tracer(rays, emitter, aim ? &*aim : nullptr, totals.emitted, aimed, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");
   std::vector<Part> parts;
   const std::uint64_t full_wave = kChunksPerThread * kPathChunk * static_cast<std::uint64_t>(thread_count());
@@ -301,6 +375,7 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
       part.restart();
       for (std::size_t i = begin; i < end; ++i) {
         tracer.trace_path(first + i, part);
+        tracer.trace_aimed(first + i, part);
         if (part.too_long < kMostTooLong) continue;
         throw Error(
             ExitCode::numerical, "",

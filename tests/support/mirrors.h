@@ -18,7 +18,7 @@ inline std::uint32_t add_mirror(Scene& scene, const std::string& name, float ref
 /// from the image of the lamp at 8 - x: E = rho I cos / d2, on any plane in the room.
 struct MirrorBox {
   static constexpr float kReflectance = 0.8f, kIntensity_cd = 1000;
-  static constexpr Vec3 kLamp{1.5f, 2, 2.5f};
+  inline static const Vec3 kLamp{1.5f, 2, 2.5f};
   Scene scene;
 
   MirrorBox() {

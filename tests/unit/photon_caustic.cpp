@@ -158,10 +158,11 @@ TEST(CausticMap, CrossingsCountWithoutACosine) {
                              [](const CausticHit& a, const CausticHit& b) { return a.distance2_m2 < b.distance2_m2; }));
 }
 
-Photons traced(const Scene& scene, std::int64_t paths, const std::string& shard = "") {
+Photons traced(const Scene& scene, std::int64_t paths, const std::string& shard = "",
+               std::int64_t aimed = -1) {
   const RayScene rays(scene);
   PhotonOptions options;
-  options.paths = paths, options.shard = shard;
+  options.paths = paths, options.shard = shard, options.caustic_paths = aimed;
   PhotonTotals totals;
   Counters counters;
   return trace_photons(rays, options, 2, totals, counters);
@@ -190,6 +191,10 @@ TEST(Flights, LightThatAMirrorSendsToTheSkyIsThere) {
   }
   // The lamp sees the square of half side = height under Omega = 4 asin(1/2) = 2 pi / 3 sr.
   const double reflected = 0.9 * 100 * 2 * kPiD / 3;
+  EXPECT_NEAR(flux, reflected, 0.02 * reflected);
+  // Not aimed, the same light.
+  flux = 0;
+  for (const Rgb& f : traced(scene, 60'000, "", 0).flights.flux) flux += static_cast<double>(f.x);
   EXPECT_NEAR(flux, reflected, 0.03 * reflected);
 }
 
@@ -214,6 +219,22 @@ TEST(Flights, ShardsHoldThemAll) {
   EXPECT_EQ(joined.flights.direction, whole.flights.direction);
 }
 
+/// What aimed paths bring is what all paths bring, on average: flux and its mean square place.
+TEST(AimedPaths, BringTheLightOfOthers) {
+  const MirrorBox box;
+  double flux[2] = {0, 0}, moment[2] = {0, 0};
+  for (const int aimed : {0, 1}) {
+    const Photons photons = traced(box.scene, 200'000, "", aimed ? 150'000 : 0);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+      if (!is_caustic(static_cast<PhotonPath>(photons.path[i]))) continue;
+      const auto f = static_cast<double>(photons.flux[i].x);
+      flux[aimed] += f, moment[aimed] += f * static_cast<double>(glm::dot(photons.position[i], photons.position[i]));
+    }
+  }
+  EXPECT_NEAR(flux[1], flux[0], 0.02 * flux[0]);
+  EXPECT_NEAR(moment[1], moment[0], 0.03 * moment[0]);
+}
+
 TEST(CausticPhotons, AreTheSameFromAFile) {
   PhotonTotals totals;
   const MirrorBox box;
@@ -233,10 +254,13 @@ TEST(CausticPhotons, AreTheSameFromAFile) {
   provenance.kind = "irradiance", provenance.version = 1;
   writer.write(path, provenance);
   const CausticPhotons read = read_caustics(Container::open(path));
-  EXPECT_EQ(read.position, c.position), EXPECT_EQ(read.flux, c.flux);
-  EXPECT_EQ(read.direction, c.direction), EXPECT_EQ(read.normal, c.normal);
+  EXPECT_EQ(read.position, c.position);
+  EXPECT_EQ(read.flux, c.flux);
+  EXPECT_EQ(read.direction, c.direction);
+  EXPECT_EQ(read.normal, c.normal);
   EXPECT_EQ(read.distance, c.distance);
-  EXPECT_EQ(read.flights.from, c.flights.from), EXPECT_EQ(read.flights.length, c.flights.length);
+  EXPECT_EQ(read.flights.from, c.flights.from);
+  EXPECT_EQ(read.flights.length, c.flights.length);
   const std::string whole = scratch("caustic") + "/b.photons";
   map.write(whole, provenance);
   EXPECT_EQ(PhotonMap::open(whole).flights.size(), 1u);
