@@ -16,7 +16,7 @@ void declare_method(Options& options, ReferenceMethod& method, const std::string
 bool is_bidirectional(ReferenceMethod method, const Scene& scene, const std::vector<LightWay>& ways,
                       double samples) {
   if (method != ReferenceMethod::automatic) return method == ReferenceMethod::bidirectional;
-  return (!scene.light.empty() && casts_caustics(scene)) ||
+  return (!scene.light.empty() && gathers_light(scene)) ||
          !unsampled(ways, Sampler::path_tracing, samples).empty();
 }
 

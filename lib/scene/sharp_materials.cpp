@@ -52,7 +52,7 @@ bool reflects_sharply(const Material& m) {
   }
 }
 
-bool casts_caustics(const Scene& scene) {
+bool gathers_light(const Scene& scene) {
   constexpr float kFlat = 1 - 1e-6f;  // cosine of a vertex normal to its triangle's
   for (const Instance& instance : scene.instance) {
     const Material& m = scene.material[instance.material];
