@@ -63,13 +63,14 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
 
 /// Of sensors whose records do not hold all light: those of files that say so, and those made here.
 void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std::vector<LightWay>& ways,
-                      const SensorOptions& sense, const SensorReport& report,
+                      bool caustics, const SensorOptions& sense, const SensorReport& report,
                       std::vector<Reading>& readings) {
+  const Sampler sampler = caustics ? Sampler::gathering_beside_caustics : Sampler::gathering;
   const bool by_files = !tell_unsampled_in(tool, files).empty();
   const auto rays = static_cast<double>(sense.rays);
   std::vector<LightWay> missed;
-  if (report.uncovered > 0) missed = unsampled(ways, Sampler::gathering, rays);
-  tell_unsampled(tool, missed, Sampler::gathering, rays,
+  if (report.uncovered > 0) missed = unsampled(ways, sampler, rays);
+  tell_unsampled(tool, missed, sampler, rays,
                  text(report.uncovered, " sensors that no record of the caches reaches"));
   for (std::size_t i = 0; i < readings.size(); ++i)
     if (report.is_covered(i) ? by_files : !missed.empty())
@@ -210,6 +211,7 @@ int main(int argc, char** argv) {
       return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};
     };
     std::vector<Reading> readings;
+    bool caustics = false;
     {
       const auto timer = tool.time("read");
       const SensorCaches caches =
@@ -218,13 +220,14 @@ int main(int argc, char** argv) {
         throw Error(ExitCode::usage, "--light-samples",
                     text("of 0 leaves direct light to the cache, and ", inputs.caches[0],
                          " holds indirect light alone; make it with --direct cached"));
+      caustics = caches.caustics() != nullptr;
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
     if (exact)
       doubts.tell(tool);
     else
-      leave_out_errors(tool, files, ways, sense, report, readings);
+      leave_out_errors(tool, files, ways, caustics, sense, report, readings);
     tool.counters().merge(report.counters);
     tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");

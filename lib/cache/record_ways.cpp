@@ -4,7 +4,8 @@ namespace phos {
 
 Sampler sampler_of(const RecordOptions& records) {
   const bool photons = records.estimate == Estimate::hull || records.estimate == Estimate::kernel;
-  return photons ? Sampler::photons : Sampler::gathering;
+  if (photons) return Sampler::photons;
+  return records.caustics_apart ? Sampler::gathering_beside_caustics : Sampler::gathering;
 }
 
 double samples_of(const RecordOptions& records) {

@@ -27,6 +27,10 @@ constexpr std::size_t kPathChunk = 1024;
 constexpr std::uint64_t kChunksPerThread = 16;
 constexpr std::uint64_t kAimedItems = std::uint64_t{1} << 63;  // random streams: + number of the aimed path
 constexpr std::uint32_t kMaxBounces = 65534;                   // the last that a random stream can number
+// Light that total reflection keeps in glass that absorbs nothing may stay for ever: from so many events on
+// it plays Russian roulette.
+constexpr std::uint32_t kLongInGlass = 1024;
+constexpr float kLongSurvival = 0.98f;
 // Of a chunk: more, and nothing absorbs the light, whose photons would fill any memory.
 constexpr std::uint64_t kMostTooLong = 16;
 
@@ -237,7 +241,8 @@ class PathTracer {
       ++part.non_finite;
       return After::ended;
     }
-    const float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
+    float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
+    if (flight.in_glass && flight.events > kLongInGlass) survival = std::min(survival, kLongSurvival);
     if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return After::ended;
     flight.flux_lm = (1 / survival) * flux;
     if (sample.straight) return After::passed;

@@ -25,6 +25,8 @@ constexpr SamplerRow kSamplers[] = {
      "--method bidirectional samples it"},
     {Sampler::gathering, "gathering", Finds::by_hits, Finds::by_hits, Finds::by_hits,
      "records of photons hold it (phos-irradiance --estimate hull)"},
+    {Sampler::gathering_beside_caustics, "gathering", Finds::always, Finds::always, Finds::by_hits,
+     "records of photons hold it (phos-irradiance --estimate hull)"},
     {Sampler::photons, "photons", Finds::always, Finds::always, Finds::always, ""},
 };
 

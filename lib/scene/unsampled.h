@@ -13,9 +13,10 @@ namespace phos {
 
 /// How light is looked for.
 enum class Sampler : std::uint8_t {
-  path_tracing,  ///< from sensor or eye, with shadow rays: reference/path_tracer.h
-  gathering,     ///< rays of records, and of sensors beyond them: cache/gather.h
-  photons,       ///< from the lamps
+  path_tracing,               ///< from sensor or eye, with shadow rays: reference/path_tracer.h
+  gathering,                  ///< rays of records, and of sensors beyond them: cache/gather.h
+  gathering_beside_caustics,  ///< the same beside caustic photons, which travel with the cache
+  photons,                    ///< from the lamps
 };
 
 /// Light that is found by rays which happen to hit a lamp counts as sampled from so many expected hits on:
