@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Validation with CIE 171:2006, cases 5.2 to 5.14: every case as a scene, read by every estimator that can do it:
 #   pipelines/cie171.sh FOLDER [--cases 5.2,5.9,...] [--skies 1,5,...] [--estimators exact,records,...] [--quick] [--seed N] [--threads N]
-# Writes FOLDER/results.csv (case,variant,point,sky,estimator,value,stderr,truth), FOLDER/index.html and FOLDER/cie171.md. Goes on where it was
-# interrupted; FOLDER/log.txt has what programs said. --quick: skies 5 and 12, and less accuracy. Code 1: a point is off by more than 2 % and four standard errors.
+# Writes FOLDER/results.csv (case,variant,point,sky,estimator,value,stderr,truth), FOLDER/index.html and FOLDER/cie171.md. Goes on where
+# it was interrupted; FOLDER/log.txt has what programs said. --quick: skies 5 and 12, and less accuracy. Code 1: a point is off by more
+# than 2 % and four standard errors.
 set -euo pipefail
 
-usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 [[ $# -ge 1 && $1 != -* ]] || usage
 folder=$1
 shift
@@ -27,7 +28,12 @@ while (($# > 0)); do
   esac
 done
 skies=${skies:-${quick:-$all_skies}}
-known() { local word; for word in ${2//,/ }; do [[ ,$3, == *,$word,* ]] || { echo "cie171.sh: $1 $word: give some of $3" >&2; exit 2; }; done; }
+known() {
+  local word
+  for word in ${2//,/ }; do
+    [[ ,$3, == *,$word,* ]] || { echo "cie171.sh: $1 $word: give some of $3" >&2; exit 2; }
+  done
+}
 known --cases "$cases" $all_cases
 known --skies "$skies" $all_skies
 known --estimators "$estimators" $all_estimators
@@ -39,7 +45,7 @@ mkdir -p "$folder/scenes" "$folder/rows"
 : >"$folder/log.txt"
 settings="photons $photons error $error rays $rays light-samples $light_samples ($pixel_samples a pixel) seed $seed, $(phos-sense --version)"
 
-# case | variants | skies, or angles of incidence | factor of lux | what is left out, and why
+# case | variants | skies, or angles of incidence | factor of lux | estimators left out
 table='
 5.2  | -                                                                          | -      | 1     |
 5.3  | -                                                                          | -      | 1     |

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
       "otherwise made from the photons; and a radiance cache, for rays that land on gloss, whose records "
       "hold "
       "irradiance too, so that the surfaces which they cover get none of their own.",
-      14);
+      15);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -108,6 +108,9 @@ int main(int argc, char** argv) {
     cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
     cache.quantity = name_of(records.paths);
+    cache.caustics = caustics_of_run(inputs, scene, add_to.empty() ? nullptr : &cache, add_to);
+    records.caustics_apart = cache.caustics != nullptr;
+    if (cache.caustics) tool.stat("caustic_photons", cache.caustics->size());
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at, scene.origin_m);

@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
             "only or read a cache; its .brdf file (else lobes are projected here); and caches for rays to "
             "read where they land: irradiance, in place of the coarse cache that is otherwise made from the "
             "photons, and radiance, for gloss.",
-            12);
+            13);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -92,6 +92,9 @@ int main(int argc, char** argv) {
     radiance.records.resolve(scene.bounds.diagonal_m());
     cache.accuracy = radiance.records.accuracy;
     cache.scene_hash = scene.hash;
+    const IrradianceCache earlier = irradiance_of(cache);
+    cache.caustics = caustics_of_run(inputs, scene, add_to.empty() ? nullptr : &earlier, add_to);
+    radiance.records.caustics_apart = cache.caustics != nullptr;
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at, scene.origin_m);

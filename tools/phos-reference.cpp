@@ -27,10 +27,18 @@ void write_text(Tool& tool, const std::string& csv) {
   file.commit();
 }
 
+bool direct_alone(const PathOptions& path) { return path.bounces == 0 || path.bounces == 1; }
+
 /// By which light can come, of that which is asked for: directly it comes straight.
 std::vector<LightWay> ways_of(const RayScene& rays, const Luminaires& luminaires, const PathOptions& path) {
-  const bool direct_alone = path.bounces == 0 || path.bounces == 1;
-  return direct_alone ? std::vector<LightWay>() : light_ways(rays, luminaires);
+  return direct_alone(path) ? std::vector<LightWay>() : light_ways(rays, luminaires);
+}
+
+/// The method, with "auto" resolved.
+bool from_both_ends(const ReferenceOptions& reference, const Scene& scene, const std::vector<LightWay>& ways,
+                    double samples) {
+  if (reference.method == ReferenceMethod::automatic && direct_alone(reference.path)) return false;
+  return is_bidirectional(reference.method, scene, ways, samples);
 }
 
 /// Warns of what the picture's error does not hold. Is it to be stated?
@@ -51,7 +59,8 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   options.samples = reference.samples, options.relative_error = reference.error;
   options.seed = reference.seed, options.path = reference.path;
   const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
-  const bool both_ends = is_bidirectional(reference.method, ways, static_cast<double>(reference.samples));
+  const bool both_ends =
+      from_both_ends(reference, rays.scene(), ways, static_cast<double>(reference.samples));
   PointDoubts doubts(both_ends ? std::vector<LightWay>() : ways, Sampler::path_tracing);
   std::vector<PointIrradiance> light;
   if (both_ends) {
@@ -85,7 +94,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
   const double pixels = static_cast<double>(reference.width) * static_cast<double>(reference.height);
   const bool both_ends =
-      is_bidirectional(reference.method, ways, pixels * static_cast<double>(reference.samples));
+      from_both_ends(reference, scene, ways, pixels * static_cast<double>(reference.samples));
   reference.method = both_ends ? ReferenceMethod::bidirectional : ReferenceMethod::path;
   ReferencePicture picture = [&] {
     const auto timer = tool.time("trace");

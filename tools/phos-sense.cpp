@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
             "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout. With --bands all these "
             "are of "
             "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
-            6, Tool::Output::optional);
+            7, Tool::Output::optional);
   tool.takes_strict();
   tool.output_has_no_key();
   Inputs inputs;
@@ -187,7 +187,8 @@ int main(int argc, char** argv) {
     std::uint64_t samples = 0;
     const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
     std::vector<PointIrradiance> both_ends;
-    if (exact && is_bidirectional(method, ways, static_cast<double>(exactly.samples))) {
+    if (exact && !sense.direct_only &&
+        is_bidirectional(method, scene, ways, static_cast<double>(exactly.samples))) {
       const auto timer = tool.time("light paths");
       std::vector<SensorPoint> points;
       for (const auto& p : sensors.points) points.push_back({p.position, p.normal});

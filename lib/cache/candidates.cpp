@@ -22,11 +22,11 @@ std::size_t grid_order(std::size_t j, int k) {
   return i;
 }
 
-Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uint64_t seed,
+Candidates photon_candidates(const PhotonMap& photons, const Counted& counted, std::uint64_t seed,
                              std::int64_t most) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;
   for (std::uint32_t row = 0; row < photons.size(); ++row) {
-    if (is_wanted(photons, row, wanted))
+    if (is_wanted(photons, row, Counted(counted.paths)))
       keyed.emplace_back(RandomStream(seed, Stage::placement, row).bits(), row);
   }
   std::sort(keyed.begin(), keyed.end());
@@ -37,9 +37,10 @@ Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uin
   order.reserve(keyed.size());
   for (const auto& [key, row] : keyed) order.push_back(row);
   const std::size_t count = order.size();
-  return {count, [&photons, tried, order = std::move(order)](std::size_t i, std::vector<RecordSite>& sites) {
+  return {count, [&photons, counted, tried, order = std::move(order)](std::size_t i, std::vector<RecordSite>& sites) {
             const std::uint32_t row = order[i];
-            sites.push_back({photons.position[row], decode_octahedral(photons.normal[row]), row, row, tried});
+            const std::uint32_t own = is_wanted(photons, row, counted) ? row : kNoPhoton;
+            sites.push_back({photons.position[row], decode_octahedral(photons.normal[row]), row, own, tried});
           }};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cache/estimator.h"
+#include "cache/photon_zone.h"
 #include "cache/record_options.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
@@ -41,8 +42,9 @@ inline constexpr std::uint64_t kPointItems = std::uint64_t{1} << 40;    ///< + n
 inline constexpr std::uint64_t kViewItems = std::uint64_t{1} << 41;     ///< + number of the site
 inline constexpr std::uint64_t kSurfaceItems = std::uint64_t{1} << 42;  ///< + number of the site
 
-/// Where the wanted photons landed, in an order that depends on the seed alone; `most` of them (0: all).
-Candidates photon_candidates(const PhotonMap& photons, Quantity wanted, std::uint64_t seed,
+/// Where photons of the counted paths landed (caustic ones too), in an order that depends on the seed alone;
+/// `most` of them (0: all).
+Candidates photon_candidates(const PhotonMap& photons, const Counted& counted, std::uint64_t seed,
                              std::int64_t most);
 
 /// Points in the order given. Holds a reference to them.

@@ -31,7 +31,7 @@ void sample_images(const RayScene& rays, const Luminaires& lights, const Surface
   const MirrorPlanes& mirrors = lights.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (!has_images(lights[i])) continue;
+      if (!has_images(rays.scene(), lights[i])) continue;
       const int n = lights[i].extended() ? std::max(samples, 1) : 1;
       const float shift = random.uniform();
       const Vec2 shift2 = random.uniform2();

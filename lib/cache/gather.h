@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cache/caustic_light.h"
 #include "cache/estimator.h"
 #include "cache/hemisphere.h"
 #include "cache/hemisphere_estimator.h"
@@ -28,6 +29,9 @@ struct GatherSource {
   /// Radiance records: what glossy lobes that they serve show but for the lamps; null: none. Where no record
   /// is near enough (counted), gloss is followed as elsewhere.
   const GlossCache* gloss = nullptr;
+  /// Caustic light, where `indirect` holds none; null: it is in it.
+  const CausticLight* caustics = nullptr;
+  const CausticLight* gloss_caustics = nullptr;  ///< the same of `gloss`
   // The noise of that light (SourceNoise).
   double photon_lm = 0;     ///< luminance that one photon of it carries, lm; 0: it is taken as exact
   double zone_photons = 0;  ///< that its zones hold; with photon_lm: how wide they are
@@ -51,11 +55,13 @@ struct GatherSource {
 /// diffuse place ends a path by what the source knows, gloss too where radiance records tell of it, and
 /// mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place: caustics
 /// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
-/// their caustics are in the source alone. A diffuse place nearer than half the radius of the source's zones
-/// there is not read but followed by one more ray, cosine-weighted (Jensen 1996, of corners),
-/// eight times at most: zones tell little of what lies within them. Not so where light would be lost: of a
-/// source that holds light straight from the lamps, and with lamps without area where there are mirrors or
-/// glass.
+/// their caustics are in the source alone. With RecordOptions::caustics_apart, what mirrors and glass alone
+/// show the record of lamps does not count: it is caustic light, which photons tell of
+/// (cache/caustic_light.h). Without, lamps of an extent count there, and light of others is missing. A
+/// diffuse place nearer than half the radius of the source's zones there is not read but followed by one more
+/// ray, cosine-weighted (Jensen 1996, of corners), eight times at most: zones tell little of what lies within
+/// them. Not so where light would be lost: of a source that holds light straight from the lamps, and with
+/// lamps without area where there are mirrors or glass.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -84,6 +90,7 @@ class HitLight {
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
     GlossCache::Worker gloss;
+    CausticLight::Worker caustics;
     std::uint64_t beyond_reach = 0, without_record = 0, without_radiance = 0;  // since counted
   };
   std::unique_ptr<Worker> make_worker() const;

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "scene/bsdf.h"
+#include "scene/mirror_images.h"
 #include "scene/passage.h"
 #include "scene/texture.h"
 
@@ -116,6 +117,7 @@ struct HitLight::Impl {
   std::uint64_t seed;
   std::int64_t bounces;
   LampSampler lamps;
+  bool caustics_apart;
   bool follow_near;  // what is read near by is followed instead
   /// What is known of a material before any point of it.
   struct Surface {
@@ -134,7 +136,8 @@ struct HitLight::Impl {
         source(s),
         seed(own_seed),
         bounces(options.gather_bounces),
-        lamps(r, l) {
+        lamps(r, l),
+        caustics_apart(options.caustics_apart) {
     for (const Material& m : scene.material) {
       const bool straight = passes_straight(scene, m);
       surface.push_back(
@@ -157,6 +160,8 @@ struct HitLight::Impl {
   }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
+  static LocalDensity caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker);
+  bool counts_lamps_in_mirrors(std::uint32_t followed) const;
   bool is_near(const SurfacePoint& point, const Rgb& lux) const;
   Rgb indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
                std::uint32_t followed, Worker& worker) const;
@@ -171,8 +176,8 @@ struct HitLight::Impl {
                Landing* landing = nullptr) const;
 
   struct Step;
-  std::optional<Rgb> recorded(const SurfacePoint& point, const Vec3& wo, std::int64_t bounces_left,
-                              Worker& worker) const;
+  std::optional<Rgb> recorded(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                              std::int64_t bounces_left, Worker& worker) const;
   bool choose_step(const Bsdf& bsdf, const Vec3& wo, bool follow_gloss, RandomStream& random,
                    Step& step) const;
   Rgb beyond(const SurfacePoint& point, const Step& step) const;
@@ -198,6 +203,18 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   return source.fallback->irradiance_lx(site, *worker.fallback);
 }
 
+/// Caustic light that records do not hold; 0: they do.
+LocalDensity HitLight::Impl::caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker) {
+  if (!light) return {};
+  return light->on_surface(point.position, point.smooth_normal, worker.caustics);
+}
+
+/// May a walk that begins at the record, or after as many places that were followed instead of read, count
+/// lamps that mirrors and glass alone show it? Not where photons tell of such light there.
+bool HitLight::Impl::counts_lamps_in_mirrors(std::uint32_t followed) const {
+  return followed == 0 ? !caustics_apart : !source.caustics;
+}
+
 /// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for what is read there?
 bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
   // A zone of n photons of photon_lm each has the area n photon_lm / E.
@@ -210,8 +227,10 @@ bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
 Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
                              std::uint32_t followed, Worker& worker) const {
   const std::uint64_t item = ray.key();
-  const Rgb lux = cached_lx(point, item, worker);
+  Rgb lux = cached_lx(point, item, worker);
+  const Rgb apart = caustic(source.caustics, point, worker).irradiance;
   if (followed == kMostFollowed || !is_near(point, lux)) {
+    lux += apart;
     worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
     worker.read.lux = luminance(lux);
     worker.read.distance_m = point.distance_m;
@@ -220,14 +239,16 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
   }
   RandomStream random(seed, Stage::near_light, item);
   Rgb throughput = kPi * f;
+  const Rgb read = f * apart;
   if (followed > 0) {
     const float survival = std::min(kMostSurvival, max_component(glm::abs(throughput)));
-    if (!(random.uniform() < survival)) return Rgb(0);
+    if (!(random.uniform() < survival)) return read;
     throughput /= survival;
   }
   const Vec3 direction = make_frame(point.normal).to_world(sample_cosine_hemisphere(random.uniform2()));
-  if (!(glm::dot(direction, point.geometric_normal) > 0)) return Rgb(0);
-  return from_any({point.leave(direction), direction}, throughput, {item, followed, 0}, followed + 1, worker);
+  if (!(glm::dot(direction, point.geometric_normal) > 0)) return read;
+  return read +
+         from_any({point.leave(direction), direction}, throughput, {item, followed, 0}, followed + 1, worker);
 }
 
 /// Of a material that is diffuse alone.
@@ -277,12 +298,16 @@ struct HitLight::Impl::Step {
 };
 
 /// Light through the glossy lobes but for the lamps', from radiance records; nothing: it is to be followed.
-std::optional<Rgb> HitLight::Impl::recorded(const SurfacePoint& point, const Vec3& wo,
+std::optional<Rgb> HitLight::Impl::recorded(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                             std::int64_t bounces_left, Worker& worker) const {
   if (!source.gloss || bounces_left == 1) return {};
   const std::optional<GlossyLight> light = source.gloss->outgoing(point, wo, worker.gloss);
   if (!light) return {};
-  if (light->weight > 0) return light->radiance;
+  if (light->weight > 0) {
+    if (!source.gloss_caustics) return light->radiance;
+    return light->radiance +
+           CausticLight::gloss(caustic(source.gloss_caustics, point, worker), bsdf, wo, worker.caustics);
+  }
   ++worker.without_radiance;
   return {};
 }
@@ -365,7 +390,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
   Step last;
   // Flat mirrors since the record, from which direct light sees the images of lamps in them.
   std::vector<std::pair<std::uint32_t, bool>> mirrors;
-  bool mirrors_alone = followed == 0 && !lights.mirrors().empty();
+  bool images = followed == 0 && !lights.mirrors().empty();
   const auto has_image = [&] {
     std::int32_t chain = MirrorPlanes::kNone;
     for (auto m = mirrors.rbegin(); m != mirrors.rend(); ++m) {
@@ -374,12 +399,16 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     }
     return true;
   };
+  // So far by mirrors and glass alone: what lamps send so is caustic light.
+  bool mirrors_alone = true;
+  const bool count_all = counts_lamps_in_mirrors(followed);
   for (std::uint32_t reflection = 0;; ++reflection) {
     if (landing && !from) landing->distance_m = point.distance_m, landing->normal = point.geometric_normal;
     random.start_bounce(reflection);
     const Bsdf bsdf = way.bsdf(point);
     Step step;
-    const std::optional<Rgb> gloss = bsdf.has_gloss() ? recorded(point, wo, left, worker) : std::nullopt;
+    const std::optional<Rgb> gloss =
+        bsdf.has_gloss() ? recorded(point, bsdf, wo, left, worker) : std::nullopt;
     if (gloss) sum += throughput * *gloss;
     choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
     if (bsdf.has_diffuse()) {
@@ -402,21 +431,26 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
       throughput /= survival;
     }
     if (!step.straight) {
-      mirrors_alone = mirrors_alone && step.mirror;
-      if (mirrors_alone) mirrors.emplace_back(point.triangle, point.front);
+      images = images && step.mirror;
+      if (images) mirrors.emplace_back(point.triangle, point.front);
       from = point, last = step;
+      mirrors_alone = mirrors_alone && !(step.density > 0);
       way = Way(rays, {point.leave(step.direction), step.direction});
       wo = -step.direction;
     }
     SurfacePoint next;
     if (!way.next(next)) {
-      if (from) sum += throughput * beyond(*from, last);
+      if (from && (count_all || !mirrors_alone)) {
+        sum += throughput * beyond(*from, last);
+        if (images && has_image()) sum -= throughput * sun_luminance(scene, -wo);
+      }
       if (landing && !from) landing->distance_m = kInfinity, landing->normal = wo;
       break;
     }
-    const Rgb emitted = from ? emitted_luminance(scene, next, wo) : Rgb(0);
+    const bool counts = from && (count_all || !mirrors_alone);
+    const Rgb emitted = counts ? emitted_luminance(scene, next, wo) : Rgb(0);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
-    if (lamp >= 0 && !(mirrors_alone && has_image())) {
+    if (lamp >= 0 && !(images && has_image())) {
       float weight = 1;
       if (last.density > 0) {
         const auto i = static_cast<std::size_t>(lamp);

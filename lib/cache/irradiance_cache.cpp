@@ -82,6 +82,7 @@ bool any_footprint(std::span<const IrradianceRecord> records) {
 
 void append(IrradianceCache& all, const IrradianceCache& more) {
   PHOS_CHECK(all.quantity == more.quantity, all.quantity, " and ", more.quantity, " light");
+  PHOS_CHECK(!all.caustics == !more.caustics || more.records.empty(), "caustic light apart and within");
   const auto reach = static_cast<float>(more.accuracy / all.accuracy);
   for (IrradianceRecord r : more.records) {
     r.radius_m *= reach;
@@ -110,6 +111,44 @@ void require_records_of(RecordsOf of, const Container& file) {
   throw Error(ExitCode::bad_input, file.path(),
               of == RecordsOf::part ? "is no part of a run; give files made with --part k/n"
                                     : "is of no film; give the output of phos-temporal");
+}
+
+namespace {
+
+// Entries of a header.
+constexpr const char *kCausticLight = "caustic_light", *kPhoton = "photon_lm";
+
+}  // namespace
+
+void require_same_caustics(bool apart, bool other_apart, const std::string& where) {
+  if (apart == other_apart) return;
+  throw Error(ExitCode::mismatch, where,
+              text("holds light of mirrors and glass ", apart ? "as photons" : "in its records", ", and another cache ",
+                   other_apart ? "as photons" : "in its records",
+                   "; make all of them anew with this version, all from photons"));
+}
+
+void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, ContainerWriter& file,
+                  Provenance& provenance) {
+  if (!caustics) return;
+  add_columns(file, *caustics);
+  const Rgb& one = caustics->photon_lm;
+  provenance.extra[kCausticLight][kPhoton] = Json::Array{one.x, one.y, one.z};
+}
+
+std::shared_ptr<const CausticPhotons> caustics_of(const Container& file) {
+  const Json* said = file.provenance().extra.find(kCausticLight);
+  if (!said) return nullptr;
+  auto photons = std::make_shared<CausticPhotons>(read_caustics(file));
+  const Json* one = said->is_object() ? said->find(kPhoton) : nullptr;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const bool sound = one && one->is_array() && one->as_array().size() == 3 && one->as_array()[c].is_number();
+    if (!sound)
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("its header does not rightly say \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
+    photons->photon_lm[static_cast<int>(c)] = static_cast<float>(one->as_array()[c].as_number());
+  }
+  return photons;
 }
 
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
@@ -146,6 +185,7 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
     add_index(file, index);
     provenance.extra[kIndexAccuracy] = reading_accuracy(cache.accuracy);
   }
+  add_caustics(cache.caustics, file, provenance);
   provenance.kind = "irradiance";
   provenance.scene_hash = cache.scene_hash;
   provenance.extra["accuracy"] = cache.accuracy;
@@ -220,6 +260,7 @@ IrradianceCache RecordColumns::cache() const {
   cache.scene_hash = file_.provenance().scene_hash;
   cache.accuracy = accuracy_;
   cache.quantity = quantity_;
+  cache.caustics = caustics_of(file_);
   cache.records.reserve(size_);
   for (std::size_t i = 0; i < size_; ++i) cache.records.push_back((*this)[i]);
   return cache;

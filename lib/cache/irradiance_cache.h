@@ -12,6 +12,7 @@
 #include "cache/footprint.h"
 #include "core/vector.h"
 #include "file/container.h"
+#include "photon/caustic_map.h"
 #include "scene/rays.h"
 
 namespace phos {
@@ -42,7 +43,20 @@ struct IrradianceCache {
   std::string scene_hash;
   /// Which light is in them: "indirect" (all but straight from the lights) or "all".
   std::string quantity = "indirect";
+  /// Caustic photons, where records hold no caustic light (RecordOptions::caustics_apart): readers add it at
+  /// each point (cache/caustic_light.h). Null: it is in the records.
+  std::shared_ptr<const CausticPhotons> caustics{};
 };
+
+/// Throws Error(mismatch), naming `where`, if of two caches that are read together one holds caustic light in
+/// its records and the other does not.
+void require_same_caustics(bool apart, bool other_apart, const std::string& where);
+
+/// Says in a header that caustic light is apart; adds its photons. Nothing where it is not.
+void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, ContainerWriter& file,
+                  Provenance& provenance);
+/// Null: the records of the file hold it.
+std::shared_ptr<const CausticPhotons> caustics_of(const Container& file);
 
 /// a at which records are read that were placed with accuracy `placed`. Placement leaves few of them about a
 /// point, which show their noise; where more are blended it averages out (as Tabellion and Lamorlette 2004
@@ -55,7 +69,8 @@ inline double reading_accuracy(double placed, double most = 0.5) {
 /// Has any of them a footprint?
 bool any_footprint(std::span<const IrradianceRecord> records);
 
-/// Appends the records of another cache of the same light, each with the reach that it was placed with.
+/// Appends the records of another cache of the same light, each with the reach that it was placed with. Where
+/// both have caustic photons, those of `all` stay.
 void append(IrradianceCache& all, const IrradianceCache& more);
 
 /// What the records of a file are, as its header says: the light of one scene; a part of a run

@@ -171,6 +171,7 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
     const RecordColumns columns(file, RecordsOf::part);
     const std::span<const float> least_m = file.values<float>("least_radius", {columns.size()});
     merged.cache.accuracy = columns.accuracy(), merged.cache.quantity = columns.quantity();
+    if (!merged.cache.caustics) merged.cache.caustics = caustics_of(file);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (!(least_m[i] >= 0 && least_m[i] <= columns.radius_m(i)))
         throw Error(ExitCode::bad_input, file.path(),

@@ -6,26 +6,6 @@
 #include "core/octahedral.h"
 
 namespace phos {
-namespace {
-
-constexpr float kSlab = 0.05f;  // half thickness of a zone in its radii (FORMULAS C5)
-
-}  // namespace
-
-float slab_m(const ZonePlace& place, float radius_m) {
-  return std::max(kSlab * radius_m, 4 * place.rounding_m);
-}
-
-void ZoneGatherer::limit_slab(ZonePlace& place, float radius_m) const {
-  const float slab = slab_m(place, radius_m);
-  const auto half_way = [&](const Vec3& direction) {
-    Hit hit;
-    const Ray ray{place.p, direction, std::max(4 * place.rounding_m, 0.02f * slab), slab};
-    return slab > 4 * place.rounding_m && rays_.intersect(ray, hit) ? hit.distance_m / 2 : slab;
-  };
-  place.above_m = half_way(place.frame.z), place.below_m = half_way(-place.frame.z);
-}
-
 void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
                           GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
@@ -36,7 +16,7 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut&
   std::uint32_t last_code = 0;
   float facing = glm::dot(decode_octahedral(last_code), place.frame.z);
   for (const std::uint32_t row : gathered.rows) {
-    if (row == left_out.own || row == left_out.decided || !is_wanted(photons_, row, paths_)) continue;
+    if (row == left_out.own || row == left_out.decided || !is_wanted(photons_, row, counted_)) continue;
     const Vec3 local = place.frame.to_local(photons_.position[row] - place.p);
     if (local.z > place.above_m || local.z < -place.below_m) continue;
     // Strictly inside: a zone whose radius is that of a photon does not hold that photon (C4).
@@ -78,26 +58,6 @@ bool ZoneGatherer::add_own(const ZonePlace& place, std::uint32_t row, float shar
   zone.direction[last] = direction, zone.source_normal[last] = decode_octahedral(photons_.source_normal[row]);
   zone.inverse_distance[last] = 1 / std::max(photons_.distance[row], nearest_m_);
   return true;
-}
-
-/// Does a line above the surface lead from the place there? Walls that stand on the surface part it, and
-/// surfaces run on inside of walls, where no light comes.
-bool ZoneGatherer::within_sight(const ZonePlace& place, const Vec2& offset_m, float height_m) const {
-  const Vec3 up = place.above_m * place.frame.z;
-  const Vec3 to = place.frame.to_world(Vec3(offset_m, height_m));
-  const float distance = glm::length(to);
-  return !(distance > 0) || !rays_.occluded({place.p + up, to / distance, 0, distance});
-}
-
-bool ZoneGatherer::on_surface(ZonePlace& place, const Vec2& offset_m) const {
-  const Vec3 from = place.p + place.frame.to_world(Vec3(offset_m, place.above_m));
-  const Ray ray{from, -place.frame.z, 0, place.above_m + place.below_m};
-  Hit hit;
-  if (!rays_.intersect(ray, hit)) return false;
-  if (!(glm::dot(rays_.surface(ray, hit).smooth_normal, place.frame.z) > kSameFacing)) return false;
-  if (within_sight(place, offset_m, place.above_m - hit.distance_m)) return true;
-  place.parted = true;
-  return false;
 }
 
 void ZoneGatherer::drop_hidden(const ZonePlace& place, GatheredPhotons& gathered) const {

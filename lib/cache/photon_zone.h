@@ -7,29 +7,28 @@
 #include "cache/estimator.h"
 #include "cache/gradients.h"
 #include "cache/record_options.h"
+#include "cache/tangent_surface.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
 namespace phos {
 
-/// The tangent plane at a place, and the slab about it that holds the photons of its zone.
-struct ZonePlace {
-  Vec3 p;
-  Frame frame;
-  float rounding_m;                // of coordinates here
-  float above_m = 0, below_m = 0;  // of the slab
-  bool parted = false;             // something stands between the place and a part of its surface
+/// Photons that records count.
+struct Counted {
+  Quantity paths = Quantity::indirect;  ///< direct light is computed apart, or is in them
+  bool caustics = true;                 ///< caustic light likewise
+  bool mirrored = true;  ///< light of images in flat mirrors likewise, but where direct light is in
+  Counted(Quantity paths_counted) : paths(paths_counted) {}
+  explicit Counted(const RecordOptions& options)
+      : paths(options.paths), caustics(!options.caustics_apart), mirrored(!options.images_apart) {}
 };
-
-/// Does this photon count (direct light is computed apart)?
-inline bool is_wanted(const PhotonMap& photons, std::uint32_t row, Quantity paths) {
-  return paths == Quantity::all || photons.path[row] != static_cast<std::uint8_t>(PhotonPath::direct);
+inline bool is_wanted(const PhotonMap& photons, std::uint32_t row, const Counted& counted) {
+  const auto path = static_cast<PhotonPath>(photons.path[row]);
+  const bool all = counted.paths == Quantity::all;
+  return (all || path != PhotonPath::direct) && (all || counted.mirrored || path != PhotonPath::mirrored) &&
+         (counted.caustics || !is_caustic(path));
 }
 
-/// Half thickness of a zone of this radius, m.
-float slab_m(const ZonePlace& place, float radius_m);
-/// Cosine between normals from which two places count as one surface.
-inline constexpr float kSameFacing = 0.9396926f;  // cos 20 deg (C5)
 /// A photon that came from above has at least this: stored directions are rounded by as much
 /// (encode_octahedral), and one that grazes the surface seems to come from below it.
 inline constexpr float kLeastRise = -1e-4f;
@@ -48,13 +47,10 @@ struct LeftOut {
 };
 
 /// Finds the photons of a zone. Const and usable from any thread.
-class ZoneGatherer {
+class ZoneGatherer : public TangentSurface {
  public:
-  ZoneGatherer(const PhotonMap& photons, const RayScene& rays, Quantity paths, float nearest_m)
-      : photons_(photons), rays_(rays), paths_(paths), nearest_m_(nearest_m) {}
-
-  /// Parallel sheets: the slab ends half way to the next surface above and below, if one is within it.
-  void limit_slab(ZonePlace& place, float radius_m) const;
+  ZoneGatherer(const PhotonMap& photons, const RayScene& rays, Counted counted, float nearest_m)
+      : TangentSurface(rays), photons_(photons), counted_(counted), nearest_m_(nearest_m) {}
 
   /// Photons strictly within radius_m of the place on this surface, from this side, without `left_out`.
   void gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
@@ -64,19 +60,12 @@ class ZoneGatherer {
   /// added.
   bool add_own(const ZonePlace& place, std::uint32_t row, float share, GatheredPhotons& gathered) const;
 
-  /// Is there surface of this facing at an offset on the tangent plane, in sight of the place? Sets
-  /// place.parted where there is, but out of sight.
-  bool on_surface(ZonePlace& place, const Vec2& offset_m) const;
-
   /// Leaves out the photons that a wall parts from the place.
   void drop_hidden(const ZonePlace& place, GatheredPhotons& gathered) const;
 
  private:
-  bool within_sight(const ZonePlace& place, const Vec2& offset_m, float height_m) const;
-
   const PhotonMap& photons_;
-  const RayScene& rays_;
-  Quantity paths_;
+  Counted counted_;
   float nearest_m_;  // photons from nearer count as from there
 };
 

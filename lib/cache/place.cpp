@@ -98,7 +98,7 @@ PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const 
   };
   switch (placement.place) {
     case Place::photons:
-      return by(photon_candidates(*source.photons, records.paths, source.seed, placement.max_candidates));
+      return by(photon_candidates(*source.photons, Counted(records), source.seed, placement.max_candidates));
     case Place::given:
       return by(point_candidates(source.points));
     case Place::every:

@@ -89,6 +89,7 @@ IrradianceCache irradiance_of(const RadianceCache& radiance) {
   IrradianceCache cache;
   cache.accuracy = radiance.accuracy;
   cache.scene_hash = radiance.scene_hash;
+  cache.caustics = radiance.caustics;
   for (const RadianceRecord& r : radiance.records) cache.records.push_back(irradiance_of(r));
   return cache;
 }
@@ -152,6 +153,7 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   file.add<float>("radius", radius, {n}, "m");
   if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
     file.add<float>("shared", shared, {n}, "1");
+  add_caustics(cache.caustics, file, provenance);
   provenance.kind = "radiance";
   provenance.scene_hash = cache.scene_hash;
   provenance.extra["accuracy"] = cache.accuracy;
@@ -200,6 +202,7 @@ RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std:
   RadianceCache cache;
   cache.accuracy = accuracy->as_number();
   cache.scene_hash = file.provenance().scene_hash;
+  cache.caustics = caustics_of(file);
   cache.records.resize(rows ? rows->size() : n);
   std::vector<const char*> wrong(cache.records.size());
   const auto row_of = [&](std::size_t record) { return rows ? (*rows)[record] : record; };

@@ -53,7 +53,8 @@ struct RadianceCache {
   std::vector<RadianceRecord> records;  ///< of any orders; all with gradients or all without
   double accuracy = 0.2;                ///< a that placed them
   std::string scene_hash;
-  int order() const;  ///< the greatest; 0: there are no records
+  std::shared_ptr<const CausticPhotons> caustics{};  ///< as IrradianceCache::caustics
+  int order() const;                                 ///< the greatest; 0: there are no records
 };
 
 /// All of it, in order.

@@ -56,7 +56,7 @@ RecordMaker::RecordMaker(const PhotonMap& photons, const RayScene& rays, const R
     : photons_(photons),
       rays_(rays),
       options_(resolved),
-      gatherer_(photons, rays, resolved.paths, static_cast<float>(resolved.min_radius_m.value_or(0))),
+      gatherer_(photons, rays, Counted(resolved), static_cast<float>(resolved.min_radius_m.value_or(0))),
       surroundings_(photons, rays, resolved, seed),
       noise_(photon_noise(photons, resolved.paths == Quantity::all)) {
   PHOS_CHECK(resolved.min_radius_m && resolved.max_radius_m, "resolve() first");

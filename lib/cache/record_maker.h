@@ -51,7 +51,7 @@ class RecordMaker : public Estimator {
   Rgb irradiance_lx(const RecordSite& site, Worker& worker) const override;
 
   /// Does this photon count?
-  bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, options_.paths); }
+  bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, Counted(options_)); }
   const RecordOptions& options() const { return options_; }
   /// How much larger the standard error of a zone is than its photons tell alone: several are of one path.
   float path_error(std::size_t photons) const {

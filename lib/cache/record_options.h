@@ -75,6 +75,13 @@ struct RecordOptions {
   std::int64_t light_samples = 64;            ///< with paths = all: shadow rays to each area light
   std::int64_t raster_side = 64;              ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;
+  /// Light that comes from lamps by mirrors and glass alone is not in the records: neither caustic photons
+  /// nor lamps that rays from the record meet after mirrors and glass count (FORMULAS-glass G7.5). No option:
+  /// so where caustic photons travel with the cache, to be read at each point (cache/caustic_light.h).
+  bool caustics_apart = false;
+  /// Likewise light of lamps' images in flat mirrors, which is direct light (scene/mirror_images.h): not
+  /// where direct light is in the records. No option: false only where gathered rays land.
+  bool images_apart = true;
 
   /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size; footprints
   /// that follow surroundings do not know what comes into sight beside them: diagonal/8),

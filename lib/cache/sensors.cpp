@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cache/caustic_light.h"
 #include "cache/direct_light.h"
 #include "cache/gather.h"
 #include "cache/placement.h"
@@ -84,17 +85,21 @@ Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* d
 /// Records at the sensors that no cache covers, and what they say there.
 std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const RayScene& rays,
                                 const Luminaires& lights, const SensorCaches& caches,
+                                const std::shared_ptr<const CausticMap>& caustics,
                                 const SensorOptions& options, SensorReport& report) {
   RecordOptions resolved;
   resolved.estimate = Estimate::gather;
   resolved.accuracy = options.accuracy;
   resolved.rays = options.rays;
   resolved.leak_test = options.leak_test;
+  resolved.caustics_apart = caustics != nullptr;
   resolved.resolve(rays.scene().bounds.diagonal_m());
   const std::unique_ptr<RecordTree> tree = caches.tree(rays.scene());
   GatherSource source;
   source.indirect = tree.get();
   source.holds_direct = caches.holds_direct();
+  std::optional<CausticLight> where_rays_land;
+  if (caustics) source.caustics = &where_rays_land.emplace(rays, caustics, kGatherCaustics);
   if (tree) {
     const EquivalentPhotons equivalent = equivalent_photons(tree->records(), caches.accuracy());
     source.photon_lm = equivalent.photon_lm, source.zone_photons = equivalent.of_a_zone;
@@ -123,6 +128,27 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
     }
   });
   return readings;
+}
+
+/// Adds caustic light to what sensors read.
+void add_caustics(const Sensors& sensors, const RayScene& rays,
+                  const std::shared_ptr<const CausticMap>& caustics, std::vector<Reading>& readings) {
+  if (!caustics) return;
+  const CausticLight light(rays, caustics, kSensorCaustics);
+  Progress progress("caustic light", readings.size(), "sensors");
+  parallel_chunks(readings.size(), 1, [&](std::size_t begin, std::size_t end) {
+    CausticLight::Worker worker;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [p, normal] = sensors.points[i];
+      const LocalDensity e = light.at_sensor(p, normal, worker);
+      Reading& r = readings[i];
+      r.components_lx += e.irradiance;
+      const float lux = luminance(e.irradiance);
+      r.illuminance_lx += lux, r.indirect_lx += lux;
+      r.stderr_lx = std::hypot(r.stderr_lx, luminance(e.stderr_lx()));
+    }
+    progress.advance(end - begin);
+  });
 }
 
 /// A name as CSV has it.
@@ -158,13 +184,13 @@ SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* lea
       continue;
     }
     RecordLookup lookup(file, leak_test);
-    require_light(lookup.records().quantity() == "all", file.path());
+    require_light(lookup.records().quantity() == "all", caustics_of(file), file.path());
     lookups_.push_back(std::move(lookup));
   }
 }
 
 void SensorCaches::add(const IrradianceCache& cache, const std::string& name) {
-  require_light(cache.quantity == "all", name);
+  require_light(cache.quantity == "all", cache.caustics, name);
   Bounds bounds;
   for (const IrradianceRecord& r : cache.records) bounds.include(r.position);
   const double accuracy = reading_accuracy(cache.accuracy);
@@ -172,7 +198,10 @@ void SensorCaches::add(const IrradianceCache& cache, const std::string& name) {
   for (const IrradianceRecord& r : cache.records) made.tree.insert(r);
 }
 
-void SensorCaches::require_light(bool direct, const std::string& name) {
+void SensorCaches::require_light(bool direct, const std::shared_ptr<const CausticPhotons>& caustics,
+                                 const std::string& name) {
+  if (!empty()) require_same_caustics(caustics != nullptr, caustics_ != nullptr, name);
+  if (!caustics_) caustics_ = caustics;
   if (!empty() && direct != holds_direct_)
     throw Error(ExitCode::mismatch, name,
                 text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
@@ -234,8 +263,13 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
   for (std::size_t i = 0; i < n; ++i)
     if (!covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
   report.uncovered = open.size(), report.covered = std::move(covered);
-  if (open.empty()) return readings;
-  const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, options, report);
+  std::shared_ptr<const CausticMap> caustics;
+  if (caches.caustics()) caustics = std::make_shared<CausticMap>(*caches.caustics());
+  if (open.empty()) {
+    add_caustics(sensors, rays, caustics, readings);
+    return readings;
+  }
+  const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, caustics, options, report);
   parallel_for(uncovered.size(), kChunk, [&](std::size_t k) {
     const std::size_t i = uncovered[k];
     const auto& [p, normal] = sensors.points[i];
@@ -245,6 +279,7 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
                                        rays, lights, options.seed);
     readings[i] = together(own, fresh[k].components_lx, fresh[k].stderr_lx);
   });
+  add_caustics(sensors, rays, caustics, readings);
   return readings;
 }
 

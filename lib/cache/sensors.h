@@ -69,12 +69,15 @@ struct SensorReport {
 class SensorCaches {
  public:
   /// Files of irradiance, or of radiance, whose records hold irradiance too. Throws Error(bad_input) for one
-  /// of another kind, Error(mismatch) if one holds all light and another indirect light.
+  /// of another kind, Error(mismatch) if one holds all light and another indirect light, or one caustic light
+  /// in its records and another as photons.
   SensorCaches(std::span<const Container> files, const RayScene* leak_test);
   /// The same of a cache in memory; `name` is its own in messages.
   void add(const IrradianceCache& cache, const std::string& name);
   bool empty() const { return lookups_.empty() && trees_.empty(); }
   bool holds_direct() const { return holds_direct_; }
+  /// Caustic photons of the first, where records hold no caustic light; null: they hold it, or there is none.
+  const std::shared_ptr<const CausticPhotons>& caustics() const { return caustics_; }
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// That at which tree() is read; there must be a cache.
   double accuracy() const;
@@ -87,15 +90,18 @@ class SensorCaches {
     RecordTree tree;
   };
   /// Throws unless all hold the same light.
-  void require_light(bool direct, const std::string& name);
+  void require_light(bool direct, const std::shared_ptr<const CausticPhotons>& caustics,
+                     const std::string& name);
   std::vector<RecordLookup> lookups_;
   std::vector<InMemory> trees_;
   const RayScene* leak_test_;
   bool holds_direct_ = false;
+  std::shared_ptr<const CausticPhotons> caustics_;
 };
 
-/// Reads every sensor. Same numbers for any number of threads. Without shadow rays caches must hold all
-/// light; sensors that they do not cover get 64 rays to each area light.
+/// Reads every sensor. Caustic light, where the caches have it as photons, is estimated at each sensor
+/// (CausticLight) and is part of the indirect light. Same numbers for any number of threads. Without shadow
+/// rays caches must hold all light; sensors that they do not cover get 64 rays to each area light.
 std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
                                 const SensorCaches& caches, const SensorOptions& options,
                                 SensorReport& report);

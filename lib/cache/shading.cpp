@@ -42,8 +42,14 @@ DVec3 variance_of_mean(const DVec3& all, const DVec3& squares, int n) {
 }  // namespace
 
 Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
-                 const ShadingOptions& options, const GlossCache* gloss)
-    : rays_(rays), lights_(lights), records_(records), far_(records), options_(options), gloss_(gloss) {
+                 const ShadingOptions& options, const GlossCache* gloss, const CausticLight* caustics)
+    : rays_(rays),
+      lights_(lights),
+      records_(records),
+      far_(records),
+      options_(options),
+      gloss_(gloss),
+      caustics_(caustics) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const bool area = lights[i].kind == Light::Kind::area;
     extent_.push_back(area ? extent_of(rays.scene(), lights[i]) : LampExtent());
@@ -62,6 +68,11 @@ Interpolated Shading::cached(const SurfacePoint& point, ShadingLog& log) const {
   if (found.weight > 0) return found;
   log.misses.push_back({point.position, point.smooth_normal});
   return far_.interpolate(point.position, point.smooth_normal);
+}
+
+LocalDensity Shading::caustic(const SurfacePoint& point, ShadingLog& log) const {
+  if (!caustics_) return {};
+  return caustics_->on_surface(point.position, point.smooth_normal, log.caustics);
 }
 
 std::optional<GlossyLight> Shading::recorded(const SurfacePoint& point, const Vec3& wo,
@@ -127,7 +138,7 @@ DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const
   const MirrorPlanes& mirrors = lights_.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-      if (!has_images(lights_[i])) continue;
+      if (!has_images(rays_.scene(), lights_[i])) continue;
       const float u_triangle = sequence.uniform();
       const Vec2 u = sequence.uniform2();
       Illumination light;
@@ -224,6 +235,11 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   const bool glossy = bsdf.has_gloss();
   const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
   if (known) light += known->radiance;
+  if (caustics_ && (bsdf.has_diffuse() || known)) {
+    const LocalDensity bright = caustic(point, log);
+    light += bright.irradiance * bsdf.diffuse_reflectance() / kPi;
+    if (known) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
+  }
   const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance +

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cache/caustic_light.h"
 #include "cache/far_records.h"
 #include "cache/gloss_cache.h"
 #include "cache/irradiance_cache.h"
@@ -58,17 +59,24 @@ struct ShadingLog {
   std::vector<Miss> gloss_misses;  ///< without a radiance record, though one is to serve it: traced instead
   Counters counters;
   GlossCache::Worker memory;
+  CausticLight::Worker caustics;
 };
 
 class Shading {
  public:
-  /// `gloss`: null where all gloss is traced.
+  /// `gloss`: null where all gloss is traced; `caustics`: null where records hold caustic light.
   Shading(const RayScene& rays, const Luminaires& lights, const RecordTree& records,
-          const ShadingOptions& options, const GlossCache* gloss = nullptr);
+          const ShadingOptions& options, const GlossCache* gloss = nullptr,
+          const CausticLight* caustics = nullptr);
 
   /// Irradiance from the cache at a point, lx. Where no record reaches, a miss is noted, and farther ones
   /// answer (FarRecords); weight 0: there are none.
   Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
+
+  /// Caustic light at a point, of which the records hold none: irradiance, and what log.caustics needs for
+  /// its gloss. 0 where they hold it.
+  LocalDensity caustic(const SurfacePoint& point, ShadingLog& log) const;
+  bool has_caustics() const { return caustics_ != nullptr; }
 
   /// Light through the glossy lobes from radiance records, all but what lamps send straight there. Nothing
   /// where it is to be traced; that no record reaches the point is noted.
@@ -111,6 +119,7 @@ class Shading {
   FarRecords far_;
   ShadingOptions options_;
   const GlossCache* gloss_;
+  const CausticLight* caustics_;
   std::vector<LampExtent> extent_;  // per light
 };
 

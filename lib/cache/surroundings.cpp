@@ -71,7 +71,7 @@ float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out,
       const std::uint32_t row = near.rows[i];
       const float away = std::sqrt(near.distance2[i]);
       if (away > limit_m) break;
-      if (row == left_out || !is_wanted(photons_, row, options_.paths) ||
+      if (row == left_out || !is_wanted(photons_, row, Counted(options_)) ||
           std::fabs(glm::dot(photons_.position[row] - place.p, place.frame.z)) > slab)
         continue;
       if (glm::dot(decode_octahedral(photons_.normal[row]), place.frame.z) < kSameFacing) continue;

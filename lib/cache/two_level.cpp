@@ -20,6 +20,13 @@ double area_m2(const IrradianceRecord& r) {
   return std::numbers::pi * radius_m * radius_m * share;
 }
 
+/// Where rays land; null: records hold it.
+std::unique_ptr<CausticLight> caustic_light(const RayScene& rays,
+                                            const std::shared_ptr<const CausticPhotons>& photons) {
+  if (!photons) return nullptr;
+  return std::make_unique<CausticLight>(rays, std::make_shared<CausticMap>(*photons), kGatherCaustics);
+}
+
 }  // namespace
 
 RecordOptions coarse_options(const RecordOptions& fine) {
@@ -37,6 +44,8 @@ RecordOptions coarse_options(const RecordOptions& fine) {
   coarse.min_photons = fine.source_photons;
   coarse.max_photons = 4 * fine.source_photons;
   coarse.paths = Quantity::indirect;
+  coarse.images_apart = false;
+  coarse.caustics_apart = false;  // where rays land, all light counts that is not straight from a lamp
   return coarse;
 }
 
@@ -78,8 +87,12 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
 
 CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
                          const RecordOptions& resolved, std::uint64_t seed) {
-  if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse_options(resolved), seed);
+  RecordOptions coarse = coarse_options(resolved);
+  coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
+  coarse.images_apart = true;
+  if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse, seed);
   read(rays, earlier);
+  caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
   noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
   if (photons) noise_.common = photon_noise(*photons, earlier.quantity == "all").common;
@@ -93,13 +106,28 @@ void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
   usual_lx_ = mean_irradiance_lx(cache.records);
 }
 
+void CoarseLevel::add(GlossCache gloss, const RayScene& rays,
+                      const std::shared_ptr<const CausticPhotons>& caustics) {
+  gloss_ = std::make_unique<GlossCache>(std::move(gloss));
+  gloss_caustics_ = caustic_light(rays, caustics);
+}
+
 CoarseLevel::CoarseLevel() = default;
 CoarseLevel::~CoarseLevel() = default;
 CoarseLevel::CoarseLevel(CoarseLevel&&) noexcept = default;
 
 GatherSource CoarseLevel::source() const {
-  return {tree_.get(),      far_.get(),    photons_.get(), holds_direct_, gloss_.get(),
-          noise_.photon_lm, zone_photons_, noise_.common,  usual_lx_};
+  return {.indirect = tree_.get(),
+          .far = far_.get(),
+          .fallback = photons_.get(),
+          .holds_direct = holds_direct_,
+          .gloss = gloss_.get(),
+          .caustics = caustics_.get(),
+          .gloss_caustics = gloss_caustics_.get(),
+          .photon_lm = noise_.photon_lm,
+          .zone_photons = zone_photons_,
+          .common = noise_.common,
+          .usual_lx = usual_lx_};
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 

@@ -47,8 +47,9 @@ class CoarseLevel {
   ~CoarseLevel();
   CoarseLevel(CoarseLevel&&) noexcept;
 
-  /// Of this scene: read where rays land on gloss.
-  void add(GlossCache gloss) { gloss_ = std::make_unique<GlossCache>(std::move(gloss)); }
+  /// Of this scene: read where rays land on gloss; with the caustic photons of its records, if they hold no
+  /// such light.
+  void add(GlossCache gloss, const RayScene& rays, const std::shared_ptr<const CausticPhotons>& caustics);
   GatherSource source() const;
   std::size_t records() const;
 
@@ -58,6 +59,7 @@ class CoarseLevel {
   std::unique_ptr<FarRecords> far_;
   std::unique_ptr<Estimator> photons_;
   std::unique_ptr<GlossCache> gloss_;
+  std::unique_ptr<CausticLight> caustics_, gloss_caustics_;
   bool holds_direct_ = false;
   PhotonNoise noise_;
   double zone_photons_ = 0, usual_lx_ = 0;

@@ -40,6 +40,9 @@ class Emitter {
   /// Starts a path; draws from `random` (the path's stream at bounce 0). The expected sum over all paths is
   /// the flux of every light.
   EmittedPhoton emit(std::uint64_t path, RandomStream& random) const;
+  /// 1 / (share of a light x all paths): what the flux of a photon that stands for a light's whole is
+  /// multiplied by.
+  float scale(std::size_t light) const { return scale_[light]; }
 
   /// Exponent of FluxSum units for this run: total flux is 2^46 units, which leaves room for 2^16 bounces.
   int flux_exponent() const { return flux_exponent_; }

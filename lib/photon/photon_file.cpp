@@ -69,7 +69,26 @@ void PhotonTotals::settle() {
 }
 
 PhotonColumns columns_of(const Photons& p) {
-  return {p.position, p.flux, p.direction, p.normal, p.source_normal, p.distance, p.path, p.bounce};
+  return {p.position, p.flux, p.direction, p.normal,           p.source_normal,
+          p.distance, p.path, p.bounce,    columns_of(p.flights)};
+}
+
+FlightColumns columns_of(const Flights& f) { return {f.from, f.flux, f.direction, f.length}; }
+
+FlightColumns flights_of(const Container& file, const std::string& prefix) {
+  FlightColumns c;
+  if (!file.has(prefix + "from")) return c;
+  c.from = file.vectors(prefix + "from");
+  const std::uint64_t n = c.from.size();
+  const std::span<const Vec3> flux = file.vectors(prefix + "flux");
+  if (flux.size() != n)
+    throw Error(ExitCode::bad_input, file.path(),
+                text("tensor \"", prefix, "flux\" has ", flux.size(), " rows, \"", prefix, "from\" has ", n,
+                     "; make the file again"));
+  c.flux = flux;
+  c.direction = file.values<std::uint32_t>(prefix + "direction", {n});
+  c.length = file.values<float>(prefix + "length", {n});
+  return c;
 }
 
 PhotonColumns columns_of(const Container& file) {
@@ -92,6 +111,7 @@ PhotonColumns columns_of(const Container& file) {
   check("flux", c.flux.size()), check("direction", c.direction.size()), check("normal", c.normal.size());
   check("source_normal", c.source_normal.size()), check("distance", c.distance.size());
   check("path", c.path.size()), check("bounce", c.bounce.size());
+  c.flights = flights_of(file, kFlightPrefix);
   return c;
 }
 
@@ -107,11 +127,17 @@ const char* what_is_wrong(const PhotonColumns& c, std::size_t i) {
   return nullptr;
 }
 
-}  // namespace
+const char* what_is_wrong(const FlightColumns& c, std::size_t i) {
+  const NoFloatTraps traps;  // likewise
+  if (!KdTree::in_range(c.from[i])) return "a position that is not finite or too far away";
+  if (!is_finite(c.flux[i])) return "a flux that is not finite";
+  if (!(c.length[i] >= 0)) return "a length that is not positive";
+  return nullptr;
+}
 
-void require_sound(const PhotonColumns& c, const std::string& path) {
-  const std::size_t n = c.position.size();
-  // In chunks, the first bad row wins: the same message for any number of threads.
+/// In chunks, the first bad row wins: the same message for any number of threads.
+template <class Columns>
+void require_sound_rows(const Columns& c, std::size_t n, const char* name, const std::string& path) {
   const auto first_bad = parallel_reduce<std::size_t>(
       n, 1 << 16, n,
       [&](std::size_t begin, std::size_t end) {
@@ -121,8 +147,19 @@ void require_sound(const PhotonColumns& c, const std::string& path) {
       [](std::size_t& least, std::size_t part) { least = std::min(least, part); });
   if (first_bad == n) return;
   throw Error(ExitCode::bad_input, path,
-              text("photon ", first_bad, " has ", what_is_wrong(c, first_bad),
+              text(name, " ", first_bad, " has ", what_is_wrong(c, first_bad),
                    "; the file is damaged or was made by a faulty program: make it again"));
+}
+
+}  // namespace
+
+void require_sound(const PhotonColumns& c, const std::string& path) {
+  require_sound_rows(c, c.position.size(), "photon", path);
+  require_sound(c.flights, path);
+}
+
+void require_sound(const FlightColumns& c, const std::string& path) {
+  require_sound_rows(c, c.size(), "flight", path);
 }
 
 void add_columns(ContainerWriter& writer, const PhotonColumns& c) {
@@ -135,6 +172,16 @@ void add_columns(ContainerWriter& writer, const PhotonColumns& c) {
   writer.add<float>("distance", c.distance, rows, "m");
   writer.add<std::uint8_t>("path", c.path, rows, "1");
   writer.add<std::uint8_t>("bounce", c.bounce, rows, "1");
+  add_columns(writer, c.flights, kFlightPrefix);
+}
+
+void add_columns(ContainerWriter& writer, const FlightColumns& c, const std::string& prefix) {
+  if (c.size() == 0) return;
+  const Shape rows{c.size()};
+  writer.add_vectors(prefix + "from", c.from, "m");
+  writer.add_vectors(prefix + "flux", c.flux, "lm");
+  writer.add<std::uint32_t>(prefix + "direction", c.direction, rows, "octahedral");
+  writer.add<float>(prefix + "length", c.length, rows, "m");
 }
 
 Json totals_to_json(const PhotonTotals& t) {
@@ -210,6 +257,13 @@ void append(Photons& to, const Photons& from) {
   join(to.position, from.position), join(to.flux, from.flux), join(to.direction, from.direction);
   join(to.normal, from.normal), join(to.source_normal, from.source_normal), join(to.distance, from.distance);
   join(to.path, from.path), join(to.bounce, from.bounce);
+  append(to.flights, columns_of(from.flights));
+}
+
+void append(Flights& to, const FlightColumns& from) {
+  const auto join = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
+  join(to.from, from.from), join(to.flux, from.flux);
+  join(to.direction, from.direction), join(to.length, from.length);
 }
 
 }  // namespace phos

@@ -16,7 +16,9 @@ struct PhotonColumns {
   std::span<const std::uint32_t> direction, normal, source_normal;
   std::span<const float> distance;
   std::span<const std::uint8_t> path, bounce;
+  FlightColumns flights;
 };
+FlightColumns columns_of(const Flights& flights);
 PhotonColumns columns_of(const Photons& photons);
 /// Columns of an open file, in place. Throws Error(bad_input) for a column that is absent or of another
 /// length.
@@ -25,6 +27,14 @@ PhotonColumns columns_of(const Container& file);
 /// negative distance, or of an unknown path.
 void require_sound(const PhotonColumns& columns, const std::string& path);
 void add_columns(ContainerWriter& writer, const PhotonColumns& columns);
+
+/// The same of flights, whose tensors are named `prefix`from, `prefix`flux and so on, and are absent where
+/// there are none.
+FlightColumns flights_of(const Container& file, const std::string& prefix);
+void require_sound(const FlightColumns& columns, const std::string& path);
+void add_columns(ContainerWriter& writer, const FlightColumns& columns, const std::string& prefix);
+/// The prefix in a file of photons.
+inline constexpr const char* kFlightPrefix = "flight_";
 
 Json totals_to_json(const PhotonTotals& totals);
 /// Throws Error(bad_input) if the header has no totals, or they contradict the number of rows.
@@ -37,6 +47,7 @@ Json bounds_to_json(std::span<const Vec3> position);
 
 /// Adds the rows of `from` behind those of `to`.
 void append(Photons& to, const Photons& from);
+void append(Flights& to, const FlightColumns& from);
 
 /// Every shard of one run, each once, in any order.
 struct MergedShards {

@@ -1,5 +1,6 @@
 #include "photon/photon_map.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -31,9 +32,11 @@ void permute(Photons& p, const std::vector<std::uint32_t>& order) {
 
 void require_equal_lengths(const Photons& p) {
   const std::size_t n = p.size();
+  const Flights& f = p.flights;
   PHOS_CHECK(p.flux.size() == n && p.direction.size() == n && p.normal.size() == n &&
                  p.distance.size() == n && p.source_normal.size() == n && p.path.size() == n &&
-                 p.bounce.size() == n,
+                 p.bounce.size() == n && f.flux.size() == f.size() && f.direction.size() == f.size() &&
+                 f.length.size() == f.size(),
              "columns of unequal length, position has ", n);
 }
 
@@ -70,6 +73,7 @@ PhotonMap PhotonMap::build(Photons photons, const PhotonTotals& totals) {
   const PhotonColumns c = columns_of(impl.photons);
   map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
+  map.flights = c.flights;
   map.totals = totals;
   return map;
 }
@@ -87,6 +91,7 @@ PhotonMap PhotonMap::open(const std::string& path) {
   const std::span<const std::uint8_t> tree = file.values<std::uint8_t>("kdtree", {0});
   map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
+  map.flights = c.flights;
   map.totals = totals_of(file, c.position.size());
   verify_all(file);
   require_sound(c, path);
@@ -103,6 +108,12 @@ void PhotonMap::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>
   impl_->tree.nearest(p, k, rows, distance2_m2);
 }
 
+bool PhotonMap::has_caustics() const {
+  return flights.size() > 0 || std::any_of(path.begin(), path.end(), [](std::uint8_t p) {
+           return is_caustic(static_cast<PhotonPath>(p));
+         });
+}
+
 const Container* PhotonMap::container() const { return impl_->file ? &*impl_->file : nullptr; }
 
 void PhotonMap::write(const std::string& path, Provenance provenance) const {
@@ -113,7 +124,7 @@ void PhotonMap::write(const std::string& path, Provenance provenance) const {
   provenance.extra["bounds_m"] = bounds_to_json(position);
   const std::vector<std::byte> tree = impl_->tree.save();
   ContainerWriter writer;
-  add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce});
+  add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce, flights});
   writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()},
                            {tree.size()}, "FLANN index");
   writer.write(path, provenance);

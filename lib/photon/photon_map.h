@@ -21,6 +21,21 @@ enum class PhotonPath : std::uint8_t {
   mirrored = 3,  ///< the same over flat mirrors in which the light has images: shadow rays find it too
 };
 
+/// Caustic light: the caustic map takes these photons, and records leave them out where there is such a map.
+/// The one place that decides it.
+constexpr bool is_caustic(PhotonPath path) { return path == PhotonPath::caustic; }
+
+/// Stretches of caustic light that end at no stored photon: at a mirror, at glass, or nowhere. With those
+/// that end at one, a virtual disc anywhere outside of solid glass meets all caustic light that crosses it.
+/// Stretches within solid glass are left out. Columns, one row a stretch.
+struct Flights {
+  std::vector<Vec3> from;                ///< m, where it begins: the surface before
+  std::vector<Rgb> flux;                 ///< lm
+  std::vector<std::uint32_t> direction;  ///< octahedral, along the flight
+  std::vector<float> length;             ///< m; infinity: it leaves the scene
+  std::size_t size() const { return from.size(); }
+};
+
 /// Columns, one row per stored photon. Directions and normals are octahedral (core/vector.h).
 struct Photons {
   std::vector<Vec3> position;            ///< m
@@ -33,7 +48,17 @@ struct Photons {
                       ///< flight direction where there is none (point, spot, directional)
   std::vector<std::uint8_t> path;    ///< PhotonPath
   std::vector<std::uint8_t> bounce;  ///< reflections and transmissions since the light (255: or more)
+  Flights flights{};                 ///< in path order; none without mirrors and glass
   std::size_t size() const { return position.size(); }
+};
+
+/// Read-only columns of flights, wherever they lie.
+struct FlightColumns {
+  std::span<const Vec3> from;
+  std::span<const Rgb> flux;
+  std::span<const std::uint32_t> direction;
+  std::span<const float> length;
+  std::size_t size() const { return from.size(); }
 };
 
 /// A sum of fluxes in units of 2^exponent lm, kept in integers: the same in any order, and over shards in any
@@ -91,7 +116,11 @@ class PhotonMap {
   std::span<const std::uint32_t> direction, normal, source_normal;
   std::span<const float> distance;
   std::span<const std::uint8_t> path, bounce;
+  FlightColumns flights;
   PhotonTotals totals;
+
+  /// Does caustic light reach anything here?
+  bool has_caustics() const;
 
   /// Rows within radius_m of p (any order that depends only on the map), replacing `rows`.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;

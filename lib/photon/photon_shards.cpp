@@ -88,6 +88,7 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
     add(p.position, c.position), add(p.flux, c.flux), add(p.direction, c.direction), add(p.normal, c.normal);
     add(p.distance, c.distance), add(p.source_normal, c.source_normal), add(p.path, c.path),
         add(p.bounce, c.bounce);
+    append(p.flights, c.flights);
     add_totals(merged.totals, s.totals);
     merged.provenance.counters.merge(s.shard.file.provenance().counters);
   }

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "photon/caustic_aim.h"
 #include "photon/emission.h"
 #include "photon/photon_file.h"
 #include "scene/bsdf.h"
@@ -23,7 +25,8 @@ constexpr std::size_t kPathChunk = 1024;
 // Chunks of a wave wait in memory for each other before they are joined in order. Enough of them to keep
 // every thread busy, and no more, so that their memory is used again before it has left the cache.
 constexpr std::uint64_t kChunksPerThread = 16;
-constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
+constexpr std::uint64_t kAimedItems = std::uint64_t{1} << 63;  // random streams: + number of the aimed path
+constexpr std::uint32_t kMaxBounces = 65534;                   // the last that a random stream can number
 // Of a chunk: more, and nothing absorbs the light, whose photons would fill any memory.
 constexpr std::uint64_t kMostTooLong = 16;
 
@@ -57,6 +60,16 @@ struct Flight {
   // Flat mirrors since a light that has images in them (MirrorPlanes).
   bool mirrored = false;
   std::int32_t chain = MirrorPlanes::kNone;
+  bool in_glass = false;  // in solid glass
+  Vec3 stretch_from{0};   // where the ray began, or the pane that it has passed last
+  enum class Keep : std::uint8_t { all, others, caustics } keep = Keep::all;  // photons that are stored
+  bool aimed_class = false;    // the first event was on what paths are aimed at
+  std::uint32_t aimed_at = 0;  // triangle
+
+  /// Is the photon, or the stretch, this path's to tell of?
+  bool tells() const {
+    return keep == Keep::all || (keep == Keep::caustics) == (is_caustic(path()) && aimed_class);
+  }
 
   PhotonPath path() const {
     if (bounce == 0) return PhotonPath::direct;
@@ -64,6 +77,15 @@ struct Flight {
     return mirrored ? PhotonPath::mirrored : PhotonPath::caustic;
   }
 };
+
+/// Notes the stretch that caustic light has flown since the last surface, where no photon tells of it.
+void note_flight(Flights& flights, const Flight& flight, float length_m) {
+  if (!is_caustic(flight.path()) || flight.in_glass || !flight.tells()) return;
+  flights.from.push_back(flight.stretch_from);
+  flights.flux.push_back(flight.flux_lm);
+  flights.direction.push_back(encode_octahedral(flight.ray.direction));
+  flights.length.push_back(length_m);
+}
 
 bool stores(const Bsdf& bsdf) { return !bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss(); }
 
@@ -80,13 +102,29 @@ void store(Photons& photons, const Flight& flight, const SurfacePoint& point) {
 
 class PathTracer {
  public:
-  PathTracer(const RayScene& rays, const Emitter& emitter, std::uint64_t seed, bool log)
+  /// `aim` null: no path is aimed. `aimed_paths` are all of them.
+  PathTracer(const RayScene& rays, const Emitter& emitter, const CausticAim* aim, std::uint64_t paths,
+             std::uint64_t aimed_paths, std::uint64_t seed, bool log)
       : rays_(rays),
         emitter_(emitter),
         mirrors_(emitter.mirrors()),
+        aim_(aim),
+        paths_(paths),
+        aimed_paths_(aimed_paths),
         seed_(seed),
         log_(log),
         units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {}
+
+  /// The aimed paths that go with a path: all of them are dealt out in order.
+  void trace_aimed(std::uint64_t path, Part& part) const {
+    if (!aim_) return;
+    const auto until = [&](std::uint64_t p) {
+      return static_cast<std::uint64_t>(static_cast<double>(p) / static_cast<double>(paths_) *
+                                        static_cast<double>(aimed_paths_));
+    };
+    const std::uint64_t last = path + 1 == paths_ ? aimed_paths_ : until(path + 1);
+    for (std::uint64_t i = until(path); i < last; ++i) trace_one_aimed(i, part);
+  }
 
   void trace_path(std::uint64_t path, Part& part) const {
     RandomStream random(seed_, Stage::photon_path, path);
@@ -99,19 +137,49 @@ class PathTracer {
     Flight flight;
     flight.ray = start.ray, flight.flux_lm = start.flux_lm, flight.units = units(start.flux_lm);
     flight.source_normal = start.source_normal, flight.from_infinity = start.from_infinity;
-    flight.mirrored = !mirrors_.empty() && has_images(emitter_.light(path));
+    flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(path), start.ray.direction);
     part.emitted += flight.units;
+    if (aim_) flight.keep = Flight::Keep::others;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
   }
 
  private:
+  void trace_one_aimed(std::uint64_t number, Part& part) const {
+    RandomStream random(seed_, Stage::photon_path, kAimedItems + number);
+    random.start_bounce(0);
+    const std::size_t light = emitter_.light_of(number);
+    CausticAim::Start start = aim_->start(light, random);
+    const double per_path = static_cast<double>(paths_) / static_cast<double>(aimed_paths_);
+    start.photon.flux_lm *= emitter_.scale(light) * static_cast<float>(per_path);
+    if (!is_finite(start.photon.flux_lm)) {
+      ++part.non_finite;
+      return;
+    }
+    Flight flight;
+    flight.ray = start.photon.ray, flight.flux_lm = start.photon.flux_lm;
+    flight.units = units(flight.flux_lm);
+    flight.source_normal = start.photon.source_normal, flight.from_infinity = start.photon.from_infinity;
+    flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(number), start.photon.ray.direction);
+    flight.keep = Flight::Keep::caustics, flight.aimed_at = start.triangle;
+    // Its light is in the totals already: only what is stored counts.
+    Part uncounted;
+    std::swap(uncounted.photons, part.photons);
+    while (largest(flight.flux_lm) > 0 && step(flight, random, uncounted)) {
+    }
+    std::swap(uncounted.photons, part.photons);
+    part.stored += uncounted.stored;
+    part.non_finite += uncounted.non_finite, part.too_long += uncounted.too_long;
+    if (log_) part.rays.insert(part.rays.end(), uncounted.rays.begin(), uncounted.rays.end());
+  }
+
   FluxSum units(const Rgb& flux_lm) const { return FluxSum::of(flux_lm, units_per_lm_); }
 
   /// To the next surface and off it again; straight through panes on the way. False: the photon is no more.
   bool step(Flight& flight, RandomStream& random, Part& part) const {
     if (log_) part.rays.push_back(flight.ray);
     Way way(rays_, flight.ray);
+    flight.stretch_from = flight.ray.origin;
     for (;;) {
       // Drawn before the ray is traced, so that the processor can work them out in the waits of the
       // traversal.
@@ -120,15 +188,21 @@ class PathTracer {
       const Vec2 u = random.uniform2();
       SurfacePoint point;
       if (!way.next(point)) {
+        note_flight(part.photons.flights, flight, kInfinity);
         part.escaped += flight.units;
         ++part.escaped_paths;
         return false;
       }
       const Bsdf bsdf = way.bsdf(point);
       if (stores(bsdf)) {
-        store(part.photons, flight, point);
-        part.stored += flight.units;
+        if (flight.tells()) {
+          store(part.photons, flight, point);
+          part.stored += flight.units;
+        }
+      } else {
+        note_flight(part.photons.flights, flight, glm::distance(flight.stretch_from, point.position));
       }
+      flight.stretch_from = point.position;
       part.absorbed += flight.units;
       const After after = scatter(bsdf, point, u_lobe, u, flight, random, part);
       if (after == After::ended) return false;
@@ -136,6 +210,13 @@ class PathTracer {
       part.absorbed -= flight.units;
       if (after == After::scattered) return true;
     }
+  }
+
+  /// Light of a lamp that has images in flat mirrors; of an environment, of its sun.
+  bool is_of_image(const Light& light, const Vec3& direction) const {
+    const Scene& scene = rays_.scene();
+    if (light.kind != Light::Kind::environment) return has_images(scene, light);
+    return sun_luminance(scene, -direction) != Rgb(0);
   }
 
   enum class After : std::uint8_t { ended, scattered, passed };
@@ -160,6 +241,11 @@ class PathTracer {
     if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return After::ended;
     flight.flux_lm = (1 / survival) * flux;
     if (sample.straight) return After::passed;
+    if (aim_ && flight.bounce == 0) {
+      flight.aimed_class = aim_->takes(point.material);
+      if (flight.keep == Flight::Keep::caustics && point.triangle != flight.aimed_at) return After::ended;
+    }
+    if (flight.keep == Flight::Keep::caustics && !sample.specular) return After::ended;
     ++flight.bounce;
     flight.ray = Ray{point.leave(sample.direction), sample.direction};
     flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
@@ -172,12 +258,17 @@ class PathTracer {
           reflected ? mirrors_.follow(flight.chain, point.triangle, point.front) : MirrorPlanes::kNone;
       flight.mirrored = flight.chain != MirrorPlanes::kNone;
     }
+    const bool ahead = glm::dot(sample.direction, point.geometric_normal) >= 0;
+    flight.in_glass =
+        rays_.scene().material[point.material].model == Model::dielectric && ahead != point.front;
     return After::scattered;
   }
 
   const RayScene& rays_;
   const Emitter& emitter_;
   const MirrorPlanes& mirrors_;
+  const CausticAim* aim_;
+  std::uint64_t paths_, aimed_paths_;
   std::uint64_t seed_;
   bool log_;
   double units_per_lm_;
@@ -210,6 +301,13 @@ void join_column(std::vector<T> Photons::*column, std::span<Part> parts, Photons
   }
 }
 
+void join_flights(std::span<Part> parts, Flights& all) {
+  for (Part& part : parts) {
+    append(all, columns_of(part.photons.flights));
+    part.photons.flights = {};
+  }
+}
+
 void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows) {
   const auto join_number = [&](std::size_t column) {
     switch (column) {
@@ -227,11 +325,13 @@ void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows
         return join_column(&Photons::distance, parts, all, expected_rows);
       case 6:
         return join_column(&Photons::path, parts, all, expected_rows);
+      case 7:
+        return join_flights(parts, all.flights);
       default:
         return join_column(&Photons::bounce, parts, all, expected_rows);
     }
   };
-  parallel_for(8, 1, join_number);
+  parallel_for(9, 1, join_number);
 }
 
 /// How many rows all paths will give, by those that are done, and a little more.
@@ -249,6 +349,12 @@ void declare_options(Options& options, PhotonOptions& p) {
       "paths emitted from the lights; each stores a photon on every surface it reaches that is not purely "
       "mirror or glass (both numbers are printed)",
       {0, 0x1p40});
+  options.integer(
+      "caustic-photons", p.caustic_paths, "N",
+      "where there are mirrors or glass: paths aimed from the lamps at these, which find all light "
+      "that reaches surfaces by way of them alone; -1: as many as --photons; 0: none, such light "
+      "is what other paths find",
+      {-1, 0x1p40}, Recorded::unless_default);
   options.number(
       "minimum-share", p.minimum_share, "SHARE",
       "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
@@ -274,7 +380,12 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   if (options.paths == 0) return photons;
   const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed);
   totals.flux_exponent = emitter.flux_exponent();
-  const PathTracer tracer(rays, emitter, seed, log != nullptr);
+  const std::uint64_t aimed =
+      static_cast<std::uint64_t>(options.caustic_paths < 0 ? options.paths : options.caustic_paths);
+  std::optional<CausticAim> aim;
+  if (aimed > 0 && casts_caustics(rays.scene())) aim.emplace(rays);
+  if (aim && aim->empty()) aim.reset();
+  const PathTracer tracer(rays, emitter, aim ? &*aim : nullptr, totals.emitted, aimed, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");
   std::vector<Part> parts;
   const std::uint64_t full_wave = kChunksPerThread * kPathChunk * static_cast<std::uint64_t>(thread_count());
@@ -287,6 +398,7 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
       part.restart();
       for (std::size_t i = begin; i < end; ++i) {
         tracer.trace_path(first + i, part);
+        tracer.trace_aimed(first + i, part);
         if (part.too_long < kMostTooLong) continue;
         throw Error(
             ExitCode::numerical, "",

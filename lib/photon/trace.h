@@ -15,6 +15,9 @@ namespace phos {
 
 struct PhotonOptions {
   std::int64_t paths = 1'000'000;  ///< emitted from the lights
+  /// Paths aimed from the lamps at mirrors and glass, which then find all caustic light; below 0: as many as
+  /// `paths`; 0: none, caustic light is what other paths find.
+  std::int64_t caustic_paths = -1;
   double minimum_share = 0.1;      ///< of an equal share of the paths, for each light
   std::string isa;                 ///< RayOptions::isa
   std::string shard;               ///< "i/n", or empty: all
@@ -30,7 +33,7 @@ inline constexpr const char* kEscapedEvent = "photon left the scene";
 inline constexpr const char* kNonFiniteEvent = "photon with non-finite flux";
 inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended";
 
-/// Photons of the paths that options.shard names, in path order: one at each hit on a surface that is not
+/// Photons of the paths that options.shard names, in path order (each with the aimed paths that follow it): one at each hit on a surface that is not
 /// purely specular (black and glowing ones too), carrying the flux that arrives. A path ends when it escapes
 /// or by Russian roulette, which keeps the flux of the survivors about equal; there is no other limit but
 /// that of kTooLongEvent. Throws Error(numerical) once that happens to more than one path in a hundred.

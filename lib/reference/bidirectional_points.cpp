@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kLeastPasses = 16, kUsualPasses = 32, kMostOfPass = 256;
 /// Light paths of a pass where there is light by way of mirrors and glass: they cost one sensor little, and
 /// many nothing.
-constexpr std::size_t kLightPaths = 4096;
+constexpr std::size_t kLightPaths = 8192;
 /// Light paths that tell the radius of the discs, and the random stream of the first.
 constexpr std::size_t kProbingPaths = 65536;
 constexpr std::uint64_t kProbingItem = kLightItem | std::uint64_t{1} << 56;

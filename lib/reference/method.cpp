@@ -1,5 +1,6 @@
 #include "reference/method.h"
 
+#include "scene/sharp_materials.h"
 #include "scene/unsampled.h"
 
 namespace phos {
@@ -12,9 +13,11 @@ void declare_method(Options& options, ReferenceMethod& method, const std::string
                                   help);
 }
 
-bool is_bidirectional(ReferenceMethod method, const std::vector<LightWay>& ways, double samples) {
-  return method == ReferenceMethod::bidirectional ||
-         (method == ReferenceMethod::automatic && !unsampled(ways, Sampler::path_tracing, samples).empty());
+bool is_bidirectional(ReferenceMethod method, const Scene& scene, const std::vector<LightWay>& ways,
+                      double samples) {
+  if (method != ReferenceMethod::automatic) return method == ReferenceMethod::bidirectional;
+  return (!scene.light.empty() && gathers_light(scene)) ||
+         !unsampled(ways, Sampler::path_tracing, samples).empty();
 }
 
 }  // namespace phos

@@ -19,8 +19,9 @@ enum class ReferenceMethod : std::uint8_t {
 /// The option --method.
 void declare_method(Options& options, ReferenceMethod& method, const std::string& help);
 
-/// Is the method bidirectional, `automatic` resolved: where path tracing with so many samples leaves out one
-/// of these ways?
-bool is_bidirectional(ReferenceMethod method, const std::vector<LightWay>& ways, double samples);
+/// Is the method bidirectional, `automatic` resolved: where something casts caustics, or path tracing with so
+/// many samples leaves out one of these ways?
+bool is_bidirectional(ReferenceMethod method, const Scene& scene, const std::vector<LightWay>& ways,
+                      double samples);
 
 }  // namespace phos

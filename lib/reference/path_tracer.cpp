@@ -5,6 +5,7 @@
 #include "core/sampling.h"
 #include "reference/roulette.h"
 #include "scene/bsdf.h"
+#include "scene/environment.h"
 #include "scene/mirror_images.h"
 #include "scene/passage.h"
 
@@ -88,7 +89,7 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
   };
   const auto add = [&](std::size_t i, float probability) {
     add_straight(i, probability);
-    if (!has_images((*luminaires_)[i])) return;
+    if (!has_images(rays_->scene(), (*luminaires_)[i])) return;
     const MirrorPlanes& mirrors = luminaires_->mirrors();
     for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
       Illumination light;
@@ -127,11 +128,8 @@ Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
   const float chosen = walk.every_light ? 1 : share_[i];
   Vec3 from = walk.from;
   if (!(walk.density > 0)) {
-    std::int32_t chain = MirrorPlanes::kNone;
-    for (auto m = walk.mirrors.rbegin(); m != walk.mirrors.rend(); ++m) {
-      chain = luminaires_->mirrors().follow(chain, m->triangle, m->front);
-      if (chain == MirrorPlanes::kNone) return luminance;  // no image tells of it
-    }
+    const std::int32_t chain = image_chain(walk);
+    if (chain == MirrorPlanes::kNone) return luminance;  // no image tells of it
     from = luminaires_->mirrors().image(chain, walk.from);
   }
   const float density =
@@ -141,11 +139,28 @@ Rgb PathTracer::emission_at(const SurfacePoint& point, const Walk& walk) const {
 
 /// The same of the environment, for a walk whose ray left the scene.
 Rgb PathTracer::emission_beyond(const Walk& walk) const {
-  const Rgb luminance = background_luminance(rays_->scene(), walk.ray.direction);
-  if (!positive(luminance) || walk.density <= 0 || luminaires_->environment() < 0) return luminance;
+  const Scene& scene = rays_->scene();
+  const Rgb luminance = background_luminance(scene, walk.ray.direction);
+  if (!positive(luminance) || luminaires_->environment() < 0) return luminance;
   const float chosen = walk.every_light ? 1 : share_[static_cast<std::size_t>(luminaires_->environment())];
-  const float density = chosen * luminaires_->density_beyond(walk.from, walk.ray.direction);
-  return luminance * power_weight(walk.density, density);
+  if (walk.density > 0)
+    return luminance *
+           power_weight(walk.density, chosen * luminaires_->density_beyond(walk.from, walk.ray.direction));
+  // The sun's image in flat mirrors is sampled from where the mirrors were looked into.
+  const Rgb sun = walk.density_before > 0 ? sun_luminance(scene, walk.ray.direction) : Rgb(0);
+  if (!positive(sun) || image_chain(walk) == MirrorPlanes::kNone) return luminance;
+  const auto density = static_cast<float>(static_cast<double>(chosen) / scene.environment->sun_sr());
+  return luminance - sun + sun * power_weight(walk.density_before, density);
+}
+
+/// The chain of flat mirrors since the last other event, as the lamp sees it; kNone: it is not taken.
+std::int32_t PathTracer::image_chain(const Walk& walk) const {
+  std::int32_t chain = MirrorPlanes::kNone;
+  for (auto m = walk.mirrors.rbegin(); m != walk.mirrors.rend(); ++m) {
+    chain = luminaires_->mirrors().follow(chain, m->triangle, m->front);
+    if (chain == MirrorPlanes::kNone) break;
+  }
+  return chain;
 }
 
 void PathTracer::add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum) {

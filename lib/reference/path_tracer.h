@@ -54,6 +54,7 @@ class PathTracer {
                RandomStream& random) const;
   Rgb emission_at(const SurfacePoint& point, const Walk& walk) const;
   Rgb emission_beyond(const Walk& walk) const;
+  std::int32_t image_chain(const Walk& walk) const;
   static void add_emission(const Rgb& luminance, const Walk& walk, PathSample& sum);
   static void add_indirect(const Rgb& light, const Walk& walk, PathSample& sum);
   enum class Next : std::uint8_t { none, ray, straight };

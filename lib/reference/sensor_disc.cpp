@@ -15,9 +15,9 @@ constexpr float kSlack = 2;
 /// Radii looked at fall by sqrt(2), so many times at most.
 constexpr int kRadii = 40;
 /// Below so many paths their noise is not known.
-constexpr std::size_t kLeastPaths = 16;
+constexpr std::size_t kLeastPaths = 32;
 /// Differences between radii up to so many standard deviations are noise.
-constexpr double kNoise = 1;
+constexpr double kNoise = 1.5;
 
 }  // namespace
 

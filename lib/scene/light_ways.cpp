@@ -92,8 +92,12 @@ struct Found {
 
 class Finder {
  public:
-  Finder(const RayScene& rays, const Luminaires& luminaires)
-      : rays_(rays), scene_(rays.scene()), mirrors_(luminaires.mirrors()), lamp_rays_(scene_, luminaires) {
+  Finder(const RayScene& rays, const Luminaires& luminaires, bool images)
+      : rays_(rays),
+        scene_(rays.scene()),
+        mirrors_(luminaires.mirrors()),
+        count_images_(images),
+        lamp_rays_(scene_, luminaires) {
     for (const Material& m : scene_.material) lobe_.push_back(lobe_hit_share(scene_, m));
   }
 
@@ -125,7 +129,7 @@ class Finder {
 
   /// Light arrives at a surface that scatters it, or takes it.
   void land(const Flight& flight, const SurfacePoint& point, Found& found) const {
-    if (flight.images) return;
+    if (flight.images && !count_images_) return;
     const double cosine =
         std::fabs(static_cast<double>(glm::dot(point.geometric_normal, flight.ray.direction)));
     const double way_m = flight.way_m + static_cast<double>(point.distance_m);
@@ -152,7 +156,8 @@ class Finder {
     if (!(start.flux_lm > 0)) return;
     Flight first;
     first.ray = start.ray, first.flux_lm = start.flux_lm, first.lamp = start;
-    first.images = !mirrors_.empty() && has_images(scene_.light[lamp.light]);
+    first.images =
+        !mirrors_.empty() && lamp.part != Lamp::Part::sky && has_images(scene_, scene_.light[lamp.light]);
     if (!beyond) found.started_lm += start.flux_lm;
     std::vector<Flight> open{first};
     for (std::uint32_t turn = 0; turn < kMostTurns && !open.empty(); ++turn) {
@@ -229,6 +234,7 @@ class Finder {
   const RayScene& rays_;
   const Scene& scene_;
   const MirrorPlanes& mirrors_;
+  bool count_images_;
   LampProbe lamp_rays_;
   std::vector<double> lobe_;  // per material
 };
@@ -313,12 +319,12 @@ bool sends_light_on(const Scene& scene) {
   return false;
 }
 
-std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminaires) {
+std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminaires, bool images) {
   const Scene& scene = rays.scene();
   std::vector<LightWay> ways;
   const std::vector<Lamp> lamps = lamps_of(scene);
   if (lamps.empty() || !sends_light_on(scene)) return ways;
-  const Finder finder(rays, luminaires);
+  const Finder finder(rays, luminaires, images);
   const auto even = static_cast<std::uint32_t>(kRaysOfAll / lamps.size());
   const std::uint32_t count = std::clamp(even, kLeastRaysOfALamp, kRaysOfALamp);
   for (const Lamp& lamp : lamps) {

@@ -45,7 +45,8 @@ bool sends_light_on(const Scene& scene);
 /// more. Tried with up to kRaysOfALamp rays from each, fewer where lamps are many, but kLeastRaysOfALamp:
 /// the same for any number of threads. None, and no ray is sent, where nothing sends_light_on(). Light that
 /// leaves the scene counts for nothing.
-std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminaires);
+/// `images`: flat mirrors in which lamps have images count too.
+std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminaires, bool images = false);
 inline constexpr double kLeastShare = 1e-3;
 inline constexpr std::uint32_t kRaysOfALamp = 4096, kLeastRaysOfALamp = 256;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/environment.h"
 #include "scene/passage.h"
 
 namespace phos {
@@ -56,17 +57,33 @@ bool reflect(const RayScene& rays, const MirrorPlanes& mirrors, const MirrorPlan
 
 }  // namespace
 
-bool has_images(const Light& light) { return light.kind != Light::Kind::environment; }
+bool has_images(const Scene& scene, const Light& light) {
+  return light.kind != Light::Kind::environment || (scene.environment && scene.environment->sun());
+}
+
+Rgb sun_luminance(const Scene& scene, const Vec3& direction) {
+  const Environment* map = scene.environment.get();
+  if (!map || !map->sun() || !map->in_sun(direction)) return Rgb(0);
+  return map->luminance(direction) - map->map_luminance(direction);
+}
 
 bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, const MirrorPlanes& mirrors,
                            std::size_t chain, std::size_t light, const SurfacePoint& from, float u_triangle,
                            const Vec2& u, Illumination& result) {
-  if (!has_images(lights[light])) return false;
+  const Scene& scene = rays.scene();
+  if (!has_images(scene, lights[light])) return false;
   const std::vector<MirrorPlanes::Chain>& chains = mirrors.chains();
   const MirrorPlanes::Chain& last = chains[chain];
   if (mirrors.plane(last.plane).front_of(from.position) != last.front) return false;
   const Vec3 image = mirrors.image(static_cast<std::int32_t>(chain), from.position);
-  if (!lights.illuminate(light, image, u_triangle, u, result)) return false;
+  if (lights[light].kind == Light::Kind::environment) {
+    result = Illumination();
+    result.direction = scene.environment->sample_sun(u);
+    result.value = sun_luminance(scene, result.direction);
+    result.density = static_cast<float>(1 / scene.environment->sun_sr());
+  } else if (!lights.illuminate(light, image, u_triangle, u, result)) {
+    return false;
+  }
   std::vector<std::int32_t> links;
   for (auto c = static_cast<std::int32_t>(chain); c != MirrorPlanes::kNone;
        c = chains[static_cast<std::size_t>(c)].before)

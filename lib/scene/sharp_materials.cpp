@@ -1,6 +1,7 @@
 #include "scene/sharp_materials.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/bsdf.h"
 
@@ -49,6 +50,22 @@ bool reflects_sharply(const Material& m) {
     default:
       return false;
   }
+}
+
+bool gathers_light(const Scene& scene) {
+  constexpr float kFlat = 1 - 1e-6f;  // cosine of a vertex normal to its triangle's
+  for (const Instance& instance : scene.instance) {
+    const Material& m = scene.material[instance.material];
+    if (!reflects_as_mirror(m)) continue;
+    if (m.model == Model::dielectric || m.normal.used()) return true;
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t) {
+      const Vec3 n = geometric_normal(scene, t);
+      for (const std::uint32_t v : scene.triangle[t].v)
+        if (n != Vec3(0) && std::fabs(glm::dot(scene.normal[v], n)) < kFlat) return true;
+    }
+  }
+  return false;
 }
 
 bool has_caustic_ways(const Scene& scene) {

@@ -15,6 +15,9 @@ bool reflects_sharply(const Material& material);
 /// than straight on?
 bool reflects_as_mirror(const Material& material);
 
+/// Is there a curved mirror, curved glass, or solid glass: something that gathers light, however small it is?
+bool gathers_light(const Scene& scene);
+
 /// Has the scene light that reaches a diffuse surface by way of a mirror, of glass that bends or reflects it,
 /// or of sharp gloss? Path tracing finds such light only where its paths hit a lamp by chance, and that of
 /// point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().

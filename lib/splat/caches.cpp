@@ -22,7 +22,8 @@ class Joined {
           ExitCode::mismatch, file.path(),
           text("holds ", more.quantity, " light, ", first_->path(), " holds ", all_.quantity,
                "; make both with the same --paths of phos-irradiance (radiance records are indirect)"));
-    if (!first_) all_.accuracy = more.accuracy, all_.quantity = more.quantity;
+    if (first_) require_same_caustics(more.caustics != nullptr, all_.caustics != nullptr, file.path());
+    if (!first_) all_.accuracy = more.accuracy, all_.quantity = more.quantity, all_.caustics = more.caustics;
     append(all_, more);
     if (!first_) first_ = &file;
   }

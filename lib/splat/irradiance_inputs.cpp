@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
+#include "scene/passage.h"
 #include "temporal/film_inputs.h"
 
 namespace phos {
@@ -68,8 +69,11 @@ EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, boo
     const Container file = Container::open(files.radiance, "radiance");
     if (!allow_mismatch) require_same_scene(file, files.scene, scene);
     inputs.radiance = read_radiance_at(file, scene);
-    if (inputs.source && inputs.source->quantity == "indirect")
+    if (inputs.source && inputs.source->quantity == "indirect") {
+      require_same_caustics(inputs.radiance->caustics != nullptr, inputs.source->caustics != nullptr,
+                            files.radiance);
       append(*inputs.source, irradiance_of(*inputs.radiance));
+    }
   }
   if (!files.brdf.empty()) {
     const Container file = Container::open(files.brdf, "brdf");
@@ -79,9 +83,24 @@ EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, boo
   return inputs;
 }
 
+std::shared_ptr<const CausticPhotons> caustics_of_run(const EstimateInputs& inputs, const Scene& scene,
+                                                      const IrradianceCache* earlier,
+                                                      const std::string& earlier_path) {
+  if (earlier && earlier->caustics) return earlier->caustics;
+  std::shared_ptr<const CausticPhotons> caustics;
+  if (inputs.photons && (casts_caustics(scene) || inputs.photons->has_caustics()))
+    caustics = std::make_shared<CausticPhotons>(caustics_of(*inputs.photons));
+  else if (inputs.source)
+    caustics = inputs.source->caustics;
+  if (earlier && !earlier->records.empty())
+    require_same_caustics(false, caustics != nullptr, earlier_path);
+  return caustics;
+}
+
 CoveredBy::CoveredBy(IrradianceCache& cache, const std::optional<RadianceCache>& radiance)
     : first_(cache.records.size()) {
   if (!radiance || cache.quantity != "indirect") return;
+  require_same_caustics(radiance->caustics != nullptr, cache.caustics != nullptr, "the radiance cache");
   append(cache, irradiance_of(*radiance));
   count_ = radiance->records.size();
 }

@@ -38,6 +38,15 @@ struct EstimateInputs {
 /// Throws Error(mismatch) for files of another scene, unless `allow_mismatch`.
 EstimateInputs open_inputs(const IrradianceFiles& files, const Scene& scene, bool allow_mismatch);
 
+/// Caustic photons that are to travel with records made from these inputs, which then leave such light out
+/// (RecordOptions::caustics_apart): those of the cache that is added to, or of the photons, or of a cache
+/// that is read. Null: records hold what they find of it. That is so without photons, where lamps without
+/// area and the sun are not found by way of mirrors; and where nothing in the scene is a mirror or glass.
+/// Throws Error(mismatch) for an earlier cache whose records hold such light, and photons that would not.
+std::shared_ptr<const CausticPhotons> caustics_of_run(const EstimateInputs& inputs, const Scene& scene,
+                                                      const IrradianceCache* earlier_or_null,
+                                                      const std::string& earlier_path);
+
 /// Lets radiance records cover what an irradiance cache need not hold again.
 class CoveredBy {
  public:

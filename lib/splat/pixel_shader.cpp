@@ -39,6 +39,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   }
   const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
   const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
+  from_caustics(point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
   if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
@@ -96,6 +97,25 @@ bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, co
   light.glossy += radiance;
   light.indirect_error += error;  // the same records may hold the light of the Lambert part: no quadrature
   return true;
+}
+
+/// What caustic photons bring to the diffuse lobe, and with `gloss` to those that read radiance records.
+void PixelShader::from_caustics(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
+                                PixelSample& light, ShadingLog& log) const {
+  if (!shading_.has_caustics() || !(bsdf.has_diffuse() || gloss)) return;
+  const LocalDensity found = shading_.caustic(point, log);
+  const Rgb reflected = bsdf.diffuse_reflectance() / kPi, error = found.stderr_lx();
+  light.indirect += found.irradiance * reflected;
+  if (bsdf.has_diffuse()) light.illuminance_lx += luminance(found.irradiance);
+  Rgb unsure = error * reflected;
+  if (gloss) {
+    const Rgb shown = CausticLight::gloss(found, bsdf, wo, log.caustics);
+    light.glossy += shown;
+    const float lux = luminance(found.irradiance);
+    if (lux > 0) unsure += glm::abs(shown) * (luminance(error) / lux);
+  }
+  // Samples of a pixel share the photons, so that it does not average out; records know nothing of them.
+  light.indirect_error = glm::sqrt(light.indirect_error * light.indirect_error + unsure * unsure);
 }
 
 /// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.

@@ -57,6 +57,8 @@ class PixelShader {
   /// Is the gloss had from radiance records? Else it is to be traced.
   bool gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat, PixelSample& light,
                         ShadingResult& result) const;
+  void from_caustics(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
+                     PixelSample& light, ShadingLog& log) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   /// Is the environment's light had without rays?

@@ -186,7 +186,8 @@ class Painter {
         pixel_rays_(camera_, width_, height_),
         lights_(rays.scene()),
         records_(tree()),
-        shading_(rays, lights_, records_, shading_options(), gloss),
+        caustics_(caustic_light()),
+        shading_(rays, lights_, records_, shading_options(), gloss, caustics_.get()),
         environment_(harmonics(brdfs)),
         shader_(rays, shading_, options, cached_direct(), environment_.get()),
         layers_(width_, height_, LayerSet(options.layers), samples_ + static_cast<int>(options.edge_samples),
@@ -221,6 +222,13 @@ class Painter {
                        options_.leak_test == LeakTest::ray ? &rays_ : nullptr);
     for (const IrradianceRecord& r : cache_.records) records.insert(r);
     return records;
+  }
+
+  /// Null where records hold caustic light.
+  std::unique_ptr<const CausticLight> caustic_light() const {
+    if (!cache_.caustics) return nullptr;
+    return std::make_unique<CausticLight>(rays_, std::make_shared<CausticMap>(*cache_.caustics),
+                                          kPictureCaustics);
   }
 
   /// Null where the environment is traced.
@@ -368,6 +376,7 @@ class Painter {
   PixelRays pixel_rays_;
   Luminaires lights_;
   RecordTree records_;
+  std::unique_ptr<const CausticLight> caustics_;
   Shading shading_;
   std::unique_ptr<const EnvironmentHarmonics> environment_;
   PixelShader shader_;

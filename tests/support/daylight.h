@@ -52,7 +52,7 @@ inline Scene room_with_window(float albedo, bool pane = false, bool hole = true)
   add_quad(scene, {3, 1, 4}, {0, 1, 0}, {2, 0, 0});
   if (!hole) add_quad(scene, {2, 1, 4}, {0, 1, 0}, {1, 0, 0});
   if (pane) {
-    const std::uint32_t glass = add_lambert(scene, "glass", 0);
+    const std::uint32_t glass = add_lambert(scene, "glass", 1);
     scene.material[glass].model = Model::thin_dielectric;
     scene.material[glass].ior = 1;
     begin_instance(scene, "pane", glass);

@@ -38,7 +38,7 @@ Scene floor_and(const Material& material) {
   return s;
 }
 
-std::vector<LightWay> ways_of(const Scene& s) { return light_ways(RayScene(s), Luminaires(s)); }
+std::vector<LightWay> ways_of(const Scene& s) { return light_ways(RayScene(s), Luminaires(s), true); }
 
 TEST(LightWays, NoneWithoutMirrorsGlassOrSharpGloss) {
   EXPECT_FALSE(sends_light_on(test::cornell()));
@@ -70,6 +70,11 @@ TEST(LightWays, MirrorCarriesWhatComesToTheFloorByIt) {
     }
   const double share = lm / (4 * std::numbers::pi);
   EXPECT_NEAR(ways[0].share, share, 4 * std::sqrt(0.9 * share / kRaysOfALamp));
+}
+
+TEST(LightWays, ImagesInFlatMirrorsAreDirectLight) {
+  const Scene s = floor_and(made("mirror wall", Model::mirror));
+  EXPECT_TRUE(light_ways(RayScene(s), Luminaires(s)).empty());
 }
 
 TEST(LightWays, SameForAnyNumberOfThreads) {
