@@ -14,7 +14,8 @@ namespace phos {
 namespace {
 
 constexpr const char* kPlace[] = {"id", "x", "y", "z", "nx", "ny", "nz"};
-constexpr const char* kSums[] = {"E_lx", "stderr_lx", "direct_lx", "indirect_lx"};
+constexpr const char* kStandardError = "stderr_lx";
+constexpr const char* kSums[] = {"E_lx", kStandardError, "direct_lx", "indirect_lx"};
 constexpr std::size_t kSumCount = std::size(kSums);
 
 /// K and N of "band_K_of_N_lx".
@@ -44,9 +45,11 @@ std::size_t column_of(const CsvTable& table, const std::string& name) {
   return static_cast<std::size_t>(at - table.columns.begin());
 }
 
+/// A standard error may be left out: it is then not a number.
 double number_in(const CsvTable& table, std::size_t row, std::size_t column) {
   const double v = table.number(row, column);
-  if (!std::isfinite(v))
+  const bool left_out = table.columns[column] == kStandardError && table.rows[row][column].empty();
+  if (!std::isfinite(v) && !left_out)
     throw Error(ExitCode::bad_input, table.where,
                 text("line ", table.line[row], ": ", table.columns[column], " is not a number"));
   return v;
@@ -102,7 +105,9 @@ std::string line_of(const CsvTable& places, std::size_t row, const Sums& sums, c
     if (!first) out += ',';
     out += cell, first = false;
   };
-  const auto put_number = [&](double v) { put(shortest(static_cast<float>(v))); };
+  const auto put_number = [&](double v) {
+    put(std::isnan(v) ? std::string() : shortest(static_cast<float>(v)));
+  };
   for (const char* name : kPlace) put(quoted(places.rows[row][column_of(places, name)]));
   for (const double v : sums.of_all[row]) put_number(v);
   DVec3 xyz(0);

@@ -250,7 +250,8 @@ LightWay way_of(const Scene& scene, const Lamp& lamp, LightWay::Kind kind, const
     const std::string& name = scene.material[deed.material].name;
     if (std::find(way.materials.begin(), way.materials.end(), name) == way.materials.end())
       way.materials.push_back(name);
-    way.by.push_back(text(noun(deed.what), " \"", name, "\""));
+    const std::string phrase = text(noun(deed.what), " \"", name, "\"");
+    if (std::find(way.by.begin(), way.by.end(), phrase) == way.by.end()) way.by.push_back(phrase);
   }
   return way;
 }

@@ -62,7 +62,7 @@ struct LuxTable {
   std::string where;             ///< its file, for messages
   std::vector<Vec3> position;    ///< m
   std::vector<float> lux;        ///< E_lx or illuminance_lx
-  std::vector<float> stderr_lx;  ///< empty without the column stderr_lx
+  std::vector<float> stderr_lx;  ///< empty without the column stderr_lx, or where it has gaps
 };
 /// Throws Error(bad_input) for a file without those columns or without a row, or a cell that is no number.
 LuxTable read_lux(const std::string& path);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "file/atomic_file.h"
@@ -32,6 +33,9 @@ LuxTable read_lux(const std::string& path) {
     table.lux.push_back(cell(i, lux));
     if (spread != none) table.stderr_lx.push_back(cell(i, spread));
   }
+  // Errors that are not stated everywhere say nothing of the whole.
+  if (std::any_of(table.stderr_lx.begin(), table.stderr_lx.end(), [](float s) { return std::isnan(s); }))
+    table.stderr_lx.clear();
   return table;
 }
 

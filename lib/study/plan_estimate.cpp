@@ -1,6 +1,7 @@
 #include "study/plan_estimate.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 #include "scene/unsampled.h"
@@ -13,7 +14,8 @@ bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const Plan
     needs.wanted.push_back({kWhat, "they are asked for"});
     return true;
   }
-  const std::vector<LightWay> missed = unsampled(ways, Sampler::gathering, kUsualRays);
+  constexpr double kAnyNumber = std::numeric_limits<double>::max();
+  const std::vector<LightWay> missed = unsampled(ways, Sampler::gathering, kAnyNumber);
   if (missed.empty()) {
     needs.unwanted.push_back({kWhat, "gathered rays are less noisy, and find all light that matters"});
     return false;

@@ -11,8 +11,8 @@ namespace phos {
 
 enum class PlanRecords { automatic, gather, hull };
 
-/// Of photons alone? automatic: where rays of records would leave out light that photons bring
-/// (scene/unsampled.h, for kUsualRays of them), unless sensors hang in free air, where no photon lands. Else
+/// Of photons alone? automatic: where rays of records would leave out light that photons bring, however many
+/// they are (scene/unsampled.h), unless sensors hang in free air, where no photon lands. Else
 /// by rays, which are less noisy. Says in `needs` why.
 bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const PlanTask& task, Needs& needs);
 
