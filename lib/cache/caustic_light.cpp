@@ -122,13 +122,13 @@ LocalDensity CausticLight::in_space(const Vec3& p, const Vec3& n, Worker& worker
     const float length = glm::length(way), clear = length - 4 * at.error_m;
     return !(clear > 0) || !rays_.occluded({from, way / length, 0, clear});
   };
-  map_->crossing(middle, n, most_m_, free, worker.hits);
-  if (worker.hits.empty()) return density(most_m_, {}, worker);
   float radius_m = most_m_;
-  if (worker.hits.size() > most_photons_) {
-    radius_m = std::sqrt(worker.hits[most_photons_].distance2_m2);
-    worker.hits.resize(most_photons_);
-  }
+  map_->crossing(middle, n, most_photons_, radius_m, worker.hits);
+  if (!(radius_m > 0)) return {};
+  std::erase_if(worker.hits, [&](const CausticHit& hit) {
+    return hit.photon != CausticHit::kFlight && !free(hit.position, map_->photons().position[hit.photon]);
+  });
+  if (worker.hits.empty()) return density(radius_m, {}, worker);
   const Frame frame = make_frame(n);
   std::array<float, kDirections> reach_m;
   bool clear = true;

@@ -82,9 +82,43 @@ CausticMap::CausticMap(CausticPhotons photons) : photons_(std::move(photons)) {
   one_photon_lm_ = way_.empty() ? photons_.photon_lm : Rgb(sum / static_cast<double>(way_.size()));
 }
 
-void CausticMap::sort(std::vector<CausticHit>& hits) {
-  std::stable_sort(hits.begin(), hits.end(),
-                   [](const CausticHit& a, const CausticHit& b) { return a.distance2_m2 < b.distance2_m2; });
+namespace {
+
+bool nearer(const CausticHit& a, const CausticHit& b) { return a.distance2_m2 < b.distance2_m2; }
+
+}  // namespace
+
+void CausticMap::crossing(const Vec3& p, const Vec3& n, std::size_t most, float& radius_m,
+                          std::vector<CausticHit>& hits) const {
+  hits.clear();
+  const float radius2 = radius_m * radius_m;
+  const std::size_t landed = photons_.size();
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    const bool ends = i < landed;
+    const std::size_t flight = i - landed;
+    const Vec3& from = ends ? photons_.position[i] : photons_.flights.from[flight];
+    const Vec3& way = way_[i];
+    // Light travels against `way` where it ends at a photon.
+    const float facing = ends ? glm::dot(way, n) : -glm::dot(way, n);
+    if (!(facing > 0)) continue;
+    const float to_plane = glm::dot(p - from, n) * (ends ? 1.f : -1.f);
+    const float length = ends ? photons_.distance[i] : photons_.flights.length[flight];
+    if (!(to_plane >= 0) || !(to_plane <= length * facing)) continue;
+    const Vec3 at = from + (to_plane / facing) * way;
+    const Vec3 apart = at - p;
+    const float distance2 = glm::dot(apart, apart);
+    if (!(distance2 < radius2)) continue;
+    CausticHit hit{distance2, ends ? photons_.flux[i] : photons_.flights.flux[flight], at, ends ? way : -way};
+    if (ends) hit.photon = static_cast<std::uint32_t>(i);
+    hits.push_back(hit);
+  }
+  if (hits.size() > most) {
+    const auto next = hits.begin() + static_cast<std::ptrdiff_t>(most);
+    std::nth_element(hits.begin(), next, hits.end(), nearer);
+    radius_m = std::sqrt(next->distance2_m2);
+    hits.erase(next, hits.end());
+  }
+  std::stable_sort(hits.begin(), hits.end(), nearer);
 }
 
 void CausticMap::landed(const Vec3& p, const Vec3& n, std::size_t k, float above_m, float below_m,
@@ -103,7 +137,7 @@ void CausticMap::landed(const Vec3& p, const Vec3& n, std::size_t k, float above
     if (facing < kFacing || !(glm::dot(way_[row], n) > kLeastRise)) continue;
     hits.push_back({distance2, photons_.flux[row] * facing, photons_.position[row], way_[row]});
   }
-  sort(hits);
+  std::stable_sort(hits.begin(), hits.end(), nearer);
 }
 
 }  // namespace phos

@@ -43,6 +43,11 @@ struct CausticHit {
   Rgb flux_lm{0};          ///< per unit of the disc's area
   Vec3 position{0};        ///< m, where it lands or crosses
   Vec3 direction{0};       ///< unit, towards where it came from
+  /// Row of the photon in which a crossing stretch ends; the stretch is as long as the way since the last
+  /// event, and panes may have been passed on it: it is the photon's only if nothing is between the two.
+  /// kFlight: it ends in none.
+  std::uint32_t photon = kFlight;
+  static constexpr std::uint32_t kFlight = ~0u;
 };
 
 /// Neighbour search over them. Const and usable from any thread.
@@ -65,47 +70,15 @@ class CausticMap {
   void landed(const Vec3& p, const Vec3& n, std::size_t k, float above_m, float below_m, float& radius_m,
               Worker& worker, std::vector<CausticHit>& hits) const;
   /// Stretches that cross the disc of `radius_m` about p from its front, the side n faces, nearest first
-  /// (FORMULAS-glass G7.1: each counts whole, without a cosine). Asks `open(crossing, end)` of those that end
-  /// at a photon whether its last stretch begins before the crossing: is nothing, not even a pane, between
-  /// the two points. Passes over all photons.
-  template <class Open>
-  void crossing(const Vec3& p, const Vec3& n, float radius_m, const Open& open,
-                std::vector<CausticHit>& hits) const {
-    hits.clear();
-    each_crossing(p, n, radius_m, [&](const CausticHit& hit, const Vec3* end) {
-      if (!end || open(hit.position, *end)) hits.push_back(hit);
-    });
-    sort(hits);
-  }
+  /// (FORMULAS-glass G7.1: each counts whole, without a cosine). Of more than `most` the nearest, and
+  /// `radius_m` becomes the distance of the next. Passes over all photons.
+  void crossing(const Vec3& p, const Vec3& n, std::size_t most, float& radius_m,
+                std::vector<CausticHit>& hits) const;
 
   /// Cosine between normals from which two places count as one surface.
   static constexpr float kFacing = 0.9396926f;  // cos 20 deg
 
  private:
-  template <class Visit>
-  void each_crossing(const Vec3& p, const Vec3& n, float radius_m, const Visit& visit) const {
-    const std::size_t landed = photons_.size();
-    for (std::size_t i = 0; i < landed + photons_.flights.size(); ++i) {
-      const bool ends = i < landed;
-      const std::size_t f = i - landed;
-      const Vec3& from = ends ? photons_.position[i] : photons_.flights.from[f];
-      const Vec3& way = way_[i];
-      // Light travels against `way` where it ends at a photon: its front is where it comes from.
-      const float facing = ends ? glm::dot(way, n) : -glm::dot(way, n);
-      if (!(facing > 0)) continue;
-      const float to_plane = glm::dot(p - from, n) * (ends ? 1.f : -1.f);
-      const float length = ends ? photons_.distance[i] : photons_.flights.length[f];
-      if (!(to_plane >= 0) || !(to_plane <= length * facing)) continue;
-      const Vec3 at = from + (to_plane / facing) * way;
-      const Vec3 apart = at - p;
-      const float distance2 = glm::dot(apart, apart);
-      if (!(distance2 < radius_m * radius_m)) continue;
-      visit(CausticHit{distance2, ends ? photons_.flux[i] : photons_.flights.flux[f], at, ends ? way : -way},
-            ends ? &from : nullptr);
-    }
-  }
-  static void sort(std::vector<CausticHit>& hits);
-
   CausticPhotons photons_;
   std::vector<Vec3> way_;  // decoded directions: of photons, then of flights
   KdTree tree_;
