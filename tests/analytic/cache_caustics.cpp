@@ -68,11 +68,15 @@ TEST(Caustics, AreNotInRecordsBesidesThem) {
     for (const Check& c : MirrorBox::on_surfaces()) {
       const double truth = MirrorBox::image_lx(c.position, c.normal);
       const double by_hull = luminance(record_at(hull, c.position, c.normal).irradiance);
-      if (apart) EXPECT_EQ(by_hull, 0);
+      if (apart) {
+        EXPECT_EQ(by_hull, 0);
+      }
       sum += by_hull, sum_of_images += truth;
       EXPECT_EQ(record_at(gather, c.position, c.normal).irradiance, Rgb(0)) << "a lamp without area";
     }
-    if (!apart) EXPECT_NEAR(sum, sum_of_images, 0.2 * sum_of_images);
+    if (!apart) {
+      EXPECT_NEAR(sum, sum_of_images, 0.2 * sum_of_images);
+    }
   }
 }
 
