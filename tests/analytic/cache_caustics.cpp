@@ -28,7 +28,8 @@ void expect_image(const MirrorLight& of, const std::vector<Check>& places) {
   for (const Check& c : places) {
     const LocalDensity e = of.light.at_sensor(c.position, c.normal, worker);
     const double truth = MirrorBox::image_lx(c.position, c.normal), stated = luminance(e.stderr_lx());
-    EXPECT_NEAR(double(luminance(e.irradiance)), truth, 3 * stated) << c.position.x << ' ' << c.position.y << ' ' << c.position.z;
+    EXPECT_NEAR(double(luminance(e.irradiance)), truth, 3 * stated)
+        << c.position.x << ' ' << c.position.y << ' ' << c.position.z;
     EXPECT_LT(stated, 0.3 * truth + 1) << c.position.x << ' ' << c.position.y << ' ' << c.position.z;
   }
 }
@@ -128,18 +129,23 @@ TEST(Caustics, SensorsReadThemFromFiles) {
   const Read read = read_sensors_of(of.box.scene, sensors_at(places), {file}, {});
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Check& c = places[i];
-    const double truth = MirrorBox::image_lx(c.position, c.normal) + MirrorBox::straight_lx(c.position, c.normal);
+    const double truth =
+        MirrorBox::image_lx(c.position, c.normal) + MirrorBox::straight_lx(c.position, c.normal);
     const Reading& r = read.readings[i];
     EXPECT_NEAR(double(r.illuminance_lx), truth, 3 * double(r.stderr_lx) + 1e-3 * truth) << i;
-    EXPECT_NEAR(double(r.indirect_lx), MirrorBox::image_lx(c.position, c.normal), 3 * double(r.stderr_lx) + 1e-3) << i;
+    EXPECT_NEAR(double(r.indirect_lx), MirrorBox::image_lx(c.position, c.normal),
+                3 * double(r.stderr_lx) + 1e-3)
+        << i;
   }
   // Records of another kind are not read beside them.
-  const Container inside = even_cache("caustics_inside", of.box.scene, {{{2, 0, 2.5f}, {0, 1, 0}}}, 1, 1, "indirect");
+  const Container inside =
+      even_cache("caustics_inside", of.box.scene, {{{2, 0, 2.5f}, {0, 1, 0}}}, 1, 1, "indirect");
   const Container both[] = {file, inside};
   EXPECT_THROW(SensorCaches(both, nullptr), Error);
 }
 
-/// A glass ball in a black box lets all light through: what lands, straight and caustic, is what the lamp emits.
+/// A glass ball in a black box lets all light through: what lands, straight and caustic, is what the lamp
+/// emits.
 TEST(Caustics, AGlassBallKeepsTheLight) {
   Scene scene;
   begin_instance(scene, "box", add_lambert(scene, "black", 0));

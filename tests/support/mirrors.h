@@ -5,17 +5,24 @@
 
 namespace phos::test {
 
+/// With a normal map, though it is level: so it is no plane in which lamps have images, and photons tell of
+/// its light.
 inline std::uint32_t add_mirror(Scene& scene, const std::string& name, float reflectance) {
   Material m;
   m.name = name;
   m.model = Model::mirror;
   m.ks = Rgb(reflectance);
+  m.normal.texture = static_cast<std::int32_t>(scene.texture.size());
+  Texture level;
+  level.name = "level", level.width = level.height = 1;
+  level.texels = {Vec4(0.5f, 0.5f, 1, 1)};
+  scene.texture.push_back(level);
   scene.material.push_back(m);
   return static_cast<std::uint32_t>(scene.material.size() - 1);
 }
 
-/// A black box 0..4 x 0..3 x 0..5 m with a mirror at x = 4 and a point lamp. What does not come straight comes
-/// from the image of the lamp at 8 - x: E = rho I cos / d2, on any plane in the room.
+/// A black box 0..4 x 0..3 x 0..5 m with a mirror at x = 4 and a point lamp. What does not come straight
+/// comes from the image of the lamp at 8 - x: E = rho I cos / d2, on any plane in the room.
 struct MirrorBox {
   static constexpr float kReflectance = 0.8f, kIntensity_cd = 1000;
   inline static const Vec3 kLamp{1.5f, 2, 2.5f};
@@ -36,7 +43,8 @@ struct MirrorBox {
   static double from_lx(const Vec3& lamp, const Vec3& p, const Vec3& n) {
     const glm::dvec3 way = glm::dvec3(lamp) - glm::dvec3(p);
     const double d2 = glm::dot(way, way);
-    return static_cast<double>(kIntensity_cd) * std::max(0.0, glm::dot(way, glm::dvec3(n))) / (d2 * std::sqrt(d2));
+    return static_cast<double>(kIntensity_cd) * std::max(0.0, glm::dot(way, glm::dvec3(n))) /
+           (d2 * std::sqrt(d2));
   }
   static double image_lx(const Vec3& p, const Vec3& n) {
     return static_cast<double>(kReflectance) * from_lx({8 - kLamp.x, kLamp.y, kLamp.z}, p, n);
@@ -50,7 +58,7 @@ struct MirrorBox {
             {{3, 2.95f, 5}, {0, 0, -1}}, {{0.5f, 0, 4.5f}, {0, 1, 0}}};
   }
   static std::vector<Check> in_air() {
-    return {{{2, 1, 2.5f}, {1, 0, 0}},    {{2, 1, 2.5f}, {0, 1, 0}},     {{3, 1.5f, 1}, {0.6f, 0.8f, 0}},
+    return {{{2, 1, 2.5f}, {1, 0, 0}},    {{2, 1, 2.5f}, {0, 1, 0}},       {{3, 1.5f, 1}, {0.6f, 0.8f, 0}},
             {{0.5f, 2.5f, 4}, {1, 0, 0}}, {{0.1f, 0.1f, 0.1f}, {1, 0, 0}}, {{3.9f, 1, 2}, {1, 0, 0}}};
   }
 };
