@@ -299,8 +299,8 @@ Rgb standard_error(const Channels& c, double n) {
 
 /// With the bias, as far as it is more than its own noise.
 Rgb standard_error(const Pixel& p, double n) {
-  const Rgb noise = standard_error(p.total, n), bias = mean(p.bias.sum, n), doubt = standard_error(p.bias, n);
-  return glm::sqrt(noise * noise + glm::max(Rgb(0), bias * bias - doubt * doubt));
+  const DVec3 noise(standard_error(p.total, n)), bias(mean(p.bias.sum, n)), doubt(standard_error(p.bias, n));
+  return Rgb(glm::sqrt(noise * noise + glm::max(DVec3(0), bias * bias - doubt * doubt)));
 }
 
 void Renderer::add_light(Image& image) const {

@@ -246,7 +246,7 @@ TEST(Map, PhotonsThatCannotBeAreRefused) {
             std::string::npos);
   EXPECT_NE(refusal_of_map("distance", -1).find("photon 7 has a distance"), std::string::npos);
   EXPECT_NE(refusal_of_map("distance", std::nanf("")).find("photon 7 has a distance"), std::string::npos);
-  EXPECT_NE(refusal_of_map("path", 3).find("photon 7 has a path"), std::string::npos);
+  EXPECT_NE(refusal_of_map("path", 4).find("photon 7 has a path"), std::string::npos);
   EXPECT_EQ(refusal_of_map("distance", kInfinity), "");
   EXPECT_NE(refusal_of_map("position", 5).find("the kd-tree"), std::string::npos);
 }

@@ -5,18 +5,23 @@
 
 namespace phos::test {
 
-/// With a normal map, though it is level: so it is no plane in which lamps have images, and photons tell of
-/// its light.
+/// A level normal map: a mirror that has one is no plane in which lamps have images, so that rays and photons
+/// tell of its light.
+inline void hide_images(Scene& scene, Material& material) {
+  material.normal.texture = static_cast<std::int32_t>(scene.texture.size());
+  Texture level;
+  level.name = "level", level.width = level.height = 1;
+  level.texels = {Vec4(0.5f, 0.5f, 1, 1)};
+  scene.texture.push_back(level);
+}
+
+/// One without images.
 inline std::uint32_t add_mirror(Scene& scene, const std::string& name, float reflectance) {
   Material m;
   m.name = name;
   m.model = Model::mirror;
   m.ks = Rgb(reflectance);
-  m.normal.texture = static_cast<std::int32_t>(scene.texture.size());
-  Texture level;
-  level.name = "level", level.width = level.height = 1;
-  level.texels = {Vec4(0.5f, 0.5f, 1, 1)};
-  scene.texture.push_back(level);
+  hide_images(scene, m);
   scene.material.push_back(m);
   return static_cast<std::uint32_t>(scene.material.size() - 1);
 }

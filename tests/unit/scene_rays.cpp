@@ -93,7 +93,7 @@ TEST(Rays, PassThroughMaskedTexels) {
   scene.material.resize(2);
   scene.material[1].base_colour.texture = 0;
   add_quad(scene, 1, 1, 0.5f, true, 1);
-  for (const auto mode : {Material::Alpha::opaque, Material::Alpha::mask, Material::Alpha::blend}) {
+  for (const auto mode : {Material::Alpha::opaque, Material::Alpha::mask}) {
     scene.material[1].alpha_mode = mode;
     const RayScene rays(scene);
     SurfacePoint p;
@@ -105,6 +105,12 @@ TEST(Rays, PassThroughMaskedTexels) {
     EXPECT_EQ(p.instance, 1u);
     EXPECT_TRUE(rays.occluded({Vec3(0.5f, 0, 1), Vec3(0, 0, -1), 0, 0.8f}));
   }
+  // What is blended is there, in part: light passes straight through the rest of it.
+  scene.material[1].alpha_mode = Material::Alpha::blend;
+  const RayScene rays(scene);
+  EXPECT_EQ(rays.transmittance({Vec3(-0.5f, 0, 1), Vec3(0, 0, -1), 0, 0.8f}), Rgb(1));
+  EXPECT_EQ(rays.transmittance({Vec3(0.5f, 0, 1), Vec3(0, 0, -1), 0, 0.8f}), Rgb(0));
+  EXPECT_TRUE(rays.occluded({Vec3(-0.5f, 0, 1), Vec3(0, 0, -1), 0, 0.8f})) << "panes too";
 }
 
 TEST(Rays, InterpolateNormalsColoursAndCoordinates) {
