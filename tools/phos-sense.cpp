@@ -224,12 +224,12 @@ int main(int argc, char** argv) {
       readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
+    tool.counters().merge(report.counters);
+    tool.counters().require_allowed("non-finite sample", samples);
     if (exact)
       doubts.tell(tool);
     else
       leave_out_errors(tool, files, ways, caustics, sense, report, readings);
-    tool.counters().merge(report.counters);
-    tool.counters().require_allowed("non-finite sample", samples);
     const auto timer = tool.time("write");
     write_text(tool.output().empty() ? "/dev/stdout" : tool.output(),
                sensor_csv(sensors, readings, open_lx, scene.bands));

@@ -29,7 +29,7 @@ constexpr std::uint64_t kAimedItems = std::uint64_t{1} << 63;  // random streams
 constexpr std::uint32_t kMaxBounces = 65534;                   // the last that a random stream can number
 // Light that total reflection keeps in glass that absorbs nothing may stay for ever: from so many events on
 // it plays Russian roulette.
-constexpr std::uint32_t kLongInGlass = 1024;
+constexpr std::uint32_t kLongInGlass = 16384;
 constexpr float kLongSurvival = 0.98f;
 // Of a chunk: more, and nothing absorbs the light, whose photons would fill any memory.
 constexpr std::uint64_t kMostTooLong = 16;

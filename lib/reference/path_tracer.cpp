@@ -213,12 +213,13 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
   if (next.straight) {
     // No event of the path: densities and distances count from where the ray began.
     walk.throughput *= next.weight;
+    if (walk.scatterings == 0) walk.mirrored = true;  // the eye sees it through glass
     return positive(walk.throughput) && walk.events < kMostEvents ? Next::straight : Next::none;
   }
   if (!next.specular) walk.every_light = every_light;
   if (walk.scatterings == 0) {
-    walk.mirrored = next.specular;
-    if (!next.specular && bsdf.has_gloss()) {
+    walk.mirrored = walk.mirrored || next.specular;
+    if (!walk.mirrored && bsdf.has_gloss()) {
       const Rgb all = bsdf.evaluate(wo, next.direction), gloss = bsdf.evaluate_gloss(wo, next.direction);
       for (int c = 0; c < 3; ++c) walk.glossy[c] = all[c] > 0 ? gloss[c] / all[c] : 0;
     }

@@ -268,7 +268,11 @@ TEST(Light, CausticsKeepTheirEnergy) {
       std::uint64_t caustic = 0;
       for (const std::uint8_t path : photons.path)
         caustic += path == static_cast<std::uint8_t>(PhotonPath::caustic);
-      EXPECT_GT(caustic, model == Model::dielectric ? 500u : 5u) << "passing a pane is no event";
+      if (model == Model::dielectric) {
+        EXPECT_GT(caustic, 500u);
+      } else if (ior > 1.2f) {
+        EXPECT_GT(caustic, 5u) << "what it reflects: passing is no event";
+      }
       EXPECT_EQ(totals.escaped_flux_lm, Rgb(0)) << ior;
       const double lost =
           1 - static_cast<double>(totals.stored_flux_lm.y) / static_cast<double>(totals.emitted_flux_lm.y);
