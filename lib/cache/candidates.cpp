@@ -37,7 +37,8 @@ Candidates photon_candidates(const PhotonMap& photons, const Counted& counted, s
   order.reserve(keyed.size());
   for (const auto& [key, row] : keyed) order.push_back(row);
   const std::size_t count = order.size();
-  return {count, [&photons, counted, tried, order = std::move(order)](std::size_t i, std::vector<RecordSite>& sites) {
+  return {count, [&photons, counted, tried, order = std::move(order)](std::size_t i,
+                                                                      std::vector<RecordSite>& sites) {
             const std::uint32_t row = order[i];
             const std::uint32_t own = is_wanted(photons, row, counted) ? row : kNoPhoton;
             sites.push_back({photons.position[row], decode_octahedral(photons.normal[row]), row, own, tried});

@@ -36,7 +36,8 @@ Vec2 on_circle(int i, int n, float radius_m) {
 
 }  // namespace
 
-CausticLight::CausticLight(const RayScene& rays, std::shared_ptr<const CausticMap> map, std::size_t most_photons)
+CausticLight::CausticLight(const RayScene& rays, std::shared_ptr<const CausticMap> map,
+                           std::size_t most_photons)
     : rays_(rays),
       surface_(rays),
       map_(std::move(map)),
@@ -80,8 +81,7 @@ LocalDensity CausticLight::on_surface(const Vec3& p, const Vec3& n, Worker& work
   std::array<std::uint16_t, kProbes + 1> found{};  // of the first probes
   for (int i = 0; i < kProbes; ++i)
     found[static_cast<std::size_t>(i) + 1] = static_cast<std::uint16_t>(
-        found[static_cast<std::size_t>(i)] +
-        surface_.on_surface(place, probe_offset(i, kProbes, radius_m)));
+        found[static_cast<std::size_t>(i)] + surface_.on_surface(place, probe_offset(i, kProbes, radius_m)));
   if (place.parted)
     std::erase_if(worker.hits, [&](const CausticHit& hit) {
       const Vec3 local = place.frame.to_local(hit.position - p);
@@ -141,7 +141,8 @@ LocalDensity CausticLight::in_space(const Vec3& p, const Vec3& n, Worker& worker
   }
   if (clear) return density(radius_m, {}, worker);
   std::erase_if(worker.hits, [&](const CausticHit& hit) { return !free(middle, hit.position); });
-  return density(radius_m, [&](double r) { return seen_share(reach_m, r); }, worker);
+  return density(
+      radius_m, [&](double r) { return seen_share(reach_m, r); }, worker);
 }
 
 LocalDensity CausticLight::at_sensor(const Vec3& p, const Vec3& n, Worker& worker) const {
@@ -155,7 +156,8 @@ LocalDensity CausticLight::at_sensor(const Vec3& p, const Vec3& n, Worker& worke
   return in_space(p, n, worker);
 }
 
-Rgb CausticLight::gloss(const LocalDensity& estimate, const Bsdf& bsdf, const Vec3& wo, const Worker& worker) {
+Rgb CausticLight::gloss(const LocalDensity& estimate, const Bsdf& bsdf, const Vec3& wo,
+                        const Worker& worker) {
   Rgb sum(0);
   if (!(estimate.area_m2 > 0)) return sum;
   const float reach2 = estimate.radius_m * estimate.radius_m;

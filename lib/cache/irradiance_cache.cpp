@@ -123,8 +123,8 @@ constexpr const char *kCausticLight = "caustic_light", *kPhoton = "photon_lm";
 void require_same_caustics(bool apart, bool other_apart, const std::string& where) {
   if (apart == other_apart) return;
   throw Error(ExitCode::mismatch, where,
-              text("holds light of mirrors and glass ", apart ? "as photons" : "in its records", ", and another cache ",
-                   other_apart ? "as photons" : "in its records",
+              text("holds light of mirrors and glass ", apart ? "as photons" : "in its records",
+                   ", and another cache ", other_apart ? "as photons" : "in its records",
                    "; make all of them anew with this version, all from photons"));
 }
 
@@ -142,10 +142,12 @@ std::shared_ptr<const CausticPhotons> caustics_of(const Container& file) {
   auto photons = std::make_shared<CausticPhotons>(read_caustics(file));
   const Json* one = said->is_object() ? said->find(kPhoton) : nullptr;
   for (std::size_t c = 0; c < 3; ++c) {
-    const bool sound = one && one->is_array() && one->as_array().size() == 3 && one->as_array()[c].is_number();
+    const bool sound =
+        one && one->is_array() && one->as_array().size() == 3 && one->as_array()[c].is_number();
     if (!sound)
-      throw Error(ExitCode::bad_input, file.path(),
-                  text("its header does not rightly say \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
+      throw Error(
+          ExitCode::bad_input, file.path(),
+          text("its header does not rightly say \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
     photons->photon_lm[static_cast<int>(c)] = static_cast<float>(one->as_array()[c].as_number());
   }
   return photons;

@@ -1,6 +1,6 @@
-// Floating-point errors as crashes, in builds for hunting them (-DPHOS_TRAP_FPE=ON): an invalid operation (0/0,
-// inf - inf, an ordered comparison with NaN, a conversion to an integer that does not hold the value) or a
-// division by zero ends the process where it happens. In other builds nothing here does anything.
+// Floating-point errors as crashes, in builds for hunting them (-DPHOS_TRAP_FPE=ON): an invalid operation
+// (0/0, inf - inf, an ordered comparison with NaN, a conversion to an integer that does not hold the value)
+// or a division by zero ends the process where it happens. In other builds nothing here does anything.
 #pragma once
 
 #ifdef PHOS_TRAP_FPE
@@ -33,8 +33,8 @@ class FloatTraps {
   int before_;
 };
 
-/// No traps in this thread while it lives: around calls into packages which compute with infinities and NaN on
-/// purpose, and around tests of what such numbers do.
+/// No traps in this thread while it lives: around calls into packages which compute with infinities and NaN
+/// on purpose, and around tests of what such numbers do.
 class NoFloatTraps {
  public:
   NoFloatTraps() : before_(FloatTraps::set(0)) {}

@@ -61,7 +61,8 @@ CausticAim::Start CausticAim::start(std::size_t light, RandomStream& random) con
   // Uniform over the triangle (Turk 1990).
   const Vec2 uv = random.uniform2();
   const float root = std::sqrt(uv.x), b = root * (1 - uv.y), c = root * uv.y;
-  const Vec3 &p0 = scene.position[vertex[0]], &p1 = scene.position[vertex[1]], &p2 = scene.position[vertex[2]];
+  const Vec3 &p0 = scene.position[vertex[0]], &p1 = scene.position[vertex[1]],
+             &p2 = scene.position[vertex[2]];
   const Vec3 at = p0 + b * (p1 - p0) + c * (p2 - p0);
 
   const float u_light = random.uniform();
@@ -72,7 +73,8 @@ CausticAim::Start CausticAim::start(std::size_t light, RandomStream& random) con
   if (extended && !(sample.density > 0)) return start;
   const float cosine = std::fabs(glm::dot(geometric_normal(scene, start.triangle), sample.direction));
   EmittedPhoton& photon = start.photon;
-  photon.flux_lm = sample.value * static_cast<float>(static_cast<double>(cosine) * target.area_m2 / target.share) /
+  photon.flux_lm = sample.value *
+                   static_cast<float>(static_cast<double>(cosine) * target.area_m2 / target.share) /
                    (extended ? sample.density : 1.f);
   photon.from_infinity = !std::isfinite(sample.distance_m);
   photon.ray.direction = -sample.direction;

@@ -49,7 +49,8 @@ void add_columns(ContainerWriter& writer, const CausticPhotons& c) {
 CausticPhotons read_caustics(const Container& file) {
   CausticPhotons c;
   if (file.has("caustic_position")) {
-    const std::span<const Vec3> position = file.vectors("caustic_position"), flux = file.vectors("caustic_flux");
+    const std::span<const Vec3> position = file.vectors("caustic_position"),
+                                flux = file.vectors("caustic_flux");
     const std::uint64_t n = position.size();
     if (flux.size() != n)
       throw Error(ExitCode::bad_input, file.path(),
@@ -60,8 +61,9 @@ CausticPhotons read_caustics(const Container& file) {
     c.normal = copy(file.values<std::uint32_t>("caustic_normal", {n}));
     c.distance = copy(file.values<float>("caustic_distance", {n}));
     const std::vector<std::uint8_t> path(n, static_cast<std::uint8_t>(PhotonPath::caustic));
-    require_sound(PhotonColumns{c.position, c.flux, c.direction, c.normal, c.normal, c.distance, path, path, {}},
-                  file.path());
+    require_sound(
+        PhotonColumns{c.position, c.flux, c.direction, c.normal, c.normal, c.distance, path, path, {}},
+        file.path());
   }
   const FlightColumns flights = flights_of(file, kFlights);
   require_sound(flights, file.path());

@@ -47,7 +47,8 @@ LocalDensity local_density(std::span<const float> distance2_m2, std::span<const 
   std::array<Disc, kMostDiscs> disc;
   const auto most = static_cast<double>(radius_m);
   const int discs = std::min(
-      kMostDiscs, 2 + kSparse + static_cast<int>(std::ceil(std::log2(std::max<double>(1, static_cast<double>(n))))));
+      kMostDiscs,
+      2 + kSparse + static_cast<int>(std::ceil(std::log2(std::max<double>(1, static_cast<double>(n))))));
   const auto radius_of = [&](int j) { return most * std::pow(2, -0.5 * j); };
   // From the smallest outwards, each adds to the one before.
   std::size_t i = 0;

@@ -1,4 +1,5 @@
-// Irradiance from photons by their own local radius: where light is uneven beyond all measure, as in caustics.
+// Irradiance from photons by their own local radius: where light is uneven beyond all measure, as in
+// caustics.
 #pragma once
 
 #include <cstddef>

@@ -69,8 +69,8 @@ void PhotonTotals::settle() {
 }
 
 PhotonColumns columns_of(const Photons& p) {
-  return {p.position, p.flux, p.direction, p.normal,           p.source_normal,
-          p.distance, p.path, p.bounce,    columns_of(p.flights)};
+  return {p.position, p.flux,   p.direction,          p.normal, p.source_normal, p.distance,
+          p.path,     p.bounce, columns_of(p.flights)};
 }
 
 FlightColumns columns_of(const Flights& f) { return {f.from, f.flux, f.direction, f.length}; }

@@ -124,7 +124,8 @@ void PhotonMap::write(const std::string& path, Provenance provenance) const {
   provenance.extra["bounds_m"] = bounds_to_json(position);
   const std::vector<std::byte> tree = impl_->tree.save();
   ContainerWriter writer;
-  add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce, flights});
+  add_columns(writer,
+              {position, flux, direction, normal, source_normal, distance, this->path, bounce, flights});
   writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()},
                            {tree.size()}, "FLANN index");
   writer.write(path, provenance);

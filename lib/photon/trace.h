@@ -18,9 +18,9 @@ struct PhotonOptions {
   /// Paths aimed from the lamps at mirrors and glass, which then find all caustic light; below 0: as many as
   /// `paths`; 0: none, caustic light is what other paths find.
   std::int64_t caustic_paths = -1;
-  double minimum_share = 0.1;      ///< of an equal share of the paths, for each light
-  std::string isa;                 ///< RayOptions::isa
-  std::string shard;               ///< "i/n", or empty: all
+  double minimum_share = 0.1;  ///< of an equal share of the paths, for each light
+  std::string isa;             ///< RayOptions::isa
+  std::string shard;           ///< "i/n", or empty: all
 };
 void declare_options(Options& options, PhotonOptions& photons);
 
@@ -33,13 +33,14 @@ inline constexpr const char* kEscapedEvent = "photon left the scene";
 inline constexpr const char* kNonFiniteEvent = "photon with non-finite flux";
 inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended";
 
-/// Photons of the paths that options.shard names, in path order (each with the aimed paths that follow it): one at each hit on a surface that is not
-/// purely specular (black and glowing ones too), carrying the flux that arrives. A path ends when it escapes
-/// or by Russian roulette, which keeps the flux of the survivors about equal; there is no other limit but
-/// that of kTooLongEvent. Throws Error(numerical) once that happens to more than one path in a hundred.
-/// Unbiased: the expected flux stored on a piece of surface is its irradiance, all bounces, times its area.
-/// The same for any number of threads and any shards. Throws Error(bad_input) if nothing shines, unless there
-/// are no paths. `log`, if given, gets every ray that was traced.
+/// Photons of the paths that options.shard names, in path order (each with the aimed paths that follow it):
+/// one at each hit on a surface that is not purely specular (black and glowing ones too), carrying the flux
+/// that arrives. A path ends when it escapes or by Russian roulette, which keeps the flux of the survivors
+/// about equal; there is no other limit but that of kTooLongEvent. Throws Error(numerical) once that happens
+/// to more than one path in a hundred. Unbiased: the expected flux stored on a piece of surface is its
+/// irradiance, all bounces, times its area. The same for any number of threads and any shards. Throws
+/// Error(bad_input) if nothing shines, unless there are no paths. `log`, if given, gets every ray that was
+/// traced.
 Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::uint64_t seed,
                       PhotonTotals& totals, Counters& counters, std::vector<Ray>* log = nullptr);
 

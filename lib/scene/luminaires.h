@@ -38,7 +38,7 @@ struct Illumination {
   Vec3 position{0};   ///< of the sample on the light (unused where it is infinitely far)
   Vec3 normal{0};     ///< of an area light there, on the side seen from the point; 0 for others
   float distance_m = kInfinity;
-  float error_m = 0;  ///< rounding error at the far end, for RayScene::visible
+  float error_m = 0;           ///< rounding error at the far end, for RayScene::visible
   std::uint32_t triangle = 0;  ///< of an area light
   Rgb value{0};  ///< lights of an extent: luminance, cd/m2. Others: illuminance on a surface facing it, lx
   float density = 0;  ///< per sr; 0 for lights without an extent (value then needs only the cosine)
@@ -112,8 +112,8 @@ class Luminaires {
   /// hit `triangle` of an area light, seen at cos_light > 0. For multiple importance sampling.
   float density(std::size_t i, const Vec3& from, std::uint32_t triangle, float distance_m,
                 float cos_light) const;
-  /// Density per m2 (of one side) with which sample_point(i) chooses a point on `triangle`; 0 where it is none
-  /// of the light's.
+  /// Density per m2 (of one side) with which sample_point(i) chooses a point on `triangle`; 0 where it is
+  /// none of the light's.
   float area_density(std::size_t i, std::uint32_t triangle) const;
   /// density() for a ray that left the scene: with which the environment's light is sampled there, 0 without
   /// one.

@@ -92,8 +92,7 @@ std::shared_ptr<const CausticPhotons> caustics_of_run(const EstimateInputs& inpu
     caustics = std::make_shared<CausticPhotons>(caustics_of(*inputs.photons));
   else if (inputs.source)
     caustics = inputs.source->caustics;
-  if (earlier && !earlier->records.empty())
-    require_same_caustics(false, caustics != nullptr, earlier_path);
+  if (earlier && !earlier->records.empty()) require_same_caustics(false, caustics != nullptr, earlier_path);
   return caustics;
 }
 

@@ -45,7 +45,7 @@ CoarseLevel coarse_of_diffuse(const RayScene& rays, const EstimateInputs& inputs
 CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options,
                          std::uint64_t seed) {
   CoarseLevel level = coarse_of_diffuse(rays, inputs, options, seed);
-  if (inputs.radiance && options.gather_bounces != 1) 
+  if (inputs.radiance && options.gather_bounces != 1)
     level.add(gloss_cache(rays, inputs, options), rays, inputs.radiance->caustics);
   return level;
 }

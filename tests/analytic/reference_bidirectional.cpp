@@ -42,8 +42,8 @@ void check_points(const AnalyticScene& s, std::int64_t samples, double relative)
   const auto light = Lit(s.scene).measure(sensors, samples);
   for (std::size_t i = 0; i < light.size(); ++i) {
     EXPECT_EQ(light[i].rejected, 0u);
-    expect_within(light[i].illuminance_lx, light[i].illuminance_stderr_lx, s.checks[i].irradiance_lx, relative,
-                  text(s.name, ", sensor ", i));
+    expect_within(light[i].illuminance_lx, light[i].illuminance_stderr_lx, s.checks[i].irradiance_lx,
+                  relative, text(s.name, ", sensor ", i));
   }
 }
 
@@ -167,7 +167,8 @@ void add_ball(Scene& scene, const Vec3& centre, float radius_m) {
     scene.normal.push_back(glm::normalize(p));
   }
   for (const Triangle& t : sphere.scene.triangle) {
-    const Vec3 a = sphere.scene.position[t.v[0]], b = sphere.scene.position[t.v[1]], c = sphere.scene.position[t.v[2]];
+    const Vec3 a = sphere.scene.position[t.v[0]], b = sphere.scene.position[t.v[1]],
+               c = sphere.scene.position[t.v[2]];
     const bool outward = glm::dot(glm::cross(b - a, c - a), a + b + c) > 0;
     scene.triangle.push_back({{first + t.v[0], first + t.v[outward ? 1 : 2], first + t.v[outward ? 2 : 1]}});
     scene.triangle_instance.push_back(static_cast<std::uint32_t>(scene.instance.size() - 1));
@@ -175,8 +176,8 @@ void add_ball(Scene& scene, const Vec3& centre, float radius_m) {
   }
 }
 
-/// A ball of glass without absorption in a black box: what the lamp sends all comes to the walls, a part of it
-/// as a caustic.
+/// A ball of glass without absorption in a black box: what the lamp sends all comes to the walls, a part of
+/// it as a caustic.
 TEST(BidirectionalAnalytic, LightThroughGlassBallIsAllThere) {
   Scene scene;
   const Vec3 size(1, 1, 1);
@@ -197,7 +198,8 @@ TEST(BidirectionalAnalytic, LightThroughGlassBallIsAllThere) {
   std::vector<SensorPoint> near = over_box(size, 4000, {2}), about = over_box(size, 300, {2});
   std::erase_if(near, [&](const SensorPoint& s) { return !below(s); });
   std::erase_if(about, below);
-  const double flux = lumens(near, 0.09) + lumens(about, 0.91) + lumens(over_box(size, 200, {0, 1, 3, 4, 5}), 5);
+  const double flux =
+      lumens(near, 0.09) + lumens(about, 0.91) + lumens(over_box(size, 200, {0, 1, 3, 4, 5}), 5);
   EXPECT_NEAR(flux / 100, 1, 0.03);
 }
 

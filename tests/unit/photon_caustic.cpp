@@ -36,7 +36,8 @@ struct Plane {
         RandomStream random(seed, Stage::test, static_cast<std::uint64_t>(i * kSide + j));
         const double cell = 2.0 / kSide, x = -1 + (i + 0.5) * cell, z = -1 + (j + 0.5) * cell;
         for (int n = poisson(lx(x, z) * per_m2 * cell * cell, random); n > 0; --n)
-          place.emplace_back(x + (random.uniform_double() - 0.5) * cell, z + (random.uniform_double() - 0.5) * cell);
+          place.emplace_back(x + (random.uniform_double() - 0.5) * cell,
+                             z + (random.uniform_double() - 0.5) * cell);
       }
   }
 
@@ -87,15 +88,19 @@ TEST(LocalDensity, AnEdgeIsNotSmeared) {
   const Plane plane(5000, 3, edge);
   double dark = 0;
   for (int i = 0; i < 50; ++i)
-    dark += static_cast<double>(luminance(plane.at({-0.1f, -0.4f + 0.016f * static_cast<float>(i)}, 0.5f, 512).irradiance)) / 50;
+    dark += static_cast<double>(
+                luminance(plane.at({-0.1f, -0.4f + 0.016f * static_cast<float>(i)}, 0.5f, 512).irradiance)) /
+            50;
   EXPECT_LT(dark, 0.1);
 }
 
 TEST(LocalDensity, AFoldAndAFocusKeepTheirLight) {
-  const Calibrated fold = calibrate([](double x, double) { return x > 0 ? 0.5 / std::sqrt(std::max(x, 1e-3)) : 0; }, 300);
+  const Calibrated fold =
+      calibrate([](double x, double) { return x > 0 ? 0.5 / std::sqrt(std::max(x, 1e-3)) : 0; }, 300);
   EXPECT_NEAR(fold.value, fold.truth, 0.15 * fold.truth);
   EXPECT_GT(fold.within, 0.88);
-  const Calibrated focus = calibrate([](double x, double z) { return 0.3 / std::max(std::hypot(x, z), 1e-3); }, 300);
+  const Calibrated focus =
+      calibrate([](double x, double z) { return 0.3 / std::max(std::hypot(x, z), 1e-3); }, 300);
   EXPECT_NEAR(focus.value, focus.truth, 0.15 * focus.truth);
   EXPECT_GT(focus.within, 0.88);
 }
@@ -152,11 +157,13 @@ TEST(CausticMap, CrossingsCountWithoutACosine) {
   EXPECT_EQ(radius, 0.2f);
   double sum = 0, squares = 0;
   for (const CausticHit& hit : hits)
-    sum += static_cast<double>(hit.flux_lm.x), squares += static_cast<double>(hit.flux_lm.x) * static_cast<double>(hit.flux_lm.x);
+    sum += static_cast<double>(hit.flux_lm.x),
+        squares += static_cast<double>(hit.flux_lm.x) * static_cast<double>(hit.flux_lm.x);
   const double area = kPiD * 0.04;
   EXPECT_NEAR(sum / area, kPiD, 3 * std::sqrt(squares) / area);
-  EXPECT_TRUE(std::is_sorted(hits.begin(), hits.end(),
-                             [](const CausticHit& a, const CausticHit& b) { return a.distance2_m2 < b.distance2_m2; }));
+  EXPECT_TRUE(std::is_sorted(hits.begin(), hits.end(), [](const CausticHit& a, const CausticHit& b) {
+    return a.distance2_m2 < b.distance2_m2;
+  }));
   const std::size_t all = hits.size();
   const float tenth = std::sqrt(hits[10].distance2_m2);
   map.crossing({0.1f, 0.2f, -0.1f}, glm::normalize(Vec3(1, 2, 3)), 10, radius, hits);
@@ -209,7 +216,9 @@ TEST(Flights, LightThatAMirrorSendsToTheSkyIsThere) {
 TEST(Flights, WhatLandsIsAPhoton) {
   const Photons photons = traced(MirrorBox().scene, 20'000);
   EXPECT_EQ(photons.flights.size(), 0u);
-  EXPECT_GT(std::count(photons.path.begin(), photons.path.end(), static_cast<std::uint8_t>(PhotonPath::caustic)), 100);
+  EXPECT_GT(
+      std::count(photons.path.begin(), photons.path.end(), static_cast<std::uint8_t>(PhotonPath::caustic)),
+      100);
 }
 
 TEST(Flights, ShardsHoldThemAll) {
@@ -235,7 +244,8 @@ TEST(AimedPaths, BringTheLightOfOthers) {
     for (std::size_t i = 0; i < photons.size(); ++i) {
       if (!is_caustic(static_cast<PhotonPath>(photons.path[i]))) continue;
       const auto f = static_cast<double>(photons.flux[i].x);
-      flux[aimed] += f, moment[aimed] += f * static_cast<double>(glm::dot(photons.position[i], photons.position[i]));
+      flux[aimed] += f,
+          moment[aimed] += f * static_cast<double>(glm::dot(photons.position[i], photons.position[i]));
     }
   }
   EXPECT_NEAR(flux[1], flux[0], 0.02 * flux[0]);

@@ -13,11 +13,12 @@ using namespace phos;
 /// A path from a lamp (vertex 0) to a sensor (the last), with everything that its strategies need.
 struct RandomPath {
   std::size_t n;
-  std::vector<double> onward, back;  // densities per sr at vertex i, towards i+1 and towards i-1; 1 of mirrors
-  std::vector<double> g, g_back;     // of the edge to i+1: at i+1, and at i
+  std::vector<double> onward,
+      back;                       // densities per sr at vertex i, towards i+1 and towards i-1; 1 of mirrors
+  std::vector<double> g, g_back;  // of the edge to i+1: at i+1, and at i
   std::vector<bool> mirror, sharp;
-  double f0;          // of the lamp's place
-  bool hit;           // the lamp can be hit
+  double f0;  // of the lamp's place
+  bool hit;   // the lamp can be hit
   double eta, eta_sensor, light_paths;
 
   double light(std::size_t i) const { return i == 0 ? f0 : onward[i - 1] * g[i - 1]; }
@@ -105,8 +106,8 @@ TEST(ReferenceWeights, AreThoseOfAllDensitiesWrittenOut) {
       weight.push_back(balance(light[i].instead_of_merging(p.merge(i), p.back[i]),
                                eye[i].instead_of_merging(p.merge(i), p.onward[i])));
       if (i + 1 == p.n && p.connects(i))  // connected to the sensor by more than one path
-        weight.back() = balance(
-            (p.light_paths * light[i].connect + p.back[i] * light[i].before) / p.merge(i), 0);
+        weight.back() =
+            balance((p.light_paths * light[i].connect + p.back[i] * light[i].before) / p.merge(i), 0);
     }
     double all = 0, weights = 0;
     for (const double d : density) all += d;

@@ -79,7 +79,8 @@ TEST(SplatWeights, AloneIsItsOwn) {
 
 #ifdef PHOS_SPLAT_AVX2
 TEST(SplatWeights, BothKernelsGiveTheSameBits) {
-  if (best_splat_kernels().discs == splat_tile_plain) GTEST_SKIP() << "this machine has only the plain kernel";
+  if (best_splat_kernels().discs == splat_tile_plain)
+    GTEST_SKIP() << "this machine has only the plain kernel";
   const Scene scene = test::cornell();
   const RayScene rays(scene);
   std::vector<IrradianceRecord> records = test::records_in_view(rays, scene.camera[0], 20, 0.5f, 3);
