@@ -15,7 +15,7 @@ bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const Plan
     return true;
   }
   constexpr double kAnyNumber = std::numeric_limits<double>::max();
-  const std::vector<LightWay> missed = unsampled(ways, Sampler::gathering, kAnyNumber);
+  const std::vector<LightWay> missed = unsampled(ways, Sampler::gathering_beside_caustics, kAnyNumber);
   if (missed.empty()) {
     needs.unwanted.push_back({kWhat, "gathered rays are less noisy, and find all light that matters"});
     return false;
