@@ -7,8 +7,7 @@
 #include "image/image.h"
 #include "image/image_provenance.h"
 #include "image/without_errors.h"
-#include "reference/bidirectional_points.h"
-#include "reference/point_doubts.h"
+#include "reference/measure_points.h"
 #include "reference/render.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -34,11 +33,11 @@ std::vector<LightWay> ways_of(const RayScene& rays, const Luminaires& luminaires
   return direct_alone(path) ? std::vector<LightWay>() : light_ways(rays, luminaires);
 }
 
-/// The method, with "auto" resolved.
-bool from_both_ends(const ReferenceOptions& reference, const Scene& scene, const std::vector<LightWay>& ways,
-                    double samples) {
-  if (reference.method == ReferenceMethod::automatic && direct_alone(reference.path)) return false;
-  return is_bidirectional(reference.method, scene, ways, samples);
+/// Light that comes straight, and --adaptive, which shares out paths from the eye, need no other paths.
+ReferenceMethod method_of(const ReferenceOptions& reference) {
+  const bool from_eye = direct_alone(reference.path) || reference.adaptive;
+  return reference.method == ReferenceMethod::automatic && from_eye ? ReferenceMethod::path
+                                                                    : reference.method;
 }
 
 /// Warns of what the picture's error does not hold. Is it to be stated?
@@ -58,30 +57,13 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   PointOptions options;
   options.samples = reference.samples, options.relative_error = reference.error;
   options.seed = reference.seed, options.path = reference.path;
-  const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
-  const bool both_ends =
-      from_both_ends(reference, rays.scene(), ways, static_cast<double>(reference.samples));
-  PointDoubts doubts(both_ends ? std::vector<LightWay>() : ways, Sampler::path_tracing);
-  std::vector<PointIrradiance> light;
-  if (both_ends) {
-    light = estimate_bidirectionally(rays, luminaires, points, options);
-  } else {
-    Progress progress("reference", points.size(), "points");
-    doubts.prepare(options);
-    for (const SensorPoint& point : points) {
-      light.push_back(estimate_irradiance(rays, luminaires, point.position, point.normal, options));
-      doubts.judge(light.back());
-      ++options.item;
-      progress.advance();
-    }
-  }
-  std::uint64_t samples = 0, rejected = 0;
-  for (const PointIrradiance& e : light) samples += e.samples, rejected += e.rejected;
-  tool.stat("samples", samples);
-  if (rejected > 0) tool.counters().count("non-finite sample", rejected);
-  tool.counters().require_allowed("non-finite sample", samples);
-  doubts.tell(tool);
-  write_text(tool, sensor_csv(points, light, rays.scene().origin_m));
+  const MeasuredPoints measured = measure_points(rays, luminaires, points, method_of(reference),
+                                                 ways_of(rays, luminaires, reference.path), options);
+  tool.stat("samples", measured.samples);
+  if (measured.rejected > 0) tool.counters().count("non-finite sample", measured.rejected);
+  tool.counters().require_allowed("non-finite sample", measured.samples);
+  measured.doubts.tell(tool);
+  write_text(tool, sensor_csv(points, measured.light, rays.scene().origin_m));
 }
 
 std::string error_text(double error) {
@@ -94,7 +76,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   const std::vector<LightWay> ways = ways_of(rays, luminaires, reference.path);
   const double pixels = static_cast<double>(reference.width) * static_cast<double>(reference.height);
   const bool both_ends =
-      from_both_ends(reference, scene, ways, pixels * static_cast<double>(reference.samples));
+      is_bidirectional(method_of(reference), scene, ways, pixels * static_cast<double>(reference.samples));
   reference.method = both_ends ? ReferenceMethod::bidirectional : ReferenceMethod::path;
   ReferencePicture picture = [&] {
     const auto timer = tool.time("trace");
@@ -122,17 +104,21 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("phos-reference", "renders a scene by path tracing, to judge other stages by",
-            "Unbiased path tracing with next-event estimation, multiple importance sampling and Russian "
-            "roulette; it "
-            "shares no estimator with the caches. Writes an OpenEXR image with the layers beauty (R G B), "
-            "emission, "
-            "direct, indirect and, where there is any, glossy and specular in cd/m2, their standard errors "
-            "stderr and "
-            "indirect_stderr, albedo, normal, position and Z; or, with --points, a CSV of illuminance (lx) "
-            "with its "
-            "standard error.",
-            2, Tool::Output::optional);
+  Tool tool(
+      "phos-reference", "renders a scene by path tracing, to judge other stages by",
+      "Unbiased path tracing with next-event estimation, multiple importance sampling and Russian "
+      "roulette; it "
+      "shares no estimator with the caches. --method bidirectional follows paths from the lamps too, and "
+      "so finds light that comes by mirrors, glass and sharp gloss; it blurs what nothing else can make, "
+      "and the estimated bias is part of the standard error. Writes an OpenEXR image with the layers beauty "
+      "(R G B), "
+      "emission, "
+      "direct, indirect and, where there is any, glossy and specular in cd/m2, their standard errors "
+      "stderr and "
+      "indirect_stderr, albedo, normal, position and Z; or, with --points, a CSV of illuminance (lx) "
+      "with its "
+      "standard error.",
+      2, Tool::Output::optional);
   tool.takes_strict();
   Options& options = tool.options();
   std::string scene_path, points_path;
@@ -175,6 +161,9 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    if (reference.adaptive && reference.method == ReferenceMethod::bidirectional)
+      throw Error(ExitCode::usage, "--adaptive",
+                  "shares out paths from the eye alone; leave it out, or give --method path");
     std::vector<SensorPoint> points;
     if (!points_path.empty())
       points = parse_sensor_points(read_text(points_path), points_path, scene.origin_m);

@@ -8,9 +8,7 @@
 #include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "file/tool.h"
-#include "reference/bidirectional_points.h"
-#include "reference/method.h"
-#include "reference/point_doubts.h"
+#include "reference/measure_points.h"
 #include "scene/daylight.h"
 #include "scene/film.h"
 #include "scene/load.h"
@@ -75,6 +73,23 @@ void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std
   for (std::size_t i = 0; i < readings.size(); ++i)
     if (report.is_covered(i) ? by_files : !missed.empty())
       readings[i].stderr_lx = std::numeric_limits<float>::quiet_NaN();
+}
+
+/// All light without caches.
+std::vector<Reading> read_exactly(Tool& tool, const Sensors& sensors, const RayScene& rays,
+                                  const Luminaires& lights, ReferenceMethod method,
+                                  const std::vector<LightWay>& ways, const PointOptions& options,
+                                  const SensorOptions& sense, SensorReport& report) {
+  std::vector<SensorPoint> points;
+  for (const SurfaceSample& p : sensors.points) points.push_back({p.position, p.normal});
+  const MeasuredPoints measured = measure_points(rays, lights, points, method, ways, options);
+  if (measured.rejected > 0) tool.counters().count("non-finite sample", measured.rejected);
+  tool.counters().require_allowed("non-finite sample", measured.samples);
+  measured.doubts.tell(tool);
+  std::vector<Whole> whole;
+  for (const PointIrradiance& e : measured.light)
+    whole.push_back({e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx});
+  return read_light_exactly(sensors, rays, lights, whole, sense, report);
 }
 
 void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::span<const Reading> readings,
@@ -185,31 +200,7 @@ int main(int argc, char** argv) {
     if (sensors.points.empty()) tool.warn("there is no sensor: the output is a header alone");
     sense.seed = exactly.seed = tool.seed();
     SensorReport report;
-    std::uint64_t samples = 0;
     const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
-    std::vector<PointIrradiance> both_ends;
-    if (exact && !sense.direct_only &&
-        is_bidirectional(method, scene, ways, static_cast<double>(exactly.samples))) {
-      const auto timer = tool.time("light paths");
-      std::vector<SensorPoint> points;
-      for (const auto& p : sensors.points) points.push_back({p.position, p.normal});
-      both_ends = estimate_bidirectionally(rays, lights, points, exactly);
-    }
-    PointDoubts doubts(both_ends.empty() ? ways : std::vector<LightWay>(), Sampler::path_tracing);
-    doubts.prepare(exactly);
-    const auto whole = [&](std::size_t i) {
-      exactly.item = i;
-      PointIrradiance e;
-      if (!both_ends.empty()) {
-        e = both_ends[i];
-      } else {
-        e = estimate_irradiance(rays, lights, sensors.points[i].position, sensors.points[i].normal, exactly);
-        doubts.judge(e);
-      }
-      if (e.rejected > 0) report.counters.count("non-finite sample", e.rejected);
-      samples += e.samples;
-      return Whole{e.illuminance_lx, e.illuminance_stderr_lx, e.irradiance_lx};
-    };
     std::vector<Reading> readings;
     bool caustics = false;
     {
@@ -221,15 +212,11 @@ int main(int argc, char** argv) {
                     text("of 0 leaves direct light to the cache, and ", inputs.caches[0],
                          " holds indirect light alone; make it with --direct cached"));
       caustics = caches.caustics() != nullptr;
-      readings = exact ? read_light_exactly(sensors, rays, lights, whole, sense, report)
+      readings = exact ? read_exactly(tool, sensors, rays, lights, method, ways, exactly, sense, report)
                        : read_light(sensors, rays, lights, caches, sense, report);
     }
     tool.counters().merge(report.counters);
-    tool.counters().require_allowed("non-finite sample", samples);
-    if (exact)
-      doubts.tell(tool);
-    else
-      leave_out_errors(tool, files, ways, caustics, sense, report, readings);
+    if (!exact) leave_out_errors(tool, files, ways, caustics, sense, report, readings);
     const auto timer = tool.time("write");
     write_text(tool.output().empty() ? "/dev/stdout" : tool.output(),
                sensor_csv(sensors, readings, open_lx, scene.bands));

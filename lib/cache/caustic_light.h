@@ -28,10 +28,10 @@ class CausticLight {
   /// Irradiance on the surface through p that faces n (unit): photons that landed about it, over the part of
   /// the disc that is surface in sight of p.
   LocalDensity on_surface(const Vec3& p, const Vec3& n, Worker& worker) const;
-  /// Irradiance on a plane in free space: photons that cross a virtual disc, of which what walls hide from p
-  /// does not count. Passes over all photons.
+  /// Irradiance on a plane in free space: photons that cross a virtual disc, over the part of the disc that
+  /// no wall hides from p. Passes over all photons.
   LocalDensity in_space(const Vec3& p, const Vec3& n, Worker& worker) const;
-  /// Of a sensor: on_surface() where a surface that photons are stored on lies at p and faces n, else
+  /// Irradiance at a sensor: on_surface() where a surface that stores photons lies at p and faces n, else
   /// in_space().
   LocalDensity at_sensor(const Vec3& p, const Vec3& n, Worker& worker) const;
 

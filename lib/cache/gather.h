@@ -26,6 +26,9 @@ struct GatherSource {
       nullptr;  ///< estimates indirect light where neither has a record (counted); null: dark
   bool holds_direct =
       false;  ///< the cache holds light straight from the lamps too: none is sampled where rays land
+  /// The cache and `fallback` lack the light that lamps send by flat mirrors alone, which is direct light at
+  /// their records (scene/mirror_images.h): it is sampled where rays land.
+  bool lacks_images = false;
   /// Radiance records: what glossy lobes that they serve show but for the lamps; null: none. Where no record
   /// is near enough (counted), gloss is followed as elsewhere.
   const GlossCache* gloss = nullptr;
@@ -55,8 +58,9 @@ struct GatherSource {
 /// diffuse place ends a path by what the source knows, gloss too where radiance records tell of it, and
 /// mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place: caustics
 /// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
-/// their caustics are in the source alone. With RecordOptions::caustics_apart, what mirrors and glass alone
-/// show the record of lamps does not count: it is caustic light, which photons tell of
+/// where flat ones show their images to a place that rays land on, those are sampled if the source lacks
+/// them; their other caustics are in the source alone. With RecordOptions::caustics_apart, what mirrors and
+/// glass alone show the record of lamps does not count: it is caustic light, which photons tell of
 /// (cache/caustic_light.h). Without, lamps of an extent count there, and light of others is missing. A
 /// diffuse place nearer than half the radius of the source's zones there is not read but followed by one more
 /// ray, cosine-weighted (Jensen 1996, of corners), eight times at most: zones tell little of what lies within

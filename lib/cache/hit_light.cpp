@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cache/gather.h"
+#include "cache/image_sampler.h"
 #include "cache/lamp_sampler.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -117,6 +118,7 @@ struct HitLight::Impl {
   std::uint64_t seed;
   std::int64_t bounces;
   LampSampler lamps;
+  ImageSampler images;
   bool caustics_apart;
   bool follow_near;  // what is read near by is followed instead
   /// What is known of a material before any point of it.
@@ -137,6 +139,7 @@ struct HitLight::Impl {
         seed(own_seed),
         bounces(options.gather_bounces),
         lamps(r, l),
+        images(r, l),
         caustics_apart(options.caustics_apart) {
     for (const Material& m : scene.material) {
       const bool straight = passes_straight(scene, m);
@@ -154,6 +157,10 @@ struct HitLight::Impl {
 
   bool reads_cache(std::int64_t bounces_left) const {
     return bounces_left != 1 && (source.indirect || source.fallback);
+  }
+  /// Is the light of lamps' images, at a place so many reflections from the record, in no source there?
+  bool lacks_images(std::int64_t bounces_left) const {
+    return !images.empty() && (reads_cache(bounces_left) ? source.lacks_images : bounces_left != 1);
   }
   Rgb arriving(const ArrivingLight& light) const {
     return light.certain ? Rgb(1) : rays.transmittance(light.ray);
@@ -183,6 +190,8 @@ struct HitLight::Impl {
   Rgb beyond(const SurfacePoint& point, const Step& step) const;
   Rgb gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, float gloss_probability,
                     RandomStream& random) const;
+  Rgb from_images(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, std::int64_t bounces_left,
+                  bool gloss_known, RandomStream& random) const;
 };
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
@@ -283,7 +292,12 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const Vec3& wo, cons
     }
     worker.other_light.push_back(other);
   }
-  return cached ? indirect(point, wo, f, ray, 0, worker) : Rgb(0);
+  Rgb rest(0);
+  if (lacks_images(bounces)) {
+    RandomStream random(seed, Stage::mirror_image, ray.key());
+    rest = f * images.sample(point, bounces - 1, random).lux;
+  }
+  return cached ? rest + indirect(point, wo, f, ray, 0, worker) : rest;
 }
 
 /// The next ray of a walk over gloss, mirrors and glass.
@@ -372,6 +386,22 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
   return arrives * f * light.value * (cosine / density);
 }
 
+/// One sample of what lamps send by flat mirrors, through the lobes whose light from there nothing else
+/// tells: the diffuse one where the source lacks it; the glossy ones of lamps without area, which no walk
+/// finds, and of all lamps where radiance records know the rest of their light.
+Rgb HitLight::Impl::from_images(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                                std::int64_t bounces_left, bool gloss_known, RandomStream& random) const {
+  if (images.empty()) return Rgb(0);
+  const bool diffuse = bsdf.has_diffuse() && lacks_images(bounces_left);
+  if (!diffuse && !bsdf.has_gloss()) return Rgb(0);
+  const ImageSampler::Sample light = images.sample(point, bounces_left - 1, random);
+  if (!positive(light.lux)) return Rgb(0);
+  Rgb f(0);
+  if (diffuse) f += bsdf.diffuse_reflectance() / kPi;
+  if (bsdf.has_gloss() && (gloss_known || !light.extended)) f += bsdf.evaluate_gloss(wo, light.direction);
+  return f * light.lux;
+}
+
 /// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
 /// What the start's straight line sees of lamps is left out. Every other light is counted once: unbiased but
 /// for the cache.
@@ -388,9 +418,9 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
   // The last event: where the way began, and how it was chosen. None yet: the record's own.
   std::optional<SurfacePoint> from;
   Step last;
-  // Flat mirrors since the record, from which direct light sees the images of lamps in them.
+  // Flat mirrors since the record, or a place that was followed: lamps have images in them there.
   std::vector<std::pair<std::uint32_t, bool>> mirrors;
-  bool images = followed == 0 && !lights.mirrors().empty();
+  bool by_images = !images.empty() && (followed == 0 || source.lacks_images);
   const auto has_image = [&] {
     std::int32_t chain = MirrorPlanes::kNone;
     for (auto m = mirrors.rbegin(); m != mirrors.rend(); ++m) {
@@ -422,6 +452,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
       }
     }
     if (bsdf.has_gloss()) sum += throughput * gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
+    sum += throughput * from_images(point, bsdf, wo, left, gloss.has_value(), random);
     if (!step.taken) break;
 
     throughput *= step.weight;
@@ -431,8 +462,8 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
       throughput /= survival;
     }
     if (!step.straight) {
-      images = images && step.mirror;
-      if (images) mirrors.emplace_back(point.triangle, point.front);
+      by_images = by_images && step.mirror;
+      if (by_images) mirrors.emplace_back(point.triangle, point.front);
       from = point, last = step;
       mirrors_alone = mirrors_alone && !(step.density > 0);
       way = Way(rays, {point.leave(step.direction), step.direction});
@@ -442,7 +473,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     if (!way.next(next)) {
       if (from && (count_all || !mirrors_alone)) {
         sum += throughput * beyond(*from, last);
-        if (images && has_image()) sum -= throughput * sun_luminance(scene, -wo);
+        if (by_images && has_image()) sum -= throughput * sun_luminance(scene, -wo);
       }
       if (landing && !from) landing->distance_m = kInfinity, landing->normal = wo;
       break;
@@ -450,7 +481,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     const bool counts = from && (count_all || !mirrors_alone);
     const Rgb emitted = counts ? emitted_luminance(scene, next, wo) : Rgb(0);
     const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
-    if (lamp >= 0 && !(images && has_image())) {
+    if (lamp >= 0 && !(by_images && has_image())) {
       float weight = 1;
       if (last.density > 0) {
         const auto i = static_cast<std::size_t>(lamp);

@@ -15,9 +15,9 @@ namespace phos {
 
 /// Photons that records count.
 struct Counted {
-  Quantity paths = Quantity::indirect;  ///< direct light is computed apart, or is in them
-  bool caustics = true;                 ///< caustic light likewise
-  bool mirrored = true;  ///< light of images in flat mirrors likewise, but where direct light is in
+  Quantity paths = Quantity::indirect;  ///< all: direct light counts, with light of images in flat mirrors
+  bool caustics = true;                 ///< caustic light counts
+  bool mirrored = true;                 ///< light of images in flat mirrors counts
   Counted(Quantity paths_counted) : paths(paths_counted) {}
   explicit Counted(const RecordOptions& options)
       : paths(options.paths), caustics(!options.caustics_apart), mirrored(!options.images_apart) {}

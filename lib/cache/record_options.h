@@ -79,8 +79,8 @@ struct RecordOptions {
   /// nor lamps that rays from the record meet after mirrors and glass count (FORMULAS-glass G7.5). No option:
   /// so where caustic photons travel with the cache, to be read at each point (cache/caustic_light.h).
   bool caustics_apart = false;
-  /// Likewise light of lamps' images in flat mirrors, which is direct light (scene/mirror_images.h): not
-  /// where direct light is in the records. No option: false only where gathered rays land.
+  /// Light of lamps' images in flat mirrors, which is direct light (scene/mirror_images.h), is not in records
+  /// of indirect light. No option: false only for records that gathered rays read where they land.
   bool images_apart = true;
 
   /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size; footprints

@@ -284,18 +284,14 @@ std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, co
 }
 
 std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
-                                        const Luminaires& lights,
-                                        const std::function<Whole(std::size_t sensor)>& estimate,
+                                        const Luminaires& lights, std::span<const Whole> whole,
                                         const SensorOptions& options, SensorReport& report) {
   const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
+  PHOS_CHECK(whole.size() == direct.size(), whole.size(), " estimates for ", direct.size(), " sensors");
   std::vector<Reading> readings(direct.size());
-  Progress progress("exact light", direct.size(), "sensors");
-  for (std::size_t i = 0; i < direct.size(); ++i) {
-    const Whole whole = estimate(i);
-    readings[i] = apart(static_cast<float>(whole.illuminance_lx), whole.components_lx,
-                        static_cast<float>(whole.stderr_lx), &direct[i]);
-    progress.advance();
-  }
+  for (std::size_t i = 0; i < direct.size(); ++i)
+    readings[i] = apart(static_cast<float>(whole[i].illuminance_lx), whole[i].components_lx,
+                        static_cast<float>(whole[i].stderr_lx), &direct[i]);
   return readings;
 }
 

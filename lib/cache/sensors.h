@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -111,11 +110,9 @@ struct Whole {
   double illuminance_lx = 0, stderr_lx = 0;
   Rgb components_lx{0};  ///< whose luminance() is illuminance_lx
 };
-/// The same from an exact estimate of the whole light in place of caches; direct light as above. Estimates
-/// are asked for one after another, in order.
+/// The same from an estimate of the whole light at each sensor in place of caches; direct light as above.
 std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
-                                        const Luminaires& lights,
-                                        const std::function<Whole(std::size_t sensor)>& estimate,
+                                        const Luminaires& lights, std::span<const Whole> whole,
                                         const SensorOptions& options, SensorReport& report);
 
 /// id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx and a line for each sensor, shortest numbers, in

@@ -132,7 +132,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
   return sum;
 }
 
-DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
                               RandomStream& sequence) const {
   DirectLight sum;
   const MirrorPlanes& mirrors = lights_.mirrors();
@@ -147,7 +147,8 @@ DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const
       if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
       const Rgb arriving = light.value * (cosine / (light.density > 0 ? light.density : 1.f));
       sum.illuminance += arriving;
-      const bool lambert = !options_.cached_direct && bsdf.has_diffuse(), gloss = !lights_[i].extended();
+      const bool lambert = !options_.cached_direct && bsdf.has_diffuse(),
+                 gloss = !gloss_by_rays || !lights_[i].extended();
       Rgb f(0);
       if (lambert) f += bsdf.diffuse_reflectance() / kPi;
       if (gloss) f += bsdf.evaluate_gloss(wo, light.direction);
@@ -243,7 +244,7 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance +
-             mirrored(point, bsdf, wo, random).radiance;
+             mirrored(point, bsdf, wo, by_rays, random).radiance;
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
     const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);

@@ -89,9 +89,10 @@ class Shading {
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                      int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
-  /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each, none of the
-  /// environment. Of area lights the glossy lobes' share is left to gloss(), whose rays find them in mirrors.
-  DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+  /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each, of the environment
+  /// its sun's alone. With `gloss_by_rays`, the glossy lobes' share of area lights and sun is left to
+  /// gloss(), whose rays find them in mirrors; radiance records hold none of it.
+  DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
                        RandomStream& sequence) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where

@@ -89,6 +89,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
                          const RecordOptions& resolved, std::uint64_t seed) {
   RecordOptions coarse = coarse_options(resolved);
   coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
+  if (earlier.quantity == "all") coarse.paths = Quantity::all;
   coarse.images_apart = true;
   if (photons) photons_ = std::make_unique<RecordMaker>(*photons, rays, coarse, seed);
   read(rays, earlier);
@@ -97,6 +98,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
   noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
   if (photons) noise_.common = photon_noise(*photons, earlier.quantity == "all").common;
   holds_direct_ = earlier.quantity == "all";
+  lacks_images_ = !holds_direct_;
 }
 
 void CoarseLevel::read(const RayScene& rays, const IrradianceCache& cache) {
@@ -121,6 +123,7 @@ GatherSource CoarseLevel::source() const {
           .far = far_.get(),
           .fallback = photons_.get(),
           .holds_direct = holds_direct_,
+          .lacks_images = lacks_images_,
           .gloss = gloss_.get(),
           .caustics = caustics_.get(),
           .gloss_caustics = gloss_caustics_.get(),

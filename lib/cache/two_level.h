@@ -60,7 +60,7 @@ class CoarseLevel {
   std::unique_ptr<Estimator> photons_;
   std::unique_ptr<GlossCache> gloss_;
   std::unique_ptr<CausticLight> caustics_, gloss_caustics_;
-  bool holds_direct_ = false;
+  bool holds_direct_ = false, lacks_images_ = false;
   PhotonNoise noise_;
   double zone_photons_ = 0, usual_lx_ = 0;
 };

@@ -23,6 +23,7 @@ enum class Stage : std::uint32_t {
   pilot = 9,
   edge_light = 10,
   near_light = 11,
+  mirror_image = 12,
   test = 1000,
 };
 

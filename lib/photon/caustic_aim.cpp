@@ -5,6 +5,7 @@
 
 #include "core/sampling.h"
 #include "scene/passage.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {

@@ -44,7 +44,7 @@ class CausticAim {
   Luminaires luminaires_;
   std::vector<std::uint8_t> taken_;  // by material
   std::vector<Target> target_;
-  float far_m_ = 0;  // from anywhere in the scene, out of it
+  float far_m_ = 0;  // longer than any way within the scene
 };
 
 }  // namespace phos

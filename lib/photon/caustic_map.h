@@ -28,16 +28,16 @@ struct CausticPhotons {
   bool empty() const { return size() == 0 && flights.size() == 0; }
 };
 
-/// Those of a photon map, in its order.
+/// The caustic photons of a photon map, in its order.
 CausticPhotons caustics_of(const PhotonMap& photons);
 
-/// Tensors caustic_position, caustic_flux, caustic_direction, caustic_normal, caustic_distance and those of
-/// flights (caustic_flight_from, ...), each absent where there are none of its kind.
+/// Writes the tensors caustic_position, caustic_flux, caustic_direction, caustic_normal and caustic_distance
+/// where there are photons, and caustic_flight_from and so on where there are flights.
 void add_columns(ContainerWriter& writer, const CausticPhotons& photons);
 /// Throws Error(bad_input) for damaged columns. photon_lm is not in columns.
 CausticPhotons read_caustics(const Container& file);
 
-/// One that counts for a disc.
+/// A photon or flight that counts for a disc.
 struct CausticHit {
   float distance2_m2 = 0;  ///< from the middle of the disc
   Rgb flux_lm{0};          ///< per unit of the disc's area
@@ -50,7 +50,7 @@ struct CausticHit {
   static constexpr std::uint32_t kFlight = ~0u;
 };
 
-/// Neighbour search over them. Const and usable from any thread.
+/// Neighbour search over caustic photons. Const and usable from any thread.
 class CausticMap {
  public:
   explicit CausticMap(CausticPhotons photons);

@@ -17,6 +17,7 @@
 #include "scene/bsdf.h"
 #include "scene/mirror_images.h"
 #include "scene/passage.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {

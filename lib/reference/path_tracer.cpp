@@ -174,7 +174,6 @@ void PathTracer::add_indirect(const Rgb& light, const Walk& walk, PathSample& su
   sum.indirect += (Rgb(1) - walk.glossy) * light;
 }
 
-/// Adds the light scattered at `point` once, and turns the walk into its next ray, or lets it pass straight.
 /// Keeps where densities count from: the last event that was no flat mirror.
 void PathTracer::note_mirror(const SurfacePoint& point, const BsdfSample& next, Walk& walk) const {
   if (!next.specular) {
@@ -188,6 +187,7 @@ void PathTracer::note_mirror(const SurfacePoint& point, const BsdfSample& next, 
   if (walk.density_before > 0) walk.mirrors.push_back({point.triangle, point.front});
 }
 
+/// Adds the light scattered at `point` once, and turns the walk into its next ray, or lets it pass straight.
 /// `lit`: lamps count.
 PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, bool lit, Walk& walk,
                                      PathSample& sum, RandomStream& random) const {

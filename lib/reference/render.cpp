@@ -22,8 +22,9 @@ constexpr std::int64_t kFirstPass = 16;
 /// Adaptive: one in so many samples, and so many at least, tell where the rest should go.
 constexpr std::int64_t kProbingShare = 4, kLeastProbes = 4;
 constexpr std::size_t kSamplesPerChunk = 4096;
-/// Light paths of a pass over the picture, at most: all of their vertices are held.
-constexpr std::size_t kMostLightPaths = 32768;
+/// Light paths of a pass over the picture: one a pixel; at most so many, as all of their vertices are held,
+/// and at least so many where eye paths are merged with them.
+constexpr std::size_t kMostLightPaths = 32768, kLeastLightPaths = 8192;
 constexpr std::size_t kVerticesPerChunk = 1024, kPixelsPerChunk = 256;
 // Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
 constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
@@ -60,8 +61,9 @@ struct BothEnds {
       : lamps(rays.scene(), luminaires),
         light(rays, luminaires, lamps, options.path),
         eyes(rays, luminaires, lamps, options.path),
-        light_paths(std::min(kMostLightPaths, static_cast<std::size_t>(options.width) *
-                                                  static_cast<std::size_t>(options.height))),
+        light_paths(
+            std::clamp(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height),
+                       has_caustic_ways(rays.scene()) ? kLeastLightPaths : 1, kMostLightPaths)),
         view(camera, static_cast<std::size_t>(options.width), static_cast<std::size_t>(options.height),
              static_cast<double>(light_paths)),
         merge_radius_m(has_caustic_ways(rays.scene()) ? first_merge_radius_m(rays.scene()) : 0) {}

@@ -11,7 +11,7 @@
 #include "scene/lamp_probe.h"
 #include "scene/mirror_images.h"
 #include "scene/passage.h"
-#include "scene/texture.h"
+#include "scene/sharp_materials.h"
 
 namespace phos {
 namespace {
@@ -42,17 +42,6 @@ struct Deed {
 const char* noun(Deed::What what) {
   constexpr const char* kNouns[] = {"mirror", "pane", "glass", "curved mirror", "curved glass", "gloss of"};
   return kNouns[static_cast<int>(what)];
-}
-
-bool may_mirror(const Scene& scene, std::uint32_t m) {
-  const Material& material = scene.material[m];
-  if (material.model == Model::metallic_roughness && material.metallic_roughness.used()) return true;
-  const Bsdf bsdf(scene, m);
-  BsdfSample branch[2];
-  const int branches = bsdf.specular_branches(Vec3(0.6f, 0, 0.8f), branch, TransportMode::flux);
-  for (int b = 0; b < branches; ++b)
-    if (!branch[b].straight && max_component(branch[b].weight) > 0) return true;
-  return false;
 }
 
 /// Light on its way by mirrors, glass and sharp gloss alone.
@@ -280,42 +269,17 @@ std::string share_text(const LightWay& way) {
               by_text(way));
 }
 
-double lobe_hit_share(const Scene& scene, const Material& m) {
-  const double n = static_cast<double>(m.exponent);
-  double ax = static_cast<double>(m.alpha_x), ay = static_cast<double>(m.alpha_y), factor = 12;
-  switch (m.model) {
-    case Model::phong:
-      return max_component(m.ks) > 0 ? std::min(1.0, 2 * (2 * n + 1) / ((n + 1) * (n + 1))) : 1;
-    case Model::ward:
-      if (!(max_component(m.ks) > 0)) return 1;
-      factor = 8;
-      break;
-    case Model::conductor:
-    case Model::plastic:
-      break;
-    case Model::metallic_roughness: {
-      const double rough =
-          std::clamp(static_cast<double>(m.roughness * mean_texel(scene, m.metallic_roughness).y), 0.0, 1.0);
-      const double bent = static_cast<double>(m.anisotropy * m.anisotropy);
-      if (!(m.specular > 0) && !(m.metallic > 0)) return 1;
-      ay = rough * rough, ax = ay + (1 - ay) * bent;
-      break;
-    }
-    default:
-      return 1;
-  }
-  const auto smoothest = static_cast<double>(Bsdf::kSmoothestAlpha);
-  if (std::max(ax, ay) < smoothest) return 1;  // a mirror, not a lobe
-  return std::min(1.0, factor * std::max(ax, smoothest) * std::max(ay, smoothest));
-}
-
 bool sends_light_on(const Scene& scene) {
   std::vector<char> used(scene.material.size());
   for (const Instance& instance : scene.instance)
     if (instance.triangle_count > 0) used[instance.material] = 1;
-  for (std::uint32_t m = 0; m < scene.material.size(); ++m)
-    if (used[m] && (lobe_hit_share(scene, scene.material[m]) < kSharpLobe || may_mirror(scene, m)))
-      return true;
+  for (std::uint32_t m = 0; m < scene.material.size(); ++m) {
+    if (!used[m]) continue;
+    const Material& material = scene.material[m];
+    // At some of its texels it may be smooth.
+    const bool by_texel = material.model == Model::metallic_roughness && material.metallic_roughness.used();
+    if (by_texel || lobe_hit_share(scene, material) < kSharpLobe || turns_light(scene, m)) return true;
+  }
   return false;
 }
 

@@ -50,14 +50,6 @@ std::vector<LightWay> light_ways(const RayScene& rays, const Luminaires& luminai
 inline constexpr double kLeastShare = 1e-3;
 inline constexpr std::uint32_t kRaysOfALamp = 4096, kLeastRaysOfALamp = 256;
 
-/// A lobe is sharp if a cosine-weighted ray falls into it, towards a lamp, with less than this probability:
-/// so that 64 rays find it less than ten times. Of GGX: roughness alpha below 0.11.
-inline constexpr double kSharpLobe = 10.0 / 64;
-/// That probability: solid angle that would hold the lobe if it were even, 1 / integral of its square
-/// density, over pi. 12 ax ay for GGX, 8 ax ay for Ward, 2 (2n + 1) / (n + 1)^2 for Phong; 1 for a material
-/// without a lobe, and for measured ones.
-double lobe_hit_share(const Scene& scene, const Material& material);
-
 /// [{"lamp":..,"way":"mirrored","materials":[..],"by":[..],"share":..,"hit_share":..}]
 Json to_json(const std::vector<LightWay>& ways);
 /// The inverse; what is no such thing is passed over.

@@ -39,21 +39,6 @@ bool passes_straight(const Scene& scene, const Material& m) {
   return m.model == Model::thin_dielectric || (m.model == Model::metallic_roughness && m.transmission > 0);
 }
 
-bool turns_light(const Scene& scene, std::uint32_t material) {
-  const Vec3 slanted(0.6f, 0, 0.8f);
-  BsdfSample branch[2];
-  const int branches = Bsdf(scene, material).specular_branches(slanted, branch);
-  for (int b = 0; b < branches; ++b)
-    if (!branch[b].straight && max_component(branch[b].weight) > 0) return true;
-  return false;
-}
-
-bool casts_caustics(const Scene& scene) {
-  for (std::uint32_t m = 0; m < scene.material.size(); ++m)
-    if (turns_light(scene, m)) return true;
-  return false;
-}
-
 void StraightLight::add(const Crossing& crossing, const Vec3& direction) {
   const Vec3& normal = crossing.point.normal;
   if (normal_ != Vec3(0) && !parallel(normal_, normal)) {

@@ -14,12 +14,6 @@ namespace phos {
 /// its faces are plane and parallel; that is not told by the material.
 bool passes_straight(const Scene& scene, const Material& material);
 
-/// Does a material reflect or refract light as a mirror or smooth glass does, its textures at their mean?
-/// What light only passes straight does not: thin films and sheets that reflect nothing.
-bool turns_light(const Scene& scene, std::uint32_t material);
-/// Does any, so that light of a lamp can reach surfaces by way of mirrors or glass (caustic light)?
-bool casts_caustics(const Scene& scene);
-
 /// What a ray passes straight through: a thin pane, a sheet, a film, a plate of solid glass between parallel
 /// faces, or a pack of such panes, parallel and next to each other, with all interreflection in it.
 struct Crossing {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/bsdf.h"
+#include "scene/texture.h"
 
 namespace phos {
 namespace {
@@ -50,6 +51,50 @@ bool reflects_sharply(const Material& m) {
     default:
       return false;
   }
+}
+
+bool turns_light(const Scene& scene, std::uint32_t material) {
+  const Vec3 slanted(0.6f, 0, 0.8f);
+  BsdfSample branch[2];
+  const int branches = Bsdf(scene, material).specular_branches(slanted, branch);
+  for (int b = 0; b < branches; ++b)
+    if (!branch[b].straight && max_component(branch[b].weight) > 0) return true;
+  return false;
+}
+
+bool casts_caustics(const Scene& scene) {
+  for (std::uint32_t m = 0; m < scene.material.size(); ++m)
+    if (turns_light(scene, m)) return true;
+  return false;
+}
+
+double lobe_hit_share(const Scene& scene, const Material& m) {
+  const double n = static_cast<double>(m.exponent);
+  double ax = static_cast<double>(m.alpha_x), ay = static_cast<double>(m.alpha_y), factor = 12;
+  switch (m.model) {
+    case Model::phong:
+      return max_component(m.ks) > 0 ? std::min(1.0, 2 * (2 * n + 1) / ((n + 1) * (n + 1))) : 1;
+    case Model::ward:
+      if (!(max_component(m.ks) > 0)) return 1;
+      factor = 8;
+      break;
+    case Model::conductor:
+    case Model::plastic:
+      break;
+    case Model::metallic_roughness: {
+      const double rough =
+          std::clamp(static_cast<double>(m.roughness * mean_texel(scene, m.metallic_roughness).y), 0.0, 1.0);
+      const double bent = static_cast<double>(m.anisotropy * m.anisotropy);
+      if (!(m.specular > 0) && !(m.metallic > 0)) return 1;
+      ay = rough * rough, ax = ay + (1 - ay) * bent;
+      break;
+    }
+    default:
+      return 1;
+  }
+  const auto smoothest = static_cast<double>(Bsdf::kSmoothestAlpha);
+  if (std::max(ax, ay) < smoothest) return 1;  // a mirror, not a lobe
+  return std::min(1.0, factor * std::max(ax, smoothest) * std::max(ay, smoothest));
 }
 
 bool gathers_light(const Scene& scene) {

@@ -15,6 +15,20 @@ bool reflects_sharply(const Material& material);
 /// than straight on?
 bool reflects_as_mirror(const Material& material);
 
+/// Does a material reflect or refract light as a mirror or smooth glass does, its textures at their mean?
+/// Films and sheets that pass light straight and reflect none do not.
+bool turns_light(const Scene& scene, std::uint32_t material);
+/// Does any material, so that light of a lamp can reach surfaces by way of mirrors or glass (caustic light)?
+bool casts_caustics(const Scene& scene);
+
+/// A lobe is sharp if a cosine-weighted ray falls into it, towards a lamp, with less than this probability:
+/// so that 64 rays find it less than ten times. Of GGX: roughness alpha below 0.11.
+inline constexpr double kSharpLobe = 10.0 / 64;
+/// That probability: solid angle that would hold the lobe if it were even, 1 / integral of its square
+/// density, over pi. 12 ax ay for GGX, 8 ax ay for Ward, 2 (2n + 1) / (n + 1)^2 for Phong; 1 for a material
+/// without a lobe, and for measured ones.
+double lobe_hit_share(const Scene& scene, const Material& material);
+
 /// Is there a curved mirror, curved glass, or solid glass: something that gathers light, however small it is?
 bool gathers_light(const Scene& scene);
 

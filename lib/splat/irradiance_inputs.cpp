@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
-#include "scene/passage.h"
+#include "scene/sharp_materials.h"
 #include "temporal/film_inputs.h"
 
 namespace phos {

@@ -154,7 +154,7 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
                               RandomStream& sequence, PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
   if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
-  from_mirrors(point, bsdf, wo, sequence, light);
+  from_mirrors(point, bsdf, wo, gloss_by_rays, sequence, light);
   // What lamps show in gloss is not shared. Where rays look for gloss anyway, shadow maps leave it to them.
   const bool own = bsdf.has_gloss() && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
   if (shared && !own) {
@@ -176,8 +176,8 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
 }
 
 void PixelShader::from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                               RandomStream& sequence, PixelSample& light) const {
-  const DirectLight mirrored = shading_.mirrored(point, bsdf, wo, sequence);
+                               bool gloss_by_rays, RandomStream& sequence, PixelSample& light) const {
+  const DirectLight mirrored = shading_.mirrored(point, bsdf, wo, gloss_by_rays, sequence);
   light.direct += mirrored.radiance;
   light.noisy += mirrored.radiance;
   if (!cached_direct_) light.illuminance_lx += luminance(mirrored.illuminance);

@@ -67,8 +67,8 @@ class PixelShader {
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                    const SharedLight* shared, bool environment, bool gloss_by_rays, RandomStream& sequence,
                    PixelSample& light) const;
-  void from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, RandomStream& sequence,
-                    PixelSample& light) const;
+  void from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
+                    RandomStream& sequence, PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                   bool environment, RandomStream& sequence, RandomStream& random, PixelSample& light,
                   ShadingLog& log) const;

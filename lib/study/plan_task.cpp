@@ -139,7 +139,7 @@ Command reference_picture_command(const PlanTask& task, std::int64_t samples, co
 Command reference_points_command(const PlanTask& task, std::int64_t samples, const std::string& points,
                                  const std::string& out) {
   Words words = of_scene(task, task.scene);
-  add(words, {"--points", points, "--samples", std::to_string(samples)});
+  add(words, {"--points", points, "--samples", std::to_string(samples), "--method", "auto"});
   return {"phos-reference", words, out};
 }
 

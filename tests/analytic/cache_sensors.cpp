@@ -186,12 +186,10 @@ TEST(SensorsAnalytic, AnExactWholeIsSplitByTheDirectLight) {
   const RayScene rays(s.scene);
   const Luminaires lights(s.scene);
   SensorReport report;
-  const std::vector<Reading> readings = read_light_exactly(
-      sensors_at(s.checks), rays, lights,
-      [&](std::size_t i) {
-        return Whole{s.checks[i].irradiance_lx + 5, 0.25};
-      },
-      {}, report);
+  std::vector<Whole> whole;
+  for (const Check& check : s.checks) whole.push_back({check.irradiance_lx + 5, 0.25});
+  const std::vector<Reading> readings =
+      read_light_exactly(sensors_at(s.checks), rays, lights, whole, {}, report);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     EXPECT_NEAR(double(readings[i].illuminance_lx), s.checks[i].irradiance_lx + 5, 1e-3);
     EXPECT_NEAR(readings[i].indirect_lx, 5, 0.02);

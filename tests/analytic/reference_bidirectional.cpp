@@ -140,22 +140,71 @@ TEST(BidirectionalAnalytic, MirrorWallShowsTheLampsImage) {
   check_points(s, 4096, 0.06);
 }
 
-/// A grey box with a mirror for a wall absorbs what the lamp sends: (1 - albedo) x area x mean of the grey
-/// walls = flux; much of it comes by the mirror, and between mirrors.
-TEST(BidirectionalAnalytic, GreyBoxWithMirrorWall) {
+/// Grey, but for the wall at x = 1.999, which is a mirror before another.
+Scene grey_box_with_mirror() {
   Scene scene;
-  const Vec3 size(2, 1, 1.5f);
   test::begin_instance(scene, "walls", test::add_lambert(scene, "grey", 0.5f));
-  test::add_room(scene, Vec3(0), size);
-  // The wall x = 2 is covered by the mirror.
+  test::add_room(scene, Vec3(0), Vec3(2, 1, 1.5f));
   test::begin_instance(scene, "mirror", add_material(scene, Model::mirror, 1));
   test::add_quad(scene, {1.999f, 0, 0}, {0, 0, 1.5f}, {0, 1, 0});
   test::add_point_light(scene, {0.7f, 0.6f, 0.5f}, 100 / (4 * kPi));
+  scene.camera.push_back(test::look_at({0.4f, 0.7f, 1}, {1.9f, 0, 0.6f}, {0, 1, 0}, 0.3f));
   finalize(scene);
+  return scene;
+}
+
+/// The grey walls absorb what the lamp sends: (1 - albedo) x their area x mean = flux; much of it comes by
+/// the mirror, and between mirrors.
+TEST(BidirectionalAnalytic, GreyBoxWithMirrorWall) {
+  const Scene scene = grey_box_with_mirror();
   const Vec3 inner(1.999f, 1, 1.5f);
   const Mean mean = mean_of(Lit(scene).measure(over_box(inner, 200, {0, 2, 3, 4, 5}), 256));
   const double grey_m2 = 1.5 + 2 * 2 * 1.5 + 2 * 2 * 1;
   EXPECT_NEAR(mean.lux * grey_m2 * 0.5 / 100, 1, 0.02);
+}
+
+/// What a camera sees straight away and in the mirror is what sensors there measure: L = albedo E / pi.
+TEST(BidirectionalAnalytic, PictureShowsWhatSensorsMeasure) {
+  Scene scene = grey_box_with_mirror();
+  for (const bool perspective : {true, false}) {
+    scene.camera[0].perspective = perspective;
+    scene.camera[0].ymag_m = 0.2f;
+    const Lit lit(scene);
+    ReferenceOptions options;
+    options.width = 12, options.height = 8, options.samples = perspective ? 64 : 16;
+    options.method = ReferenceMethod::bidirectional;
+    options.illuminance = true;
+    const Image image = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
+    std::vector<SensorPoint> sensors;
+    std::vector<bool> mirrored;
+    for (int i = 0; i < 12 * 8; ++i) {
+      const Camera::Ray eye = scene.camera[0].ray(
+          {(static_cast<float>(i % 12) + 0.5f) / 12, (static_cast<float>(i / 12) + 0.5f) / 8}, 1.5f);
+      SurfacePoint p;
+      ASSERT_TRUE(trace(lit.rays, {eye.origin, eye.direction, 0, kInfinity}, p));
+      mirrored.push_back(p.material == 1);
+      if (mirrored.back()) {
+        const Vec3 back = glm::reflect(eye.direction, p.geometric_normal);
+        ASSERT_TRUE(trace(lit.rays, {p.leave(back), back, 0, kInfinity}, p));
+      }
+      sensors.push_back({p.position, p.geometric_normal});
+    }
+    const auto light = lit.measure(sensors, 512);
+    const auto beauty = image.rgb("");
+    const auto lux = image.channel("illuminance.Y");
+    for (const bool by_mirror : {false, true}) {
+      double seen = 0, measured = 0, layer = 0;
+      for (std::size_t i = 0; i < sensors.size(); ++i)
+        if (mirrored[i] == by_mirror)
+          seen += double(luminance(beauty[i])), measured += light[i].illuminance_lx * 0.5 / std::numbers::pi,
+              layer += double(lux[i]) * 0.5 / std::numbers::pi;
+      ASSERT_GT(measured, 0) << by_mirror;
+      EXPECT_NEAR(seen / measured, 1, 0.05) << "by mirror: " << by_mirror << ", perspective: " << perspective;
+      if (!by_mirror) {
+        EXPECT_NEAR(layer / measured, 1, 0.05) << "illuminance, perspective: " << perspective;
+      }
+    }
+  }
 }
 
 /// Twelve pentagons' worth of triangles about a ball, refined; vertex normals are the sphere's.

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "reference/point_irradiance.h"
+#include "reference/bidirectional_points.h"
 #include "reference/render.h"
 #include "support/scenes.h"
 
@@ -53,6 +53,33 @@ TEST(ReferencePaths, PointsSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.illuminance_lx, three.illuminance_lx);
   EXPECT_EQ(one.stderr_lx, three.stderr_lx);
   EXPECT_GT(one.illuminance_lx, 0);
+}
+
+TEST(ReferencePaths, BothEndsSameBytesForAnyNumberOfThreads) {
+  Scene scene = test::cornell();
+  for (Material& m : scene.material)
+    if (!m.emits() && m.name != scene.material[0].name) m.model = Model::mirror, m.ks = Rgb(0.5f);
+  finalize(scene);
+  const RayScene rays(scene);
+  const Luminaires luminaires(scene);
+  ReferenceOptions options = small(2);
+  options.method = ReferenceMethod::bidirectional;
+  PointOptions points;
+  points.samples = 256;
+  const std::vector<SensorPoint> sensors{{{0.45f, 0, 0.1f}, {0, 1, 0}}, {{0.2f, 0.1f, 0.1f}, {0, 0, 1}}};
+  set_threads(1);
+  const Image one = render(scene, options);
+  const auto lux = estimate_bidirectionally(rays, luminaires, sensors, points);
+  set_threads(3);
+  const Image three = render(scene, options);
+  const auto again = estimate_bidirectionally(rays, luminaires, sensors, points);
+  set_threads(0);
+  EXPECT_EQ(one.channels(), three.channels());
+  for (std::size_t i = 0; i < lux.size(); ++i) {
+    EXPECT_EQ(lux[i].illuminance_lx, again[i].illuminance_lx);
+    EXPECT_EQ(lux[i].stderr_lx, again[i].stderr_lx);
+    EXPECT_GT(lux[i].illuminance_lx, 0);
+  }
 }
 
 TEST(ReferencePaths, SeedsDiffer) {
