@@ -4,6 +4,7 @@
 
 #include "cache/shading.h"
 #include "support/gathered.h"
+#include "support/one_material.h"
 
 namespace phos::test {
 namespace {
