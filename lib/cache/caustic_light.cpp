@@ -150,8 +150,7 @@ LocalDensity CausticLight::at_sensor(const Vec3& p, const Vec3& n, Worker& worke
   const Ray down{p + 4 * at.error_m * n, -n, 0, 16 * at.error_m};
   SurfacePoint point;
   if (trace(rays_, down, point) && glm::dot(point.smooth_normal, n) > kSameFacing) {
-    const Bsdf bsdf(rays_.scene(), point);
-    if (!bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss()) return on_surface(p, n, worker);
+    if (Bsdf(rays_.scene(), point).takes_light()) return on_surface(p, n, worker);
   }
   return in_space(p, n, worker);
 }

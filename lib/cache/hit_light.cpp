@@ -23,6 +23,8 @@ constexpr const char* kBeyondReach = "gathered places beyond the reach of record
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
+// Tells random streams of the light on the other side of a sheet from those of this side.
+constexpr std::uint32_t kOtherSide = 1u << 16;
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
 /// A place nearer than this part of the radius of the zone that tells of its light is not read but followed.
@@ -441,15 +443,20 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
         bsdf.has_gloss() ? recorded(point, bsdf, wo, left, worker) : std::nullopt;
     if (gloss) sum += throughput * *gloss;
     choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
-    if (bsdf.has_diffuse()) {
-      const Rgb f = throughput * bsdf.diffuse_reflectance() / kPi;
+    const auto add_lambert = [&](const SurfacePoint& at, const Vec3& towards, const Rgb& f,
+                                 std::uint32_t number) {
       const bool cached = reads_cache(left);
-      if (cached) sum += indirect(point, wo, f, {item, followed, reflection}, followed, worker);
-      if (!(cached && source.holds_direct)) {
-        ArrivingLight light;
-        lamps.sample(point, {random.uniform(), random.uniform(), random.uniform()}, light);
-        if (positive(light.lux)) sum += f * light.lux * arriving(light);
-      }
+      if (cached) sum += indirect(at, towards, f, {item, followed, number}, followed, worker);
+      if (cached && source.holds_direct) return;
+      ArrivingLight light;
+      lamps.sample(at, {random.uniform(), random.uniform(), random.uniform()}, light);
+      if (positive(light.lux)) sum += f * light.lux * arriving(light);
+    };
+    if (bsdf.has_diffuse()) add_lambert(point, wo, throughput * bsdf.diffuse_reflectance() / kPi, reflection);
+    if (bsdf.transmits_diffusely()) {
+      const SurfacePoint there = point.other_side();
+      add_lambert(there, -wo, throughput * bsdf.diffuse_transmittance() / kPi, reflection | kOtherSide);
+      sum += throughput * from_images(there, bsdf.other_side(), -wo, left, false, random);
     }
     if (bsdf.has_gloss()) sum += throughput * gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
     sum += throughput * from_images(point, bsdf, wo, left, gloss.has_value(), random);

@@ -225,6 +225,28 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
   return sum;
 }
 
+Shading::Through Shading::through(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                                  const SampleRange& samples, RandomStream& sequence, ShadingLog& log) const {
+  const SurfacePoint there = point.other_side();
+  const Bsdf lambert = bsdf.other_side();
+  const Rgb f = lambert.diffuse_reflectance() / kPi;
+  Through light;
+  const std::size_t misses = log.misses.size();
+  const Interpolated found = cached(there, log);
+  light.missed = log.misses.size() > misses;
+  if (found.weight > 0) light.indirect = found.irradiance * f, light.indirect_stderr = found.stderr_lx * f;
+  if (caustics_) {
+    const LocalDensity bright = caustic(there, log);
+    light.indirect += bright.irradiance * f;
+    light.indirect_stderr = glm::sqrt(light.indirect_stderr * light.indirect_stderr +
+                                      bright.stderr_lx() * f * bright.stderr_lx() * f);
+  }
+  if (options_.cached_direct || !options_.reflect_direct) return light;
+  light.direct = direct(there, lambert, -wo, samples, 0, sequence);
+  light.direct.radiance += mirrored(there, lambert, -wo, false, sequence).radiance;
+  return light;
+}
+
 Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
                       RandomStream& random, ShadingLog& log) const {
   const Bsdf bsdf(rays_.scene(), point);
@@ -245,6 +267,10 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance +
              mirrored(point, bsdf, wo, by_rays, random).radiance;
+  if (bsdf.transmits_diffusely()) {
+    const Through behind = through(point, bsdf, wo, 1, random, log);
+    light += behind.indirect + behind.direct.radiance;
+  }
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
     const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);

@@ -105,6 +105,17 @@ class Shading {
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
                RandomStream& random, ShadingLog& log) const;
 
+  /// Light that diffuse transmission brings through to a point from the other side, cd/m2: as outgoing(), but
+  /// for `samples` of each extended lamp there.
+  struct Through {
+    Rgb indirect{0};  ///< of the caches
+    Rgb indirect_stderr{0};
+    DirectLight direct;   ///< but for `illuminance`, which is that of the other side
+    bool missed = false;  ///< no record reaches the other side
+  };
+  Through through(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
+                  RandomStream& sequence, ShadingLog& log) const;
+
   /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches, one sample
   /// of each lamp, one ray of gloss that no radiance record tells of, its mirrors. `depth` counts reflections
   /// since the eye (or the record).

@@ -25,10 +25,6 @@ bool transmits(const Scene& scene, const Material& m) {
   return m.model == Model::dielectric || passes_straight(scene, m);
 }
 
-bool takes_records(const Bsdf& bsdf) {
-  return !bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss();  // as photons are stored
-}
-
 }  // namespace
 
 SurfaceSides::SurfaceSides(const RayScene& rays) : rays_(rays) {
@@ -40,7 +36,7 @@ SurfaceSides::SurfaceSides(const RayScene& rays) : rays_(rays) {
     area_m2_.push_back(0.5 * glm::length(glm::cross(b - a, c - a)));
     normal_.push_back(geometric_normal(scene, t));
     if (!(area_m2_.back() > 0) || normal_.back() == Vec3(0)) continue;
-    if (!takes_records(Bsdf(scene, point(2 * t, Vec2(1 / 3.f))))) continue;
+    if (!Bsdf(scene, point(2 * t, Vec2(1 / 3.f))).takes_light()) continue;
     sides_.push_back(2 * t), sides_.push_back(2 * t + 1);
   }
   oriented_ = !cameras_see_backs();

@@ -43,6 +43,8 @@ class Sight {
     travelled_m += point.distance_m;
     const Bsdf bsdf(rays_.scene(), point);
     if (wanted_ ? wanted_(point.material) : bsdf.has_diffuse()) add(point, travelled_m, -ray.direction);
+    // What comes through a sheet is the light on its other side.
+    if (!wanted_ && bsdf.transmits_diffusely()) add(point.other_side(), travelled_m, ray.direction);
     if (bsdf.has_specular()) follow(point, bsdf, -ray.direction, travelled_m, throughput, depth);
     if (depth == 0 && bsdf.has_gloss()) glance(point, bsdf, -ray.direction, travelled_m);
   }

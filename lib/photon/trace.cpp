@@ -92,8 +92,6 @@ void note_flight(Flights& flights, const Flight& flight, float length_m) {
   flights.length.push_back(length_m);
 }
 
-bool stores(const Bsdf& bsdf) { return !bsdf.has_specular() || bsdf.has_diffuse() || bsdf.has_gloss(); }
-
 void store(Photons& photons, const Flight& flight, const SurfacePoint& point) {
   photons.position.push_back(point.position);
   photons.flux.push_back(flight.flux_lm);
@@ -199,7 +197,7 @@ class PathTracer {
         return false;
       }
       const Bsdf bsdf = way.bsdf(point);
-      if (stores(bsdf)) {
+      if (bsdf.takes_light()) {
         if (flight.tells()) {
           store(part.photons, flight, point);
           part.stored += flight.units;

@@ -252,7 +252,9 @@ void BidirectionalTracer::merge(const Vertex& at, const LightPass& pass, const W
     const std::int64_t scatterings = walk.scatterings + 1 + v.scatterings;
     if (options_.bounces >= 0 && scatterings > options_.bounces) return;
     const Vec3 &n = at.point->geometric_normal, &wi = v.towards_lamp;
-    if (glm::dot(n, v.point.geometric_normal) < kSameSurface) return;
+    // What landed on the other side of a sheet comes through it.
+    const float facing = glm::dot(n, v.point.geometric_normal);
+    if ((at.bsdf && at.bsdf->transmits_diffusely() ? std::fabs(facing) : facing) < kSameSurface) return;
     const float landed = std::fabs(glm::dot(wi, n));
     const Scattered s = scattered(at, wi);
     if (!positive(s.f_cos) || !(landed > 0)) return;
@@ -338,10 +340,11 @@ void BidirectionalTracer::follow(Walk& walk, const LightPass& pass, std::size_t 
       if (black || (ends && !bsdf.passes_straight())) return;
       random.start_bounce(static_cast<std::uint32_t>(walk.events));
       Vertex at = vertex_at(point, bsdf, walk);
-      if (!ends && (bsdf.has_diffuse() || bsdf.has_gloss())) {
+      if (!ends && bsdf.scatters()) {
+        const bool broad = bsdf.has_diffuse() || bsdf.transmits_diffusely() || !at.sharp;
         // What a camera sees straight away light paths bring it themselves.
-        at.in_grid = !walk.camera && !pass.grid.empty() && (bsdf.has_diffuse() || !at.sharp);
-        if (!walk.camera && (bsdf.has_diffuse() || !at.sharp)) at.merge = pass.merge_eta;
+        at.in_grid = !walk.camera && !pass.grid.empty() && broad;
+        if (!walk.camera && broad) at.merge = pass.merge_eta;
         gather(at, pass, path, walk, random, sample);
       }
       next = scatter(at, walk, random);

@@ -65,9 +65,9 @@ bool LightTracer::meet(const SurfacePoint& point, const Bsdf& bsdf, double eta, 
     walk.end.before = walk.cos_leaving / across * walk.behind;
   }
   if (!std::isfinite(walk.end.connect) || !std::isfinite(walk.end.before)) return false;
-  if (paths.segments_only || (!bsdf.has_diffuse() && !bsdf.has_gloss())) return true;
+  if (paths.segments_only || !bsdf.scatters()) return true;
   const bool sharp = reflects_sharply(rays_->scene().material[point.material]);
-  const bool merges = walk.sharp && (bsdf.has_diffuse() || !sharp);
+  const bool merges = walk.sharp && (bsdf.has_diffuse() || bsdf.transmits_diffusely() || !sharp);
   if (merges) walk.end.merge = eta;
   paths.vertex.push_back(
       {point, bsdf, -d, walk.flux, walk.end, every_light, walk.scatterings, merges, sharp});

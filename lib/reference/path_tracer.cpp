@@ -194,7 +194,7 @@ PathTracer::Next PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf
   const Vec3 wo = -walk.ray.direction;
   random.start_bounce(static_cast<std::uint32_t>(walk.events));
   const bool every_light = sample_every_light(walk.scatterings);
-  if (lit && (bsdf.has_diffuse() || bsdf.has_gloss())) {
+  if (lit && bsdf.scatters()) {
     const auto scatter = [&](const Vec3& wi, float& density) {
       const Rgb f = bsdf.evaluate(wo, wi);
       if (positive(f)) density = bsdf.density(wo, wi);

@@ -33,6 +33,8 @@ struct Bsdf::Looked {
   Rgb base, colour;  // kd times colour; colour: of texture and vertices
   Vec4 metallic_roughness;
   float anisotropy, transmission, alpha;
+  Rgb through;  // diffuse transmission: share times colour
+  float through_share;
 };
 
 Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
@@ -53,21 +55,30 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
       material.anisotropy > 0 ? material.anisotropy * texel(material.anisotropy_map).z : 0;
   const float transmission =
       material.transmission > 0 ? material.transmission * texel(material.transmission_map).x : 0;
+  const float share = material.diffuse_transmission > 0
+                          ? material.diffuse_transmission * texel(material.diffuse_transmission_map).w
+                          : 0;
   if (material.model == Model::dielectric && !front_)
     travelled_ = left_after(material.absorption_per_m, point.distance_m);
-  resolve(scene, material,
-          {base, Rgb(colour), texel(material.metallic_roughness), anisotropy, transmission,
-           material.alpha * colour.w});
+  resolve(
+      scene, material,
+      {base, Rgb(colour), texel(material.metallic_roughness), anisotropy, transmission,
+       material.alpha * colour.w,
+       share * material.diffuse_transmission_colour * Rgb(texel(material.diffuse_transmission_colour_map)),
+       share});
 }
 
 Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
     : frame_(frame), geometric_normal_(frame.z) {
   const Material& m = scene.material[material];
   const Vec4 colour = mean_texel(scene, m.base_colour);
+  const float share = m.diffuse_transmission * mean_texel(scene, m.diffuse_transmission_map).w;
   resolve(scene, m,
           {m.kd * Rgb(colour), Rgb(colour), mean_texel(scene, m.metallic_roughness),
            m.anisotropy * mean_texel(scene, m.anisotropy_map).z,
-           m.transmission * mean_texel(scene, m.transmission_map).x, m.alpha * colour.w});
+           m.transmission * mean_texel(scene, m.transmission_map).x, m.alpha * colour.w,
+           share * m.diffuse_transmission_colour * Rgb(mean_texel(scene, m.diffuse_transmission_colour_map)),
+           share});
 }
 
 void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
@@ -77,6 +88,7 @@ void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& l
   switch (material.model) {
     case Model::lambert:
       diffuse_ = base;
+      through_ = looked.through;
       break;
     case Model::phong:
       diffuse_ = base;
@@ -122,7 +134,7 @@ void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& l
 void Bsdf::cover(float coverage) {
   if (delta_ == Delta::dielectric) return;
   coverage_ = coverage;
-  diffuse_ *= coverage, base_ *= coverage, specular_ *= coverage, f90_ *= coverage;
+  diffuse_ *= coverage, base_ *= coverage, through_ *= coverage, specular_ *= coverage, f90_ *= coverage;
 }
 
 void Bsdf::resolve_rough(Lobe lobe, float alpha_x, float alpha_y) {
@@ -170,7 +182,9 @@ void Bsdf::resolve_metallic_roughness(const Material& material, const Looked& lo
   const float alpha = roughness * roughness;
   resolve_rough(Lobe::ggx, alpha + (1 - alpha) * looked.anisotropy * looked.anisotropy, alpha);
   const Rgb beneath = (1 - metallic) * base;
-  put_under_coat((1 - looked.transmission) * beneath, max_component(f0), material.specular, 0);
+  const float scattering = 1 - looked.transmission;
+  put_under_coat(scattering * (1 - looked.through_share) * beneath, max_component(f0), material.specular, 0);
+  through_ = scattering * (1 - metallic) * coat_mean_ * looked.through;
   sheet_ = looked.transmission * beneath;
   pane_share_ = (1 - metallic) * looked.transmission;
   if (max_component(sheet_) > 0 && delta_ == Delta::none) delta_ = Delta::sheet;
@@ -183,9 +197,36 @@ bool Bsdf::above(const Vec3& wo, const Vec3& wi, Vec3& o, Vec3& i) const {
   return o.z > 0 && i.z > 0 && glm::dot(wo, geometric_normal_) > 0 && glm::dot(wi, geometric_normal_) > 0;
 }
 
+/// From one side of the surface and of its shading normal's horizon to the other, either way.
+bool Bsdf::across(const Vec3& wo, const Vec3& wi) const {
+  const auto side = [&](const Vec3& w) {
+    const bool above_shading = glm::dot(w, frame_.z) > 0, above_surface = glm::dot(w, geometric_normal_) > 0;
+    return above_shading == above_surface ? (above_shading ? 1 : -1) : 0;
+  };
+  return side(wo) * side(wi) < 0;
+}
+
+/// The same material, looked at from the other side.
+Bsdf Bsdf::turned() const {
+  Bsdf side = *this;
+  side.frame_ = {frame_.x, -frame_.y, -frame_.z};
+  side.geometric_normal_ = -geometric_normal_;
+  side.front_ = !front_;
+  return side;
+}
+
+Bsdf Bsdf::other_side() const {
+  Bsdf side;
+  side.frame_ = {frame_.x, -frame_.y, -frame_.z};
+  side.geometric_normal_ = -geometric_normal_;
+  side.front_ = !front_;
+  side.diffuse_ = through_;
+  return side;
+}
+
 Rgb Bsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
   Vec3 o, i;
-  if (!above(wo, wi, o, i)) return Rgb(0);
+  if (!above(wo, wi, o, i)) return transmits_diffusely() && across(wo, wi) ? through_ / kPi : Rgb(0);
   return base_value(o, i) + lobe_value(o, i);
 }
 
@@ -204,20 +245,25 @@ Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count
     p.diffuse *= coat_transmittance(o) / coat_mean_;  // diffuse_ / base_ is coat_mean_^2
   }
   p.gloss = lobe_albedo(o.z);
+  p.through = luminance(through_);
   for (int b = 0; b < count; ++b) p.delta[b] = luminance(branches[b].weight);
-  const float sum = p.diffuse + p.gloss + p.delta[0] + p.delta[1];
+  const float sum = p.diffuse + p.gloss + p.through + p.delta[0] + p.delta[1];
   if (!(sum > 0)) return {};
-  p.diffuse /= sum, p.gloss /= sum, p.delta[0] /= sum, p.delta[1] /= sum;
+  p.diffuse /= sum, p.gloss /= sum, p.through /= sum, p.delta[0] /= sum, p.delta[1] /= sum;
   return p;
 }
 
 float Bsdf::density(const Vec3& wo, const Vec3& wi) const {
   Vec3 o, i;
-  if (!above(wo, wi, o, i)) return 0;
-  if (lobe_ == Lobe::none && !has_specular()) return has_diffuse() ? i.z / kPi : 0.f;
+  const bool reflects = above(wo, wi, o, i);
+  if (!reflects && !(transmits_diffusely() && across(wo, wi))) return 0;
+  if (!(o.z > 0)) return turned().density(wo, wi);
+  if (lobe_ == Lobe::none && !has_specular() && !transmits_diffusely())
+    return has_diffuse() ? i.z / kPi : 0.f;
   BsdfSample branches[2];
   // Choices weigh flux, so that luminance and photons share one density.
   const Choice p = choice(o, branches, specular_branches(wo, branches, TransportMode::flux));
+  if (!reflects) return p.through * -i.z / kPi;
   float density = p.diffuse * i.z / kPi;
   if (p.gloss > 0) density += p.gloss * lobe_density(o, i);
   return density;
@@ -242,13 +288,24 @@ bool Bsdf::sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, Tra
 }
 
 bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
-  if (lobe_ == Lobe::none && !has_specular() && !coated_) return sample_lambert(wo, u, result, mode);
+  if (lobe_ == Lobe::none && !has_specular() && !coated_ && !transmits_diffusely())
+    return sample_lambert(wo, u, result, mode);
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
   BsdfSample branches[2];
   const int count = specular_branches(wo, branches, TransportMode::flux);
   const Choice p = choice(o, branches, count);
-  const float beyond = u_lobe - (p.diffuse + p.gloss);
+  const float reflecting = p.diffuse + p.gloss;
+  if (p.through > 0 && u_lobe >= reflecting && (count == 0 || u_lobe < reflecting + p.through)) {
+    const Vec3 local = sample_cosine_hemisphere(u), wi = frame_.to_world({local.x, local.y, -local.z});
+    if (!(local.z > 0) || !across(wo, wi)) return false;
+    result = BsdfSample();
+    result.direction = wi, result.transmitted = true;
+    result.weight = through_ / p.through, result.density = p.through * local.z / kPi;
+    if (mode == TransportMode::flux) result.weight *= flux_correction(wo, wi);
+    return true;
+  }
+  const float beyond = u_lobe - (reflecting + p.through);
   if (count > 0 && beyond >= 0) {
     const int b = count == 2 && beyond >= p.delta[0] ? 1 : 0;
     if (!(p.delta[b] > 0)) return false;

@@ -24,7 +24,8 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 
 /// The material at one point, textures looked up. `wo` and `wi` are unit, world space, and point away from
 /// the surface. Reflection is two-sided; wo and wi must both lie above the surface and above its shading
-/// normal's horizon, else the value is 0 (no light leaks through bumps). Albedo is at most 1 for every wo,
+/// normal's horizon, else the value is 0 (no light leaks through bumps), but for what a sheet passes
+/// diffusely: there one of the two lies below both, whichever it is. Albedo is at most 1 for every wo,
 /// except that phong and ward add kd and their lobe as the scene states them, and that measured data may gain
 /// energy.
 ///
@@ -43,6 +44,10 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// 1/T_mean for metallic_roughness, and 1/(T_mean + interreflection below the coat) for plastic (`kd` is then
 /// the pigment's own reflectance, as in the physical model of a coat of refractive index ior). A GGX or Ward
 /// roughness below kSmoothestAlpha is a mirror.
+///
+/// Beside all of it, a thin sheet may pass light diffusely: 1/pi times diffuse_transmittance() between
+/// directions on its two sides, whatever they are. Under a coat that is the mean over directions, so that
+/// albedo and transmittance are at most 1 together in the mean.
 ///
 /// Light passes straight through panes (thin_dielectric), thin sheets (transmission of metallic_roughness)
 /// and the share of a surface that alpha blending leaves open. A sheet passes base colour x transmission x (1
@@ -78,6 +83,18 @@ class Bsdf {
   /// difference.
   Rgb diffuse_reflectance() const { return diffuse_; }
   bool has_diffuse() const { return max_component(diffuse_) > 0; }
+  /// Diffuse transmittance: what the irradiance on the other side is multiplied by, over pi, for outgoing
+  /// luminance on this side.
+  Rgb diffuse_transmittance() const { return through_; }
+  bool transmits_diffusely() const { return max_component(through_) > 0; }
+  /// Has lobes that are no delta lobes.
+  bool scatters() const { return has_diffuse() || transmits_diffusely() || has_gloss(); }
+  /// Does light that lands here stay to be told of: photons are stored, records placed? Not where all of it
+  /// is reflected or passes as by mirrors and glass.
+  bool takes_light() const { return !has_specular() || scatters(); }
+  /// A Lambert reflector that faces the other way and has diffuse_transmittance() as its reflectance: what it
+  /// reflects of the light there is what comes through here.
+  Bsdf other_side() const;
   /// Delta lobes: mirror, smooth glass, what passes straight.
   bool has_specular() const { return delta_ != Delta::none || coverage_ < 1; }
   bool passes_straight() const {
@@ -102,6 +119,7 @@ class Bsdf {
   float density_gloss(const Vec3& wo, const Vec3& wi) const;
 
  private:
+  Bsdf() = default;
   enum class Lobe : std::uint8_t { none, phong, ward, ggx, measured };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
 
@@ -122,10 +140,12 @@ class Bsdf {
   float lobe_density(const Vec3& o, const Vec3& i) const;
   float lobe_albedo(float cos_theta) const;
   bool sample_lobe(const Vec3& o, const Vec2& u, Vec3& i) const;
-  /// Probabilities of the diffuse, glossy and two delta lobes; they add up to 1 or are all 0.
+  /// Probabilities of the diffuse, glossy, transmitting and two delta lobes; they add up to 1 or are all 0.
   struct Choice {
-    float diffuse = 0, gloss = 0, delta[2] = {0, 0};
+    float diffuse = 0, gloss = 0, through = 0, delta[2] = {0, 0};
   };
+  Bsdf turned() const;
+  bool across(const Vec3& wo, const Vec3& wi) const;
   bool sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, TransportMode mode) const;
   Choice choice(const Vec3& o, const BsdfSample branches[2], int count) const;
   float broad_share(const Vec3& o) const;
@@ -139,6 +159,7 @@ class Bsdf {
   Rgb specular_{0};  // ks, or reflectance at normal incidence (GGX, delta)
   Rgb base_{0};      // under a coat: k kd
   Rgb sheet_{0};     // transmitted straight through
+  Rgb through_{0};   // transmitted diffusely
   float f90_ = 1, coat_f0_ = 0, coat_f90_ = 1, coat_mean_ = 1;  // coat_mean_: transmittance
   float alpha_x_ = 0, alpha_y_ = 0, exponent_ = 1, ior_ = 1.5f;
   Lobe lobe_ = Lobe::none;

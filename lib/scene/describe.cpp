@@ -154,8 +154,14 @@ Json describe_material(const Scene& scene, const MaterialSummary& s) {
     j["transmittance"] = numbers(Bsdf(scene, index).pane(Vec3(0, 0, 1)).transmittance());
   }
   Json textures = Json::Array{};
-  constexpr const char* kNames[] = {"base colour", "metallic-roughness", "normal",
-                                    "emissive",    "anisotropy",         "transmission"};
+  constexpr const char* kNames[] = {"base colour",
+                                    "metallic-roughness",
+                                    "normal",
+                                    "emissive",
+                                    "anisotropy",
+                                    "transmission",
+                                    "diffuse transmission",
+                                    "diffuse transmission colour"};
   for (std::size_t i = 0; i < std::size(kNames); ++i) {
     if (m.texture_uses()[i]->used()) textures.push_back(kNames[i]);
   }

@@ -65,6 +65,11 @@ void add_material(Hasher& hasher, const Material& m) {
   if (m.inside != Rgb(1)) add_vector(hasher, m.inside);
   if (m.absorption_per_m != Rgb(0)) add_vector(hasher, m.absorption_per_m);
   if (m.transmission_map.used()) add_use(hasher, m.transmission_map);
+  if (m.diffuse_transmission > 0) {
+    hasher.add(m.diffuse_transmission);
+    add_vector(hasher, m.diffuse_transmission_colour);
+    add_use(hasher, m.diffuse_transmission_map), add_use(hasher, m.diffuse_transmission_colour_map);
+  }
   if (m.curve)
     for (const TransmittanceCurve::Point& p : m.curve->points()) {
       hasher.add(static_cast<float>(p.angle_deg));

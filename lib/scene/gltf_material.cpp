@@ -19,6 +19,7 @@ constexpr double kSmoothRoughness = 0.1;
 
 constexpr const char* kAnisotropy = "extensions/KHR_materials_anisotropy";
 constexpr const char* kTransmission = "extensions/KHR_materials_transmission";
+constexpr const char* kDiffuse = "extensions/KHR_materials_diffuse_transmission";
 constexpr const char* kVolume = "extensions/KHR_materials_volume";
 
 struct ImageBytes {
@@ -191,7 +192,32 @@ class MaterialReader {
     if (!(t >= 0 && t <= 1)) fail("transmissionFactor must be between 0 and 1");
     material_.transmission = static_cast<float>(t);
     if (t > 0) read_transmission();
+    if (const Json* diffuse = find_path(*json_, kDiffuse)) read_diffuse_transmission(*diffuse);
     if (const Json* anisotropy = find_path(*json_, kAnisotropy)) read_anisotropy(*anisotropy);
+  }
+
+  void read_diffuse_transmission(const Json& diffuse) {
+    const double share = number_at(diffuse, "diffuseTransmissionFactor", 0);
+    if (!(share >= 0 && share <= 1)) fail("diffuseTransmissionFactor must be between 0 and 1");
+    const Rgb colour = rgb_at(diffuse, "diffuseTransmissionColorFactor").value_or(Rgb(1));
+    check_colour("diffuseTransmissionColorFactor", colour);
+    if (share == 0 || find_path(*json_, "extras/phos/brdf")) return;
+    if (max_component(colour) > 1)
+      warn("its diffuse transmission colour is above 1: it sends on more light than it gets");
+    material_.diffuse_transmission = static_cast<float>(share);
+    material_.diffuse_transmission_colour = colour;
+    material_.diffuse_transmission_map = extension_texture(kDiffuse, "diffuseTransmissionTexture", false);
+    material_.diffuse_transmission_colour_map =
+        extension_texture(kDiffuse, "diffuseTransmissionColorTexture", true);
+    if (find_path(*json_, std::string(kVolume) + "/thicknessFactor"))
+      warn("diffuse transmission of a solid is not modelled: its surface is read as a thin sheet");
+  }
+
+  /// A texture that an extension of the material names.
+  TextureUse extension_texture(const std::string& extension, const std::string& member, bool srgb) {
+    const double texture = number_at(*json_, extension + "/" + member + "/index", -1);
+    const double set = number_at(*json_, extension + "/" + member + "/texCoord", 0);
+    return use((extension + "/" + member).c_str(), static_cast<int>(texture), static_cast<int>(set), srgb);
   }
 
   void read_anisotropy(const Json& anisotropy) {
@@ -201,19 +227,13 @@ class MaterialReader {
     material_.anisotropy = static_cast<float>(strength);
     material_.anisotropy_rad = static_cast<float>(number_at(anisotropy, "anisotropyRotation", 0));
     material_.alpha_x += (1 - material_.alpha_x) * material_.anisotropy * material_.anisotropy;
-    const double texture = number_at(anisotropy, "anisotropyTexture/index", -1);
-    const double set = number_at(anisotropy, "anisotropyTexture/texCoord", 0);
-    material_.anisotropy_map = use((std::string(kAnisotropy) + "/anisotropyTexture").c_str(),
-                                   static_cast<int>(texture), static_cast<int>(set), false);
+    material_.anisotropy_map = extension_texture(kAnisotropy, "anisotropyTexture", false);
   }
 
   /// KHR_materials_transmission is an infinitely thin sheet unless KHR_materials_volume gives it a body.
   void read_transmission() {
     if (find_path(*json_, "extras/phos/brdf")) return;
-    const double texture = number_at(*json_, std::string(kTransmission) + "/transmissionTexture/index", -1);
-    const double set = number_at(*json_, std::string(kTransmission) + "/transmissionTexture/texCoord", 0);
-    material_.transmission_map = use((std::string(kTransmission) + "/transmissionTexture").c_str(),
-                                     static_cast<int>(texture), static_cast<int>(set), false);
+    material_.transmission_map = extension_texture(kTransmission, "transmissionTexture", false);
     if (!find_path(*json_, "pbrMetallicRoughness/metallicFactor") && !material_.metallic_roughness.used()) {
       material_.metallic = 0;  // metal passes nothing, and nobody means that
       warn("it has no metallicFactor, which makes it a metal; as it transmits, it is read as 0");
@@ -332,6 +352,10 @@ class MaterialReader {
     if (material_.ior < 1) fail("extras.phos.ior must be 1 or more");
     read_alpha(phos);
     switch (model->second) {
+      case Model::lambert:
+        material_.diffuse_transmission_colour = colour(phos, "kt").value_or(Rgb(0));
+        if (max_component(material_.diffuse_transmission_colour) > 0) material_.diffuse_transmission = 1;
+        break;
       case Model::phong:
       case Model::ward:
         material_.ks = colour(phos, "ks").value_or(Rgb(0));
@@ -445,6 +469,9 @@ class MaterialReader {
   }
 
   void check_energy() const {
+    if (material_.model == Model::lambert && material_.diffuse_transmission > 0 &&
+        max_component(material_.kd + material_.diffuse_transmission_colour) > 1.0001f)
+      warn("kd + kt is above 1: it sends on more light than it gets");
     if (max_component(material_.kd + (material_.model == Model::phong || material_.model == Model::ward
                                           ? material_.ks
                                           : Rgb(0))) > 1.0001f) {

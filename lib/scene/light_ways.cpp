@@ -170,8 +170,8 @@ class Finder {
       BsdfSample branch[2];
       const int branches = bsdf.specular_branches(wo, branch, TransportMode::flux);
       const bool sharp = bsdf.has_gloss() && lobe_[point.material] < kSharpLobe;
-      if (flight.events > 0 && (bsdf.has_diffuse() || (bsdf.has_gloss() && !sharp) || !bsdf.has_specular()))
-        land(flight, point, found);
+      const bool broad = bsdf.has_diffuse() || bsdf.transmits_diffusely() || (bsdf.has_gloss() && !sharp);
+      if (flight.events > 0 && (broad || !bsdf.has_specular())) land(flight, point, found);
       if (sharp && flight.events < kMostEvents) send_gloss(flight, point, bsdf, random, open);
       double straight = 0;
       for (int b = 0; b < branches; ++b) {

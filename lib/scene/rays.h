@@ -41,6 +41,13 @@ struct SurfacePoint {
   Vec3 leave(const Vec3& direction) const {
     return position + (glm::dot(direction, geometric_normal) >= 0 ? error_m : -error_m) * geometric_normal;
   }
+  /// The same point, seen from the other side.
+  SurfacePoint other_side() const {
+    SurfacePoint other = *this;
+    other.geometric_normal = -geometric_normal, other.smooth_normal = -smooth_normal, other.normal = -normal;
+    other.front = !front;
+    return other;
+  }
 };
 
 struct Crossing;

@@ -86,12 +86,18 @@ struct Material {
   /// passes.
   Rgb absorption_per_m{0};
   float thickness_m = 0;  ///< dielectric of KHR_materials_volume: of a sheet of it that encloses nothing
+  /// Diffuse transmission of a thin sheet, Lambert's (KHR_materials_diffuse_transmission): share of the base
+  /// that does not reflect but passes, and its colour; multiplied by the alpha of diffuse_transmission_map
+  /// and by diffuse_transmission_colour_map. lambert: share times colour passes, and kd reflects whole.
+  float diffuse_transmission = 0;
+  Rgb diffuse_transmission_colour{1};
   /// KHR_materials_anisotropy: alpha along the tangent, turned by `anisotropy_rad` towards the bitangent, is
   /// mix(alpha, 1, anisotropy^2). The map's red and green hold a direction, its blue a factor of
   /// `anisotropy`.
   float anisotropy = 0, anisotropy_rad = 0;
   std::int32_t measured = -1;  ///< of Scene::measured
-  TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map, transmission_map;
+  TextureUse base_colour, metallic_roughness, normal, emissive, anisotropy_map, transmission_map,
+      diffuse_transmission_map, diffuse_transmission_colour_map;
   float normal_scale = 1;
   Rgb emission{0};            ///< luminance, cd/m2; multiplied by the emissive texture
   bool double_sided = false;  ///< emission from both sides; reflection is two-sided always
@@ -106,7 +112,7 @@ struct Material {
   bool diffuse_alone() const {
     const bool lobe = model != Model::lambert &&
                       (!(model == Model::phong || model == Model::ward) || max_component(ks) > 0);
-    return !lobe && alpha_mode != Alpha::blend;
+    return !lobe && alpha_mode != Alpha::blend && !(diffuse_transmission > 0);
   }
   /// Does its reflection depend on where the tangent points?
   bool anisotropic() const {
@@ -115,11 +121,25 @@ struct Material {
     return rough && alpha_x != alpha_y;
   }
   /// All that it may look up.
-  std::array<TextureUse*, 6> texture_uses() {
-    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map, &transmission_map};
+  std::array<TextureUse*, 8> texture_uses() {
+    return {&base_colour,
+            &metallic_roughness,
+            &normal,
+            &emissive,
+            &anisotropy_map,
+            &transmission_map,
+            &diffuse_transmission_map,
+            &diffuse_transmission_colour_map};
   }
-  std::array<const TextureUse*, 6> texture_uses() const {
-    return {&base_colour, &metallic_roughness, &normal, &emissive, &anisotropy_map, &transmission_map};
+  std::array<const TextureUse*, 8> texture_uses() const {
+    return {&base_colour,
+            &metallic_roughness,
+            &normal,
+            &emissive,
+            &anisotropy_map,
+            &transmission_map,
+            &diffuse_transmission_map,
+            &diffuse_transmission_colour_map};
   }
 };
 

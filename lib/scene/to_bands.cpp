@@ -91,6 +91,8 @@ class ToBands {
     m.kd = reflectance_of(m.kd, polished ? nullptr : spectrum);
     m.ks = reflectance_of(m.ks, polished ? spectrum : nullptr);
     m.specular_colour = colours_.reflectance(m.specular_colour);
+    if (m.diffuse_transmission > 0)
+      m.diffuse_transmission_colour = colours_.reflectance(m.diffuse_transmission_colour);
     if (m.tint != Rgb(1)) m.tint = colours_.reflectance(m.tint);
     if (m.inside != Rgb(1)) m.inside = colours_.reflectance(m.inside);
     if (m.absorption_per_m != Rgb(0)) convert_absorption(m);
@@ -117,7 +119,7 @@ class ToBands {
   void convert_textures() {
     std::vector<bool> colour(scene_.texture.size(), false);
     for (const Material& m : scene_.material)
-      for (const TextureUse* use : {&m.base_colour, &m.emissive})
+      for (const TextureUse* use : {&m.base_colour, &m.emissive, &m.diffuse_transmission_colour_map})
         if (use->used()) colour[static_cast<std::size_t>(use->texture)] = true;
     for (std::size_t t = 0; t < colour.size(); ++t) {
       if (!colour[t]) continue;

@@ -41,6 +41,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
   from_caustics(point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
+  if (bsdf.transmits_diffusely()) from_other_side(sample, point, bsdf, wo, sequence, light, result);
   if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
   return light;
@@ -173,6 +174,22 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
   light.noisy += direct.radiance;
   light.variance += direct.variance;
   if (!cached_direct_) light.illuminance_lx += luminance(direct.illuminance);
+}
+
+/// What comes through a sheet of the light on its other side, which no splat tells of.
+void PixelShader::from_other_side(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                                  const Vec3& wo, RandomStream& sequence, PixelSample& light,
+                                  ShadingResult& result) const {
+  const Shading::Through through =
+      shading_.through(point, bsdf, wo, range(sample, options_.light_samples), sequence, result.log);
+  ++result.looked_up;
+  result.missed += through.missed;
+  light.indirect += through.indirect;
+  light.indirect_error += through.indirect_stderr;
+  if (options_.direct == DirectBy::none) return;
+  light.direct += through.direct.radiance;
+  light.noisy += through.direct.radiance;
+  light.variance += through.direct.variance;
 }
 
 void PixelShader::from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,

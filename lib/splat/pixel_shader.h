@@ -67,6 +67,9 @@ class PixelShader {
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                    const SharedLight* shared, bool environment, bool gloss_by_rays, RandomStream& sequence,
                    PixelSample& light) const;
+  void from_other_side(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                       const Vec3& wo, RandomStream& sequence, PixelSample& light,
+                       ShadingResult& result) const;
   void from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
                     RandomStream& sequence, PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
