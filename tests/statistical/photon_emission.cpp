@@ -78,6 +78,7 @@ TEST(Emission, SpotFollowsItsRampForEveryCone) {
     for (const std::uint64_t n : counts)
       EXPECT_NEAR(static_cast<double>(n), kSamples / 50.0, 0.05 * kSamples / 50) << inner;
     EXPECT_NEAR(spot_solid_angle_sr(inner, outer), 2 * std::numbers::pi * total, 1e-12);
+    EXPECT_NEAR(sample_spot_cosine(inner, outer, 1), double(inner), 1e-12);
   }
 }
 
