@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "file/lfs_pointer.h"
 #include "scene/daylight.h"
 #include "scene/environment.h"
 #include "scene/find_portals.h"
@@ -24,6 +25,8 @@ bool is_gltf(const std::string& bytes) { return looks_like_glb(bytes) || looks_l
 std::string scene_bytes(const std::string& path) {
   std::string bytes = read_text(path);
   if (bytes.empty()) throw Error(ExitCode::bad_input, path, "the file is empty; export the scene again");
+  if (is_lfs_pointer(bytes))
+    throw Error(ExitCode::bad_input, path, text("neither glTF nor OBJ, but ", kLfsPointer));
   return bytes;
 }
 
