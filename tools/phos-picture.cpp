@@ -149,7 +149,7 @@ int main_of_tool(int argc, const char* const* argv) {
     const std::string bytes = read_text(input);
     if (looks_like_photometry(bytes))
       throw Error(ExitCode::usage, input, "is a luminaire's photometry; pass --goniometric to draw it");
-    if (!is_image(bytes) && is_plain_text(bytes)) {
+    if (!is_image(bytes) && !is_named_image(input) && is_plain_text(bytes)) {
       check_output(output, input, false);
       refuse_given(given_picture_option(options), "images", input, "a table");
       return draw_plot(tool, bytes, input, plot);

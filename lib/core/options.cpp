@@ -10,8 +10,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/comma_list.h"
 #include "core/error.h"
 #include "core/likeness.h"
+#include "core/named_files.h"
 
 namespace phos {
 
@@ -137,6 +139,19 @@ struct Options::Impl {
   void add(Declaration& d, const std::function<void(const std::string&)>& set) {
     d.initial = d.value();
     d.parsed = app.add_option_function<std::string>(flags_of(d), set)->take_last();
+  }
+  /// An option that may be given several times, each time with several items, which `split` takes apart.
+  template <class Split>
+  void add_several(Declaration& d, std::vector<std::string>& value, const Split& split) {
+    const auto set = [&value, split](const std::vector<std::string>& words) {
+      value.clear();
+      for (const std::string& word : words)
+        for (std::string& item : split(word)) value.push_back(std::move(item));
+    };
+    d.parsed = app.add_option_function<std::vector<std::string>>(flags_of(d), set)
+                   ->expected(1)
+                   ->take_all()
+                   ->allow_extra_args(false);
   }
   const Declaration* find(const std::string& name) const {
     for (const Declaration& d : declarations)
@@ -275,20 +290,19 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
     for (const std::string& s : value) items.push_back(s);
     return items;
   };
-  d.parsed = impl_->app.add_option(Impl::flags_of(d), value)
-                 ->delimiter(',')
-                 ->expected(1)
-                 ->take_all()
-                 ->allow_extra_args(false);
+  impl_->add_several(d, value, split_at_commas);
 }
 
 void Options::named_files(const std::string& name, std::vector<std::string>& value, const std::string& help) {
-  list(name, value, "NAME=FILE", help, Recorded::if_given);
-  impl_->declarations.back().value = [&value] {
+  Declaration& d =
+      impl_->declare(name, "NAME=FILE", phos::text(help, "; ", kNamedFileCommas), Recorded::if_given);
+  d.kind = "list";
+  d.value = [&value] {
     Json names = Json::Array{};
-    for (const std::string& s : value) names.push_back(s.substr(0, s.find('=')));
+    for (const std::string& s : value) names.push_back(name_of(s));
     return names;
   };
+  impl_->add_several(d, value, split_named_files);
 }
 
 void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {

@@ -50,12 +50,13 @@ class Options {
                Range = {}, Recorded = Recorded::yes);
   void text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
             Recorded = Recorded::yes);
-  /// May be given several times, or once with commas.
+  /// May be given several times, or once with commas (split_at_commas()).
   void list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
             const std::string& help, Recorded = Recorded::yes);
   /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
   void file(const std::string& name, std::string& value, const std::string& help, bool required = false);
-  /// NAME=FILE; may be given several times, or once with commas. NAMEs are recorded, if given, FILEs never.
+  /// NAME=FILE; may be given several times, or once with commas (split_named_files()). NAMEs are recorded, if
+  /// given, FILEs never.
   void named_files(const std::string& name, std::vector<std::string>& value, const std::string& help);
   /// One of named values.
   template <class E>

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "file/lfs_pointer.h"
 
 namespace phos {
 namespace {
@@ -119,6 +120,7 @@ bool is_plain_text(std::string_view bytes) {
 CsvTable parse_csv(std::string_view bytes, const std::string& where) {
   if (!is_plain_text(bytes))
     throw Error(ExitCode::bad_input, where, "is not text; expected comma-separated values");
+  if (is_lfs_pointer(bytes)) throw Error(ExitCode::bad_input, where, text("is no table, but ", kLfsPointer));
   CsvTable table;
   table.where = where;
   CsvReader reader(bytes, where);

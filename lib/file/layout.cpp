@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "file/json_parse.h"
+#include "file/lfs_pointer.h"
 
 namespace phos {
 
@@ -36,6 +37,7 @@ std::string guess(std::span<const std::byte> file) {
   if (s.starts_with("glTF")) return " (it is a glTF scene)";
   if (s.starts_with("\x76\x2f\x31\x01")) return " (it is an OpenEXR image)";
   if (s.starts_with("\x89PNG")) return " (it is a PNG picture)";
+  if (is_lfs_pointer(s)) return text(" (it is ", kLfsPointer, ")");
   const bool printable = std::all_of(s.begin(), s.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte >= 0x20 || c == '\n' || c == '\r' || c == '\t';

@@ -77,6 +77,19 @@ void place(const std::vector<float>& data, const Window& w, std::span<float> out
   }
 }
 
+/// Why a part cannot be read here, though the file is sound; empty where it can.
+std::string why_not_read(const Imf::Header& header) {
+  if (header.hasType() && Imf::isDeepData(header.type()))
+    return "has deep pixels, which phos does not read; flatten the picture";
+  std::string subsampled;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+      subsampled += text(subsampled.empty() ? "" : ", ", c.name());
+  if (subsampled.empty()) return "";
+  return text("has subsampled chroma (", subsampled,
+              "), which phos does not read; save the picture with full channels R, G and B");
+}
+
 void read_part(Imf::MultiPartInputFile& file, int index, const std::string& prefix,
                const Imath::Box2i& display, Image& image) {
   const Imf::Header& header = file.header(index);
@@ -87,8 +100,6 @@ void read_part(Imf::MultiPartInputFile& file, int index, const std::string& pref
   std::map<std::string, std::vector<float>> values;
   Imf::FrameBuffer buffer;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-    if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-      throw Iex::InputExc(text("channel ", c.name(), " is subsampled; save the picture with full channels"));
     std::vector<float>& v = values[c.name()];
     v.resize(pixels);
     buffer.insert(c.name(),
@@ -110,7 +121,9 @@ void convert_colours(const Imf::Header& header, Image& image) {
   Primaries from = kRec709;
   if (Imf::hasChromaticities(header)) {
     const Imf::Chromaticities& c = Imf::chromaticities(header);
-    from = {{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
+    const Primaries given{
+        {c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
+    if (!given.not_given()) from = given;
     if (!is_valid(from)) throw Iex::InputExc("the chromaticities are not a colour space");
   }
   const Mat3 m = convert_primaries(from, kRec709);
@@ -123,17 +136,29 @@ void convert_colours(const Imf::Header& header, Image& image) {
   }
 }
 
-Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes) {
-  for (int i = 0; i < file.parts(); ++i) require_plausible(file.header(i), file_bytes);
-  const Imf::Header& first = file.header(0);
+/// Parts that can be read. Throws Error(bad_input) where there is none.
+std::vector<int> fitting_parts(const Imf::MultiPartInputFile& file, const std::string& where) {
+  std::vector<int> parts;
+  std::string why;
+  for (int i = 0; i < file.parts(); ++i) {
+    const std::string reason = why_not_read(file.header(i));
+    if (reason.empty()) parts.push_back(i);
+    if (why.empty()) why = reason;
+  }
+  if (parts.empty()) throw Error(ExitCode::bad_input, where, why);
+  return parts;
+}
+
+Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes, const std::string& where) {
+  const std::vector<int> parts = fitting_parts(file, where);
+  for (const int i : parts) require_plausible(file.header(i), file_bytes);
+  const Imf::Header& first = file.header(parts[0]);
   const Imath::Box2i display = first.displayWindow();
   Image image(static_cast<int>(extent(display.min.x, display.max.x)),
               static_cast<int>(extent(display.min.y, display.max.y)));
-  for (int i = 0; i < file.parts(); ++i) {
+  for (const int i : parts) {
     const Imf::Header& header = file.header(i);
-    if (header.hasType() && Imf::isDeepData(header.type()))
-      throw Iex::InputExc("deep pixels cannot be used; flatten the picture");
-    read_part(file, i, i > 0 && header.hasName() ? header.name() : "", display, image);
+    read_part(file, i, i != parts[0] && header.hasName() ? header.name() : "", display, image);
   }
   if (Imf::hasFramesPerSecond(first) && Imf::framesPerSecond(first).d != 0)
     image.attributes[kFramesPerSecond] = shortest(static_cast<double>(Imf::framesPerSecond(first)));
@@ -150,11 +175,11 @@ Image read_parts(Imf::MultiPartInputFile& file, std::uint64_t file_bytes) {
 Image decode_exr(std::string_view bytes, const std::string& where) {
   use_our_exr_threads();
   try {
-    check_exr_header(bytes);
+    check_exr_header(bytes, where);
     MemoryExrIn stream(bytes, where);
     Imf::MultiPartInputFile file(stream, Imf::globalThreadCount(), false);
     if (file.parts() < 1) throw Iex::InputExc("the file holds no picture");
-    return read_parts(file, bytes.size());
+    return read_parts(file, bytes.size(), where);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -1,9 +1,13 @@
 #include "image/exr_header.h"
 
+#include <ImfCompression.h>
+
 #include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>
+
+#include "core/error.h"
 
 namespace phos {
 namespace {
@@ -92,23 +96,34 @@ void walk_value(std::string_view type, Walker value) {
   if (!value.done()) throw std::runtime_error("an attribute is of another size than its type");
 }
 
+/// Compressions that later versions of the format have; larger numbers are damage.
+constexpr unsigned kLaterCompressions = 32;
+
+void require_known_compression(std::string_view value, const std::string& where) {
+  const unsigned number = value.empty() ? 0 : static_cast<unsigned char>(value[0]);
+  if (number < Imf::NUM_COMPRESSION_METHODS || number >= kLaterCompressions) return;
+  throw Error(ExitCode::bad_input, where,
+              text("has compression ", number, " of OpenEXR, which phos does not read; save it with ZIP"));
+}
+
 /// Attributes up to an empty name; false if there is none.
-bool walk_header(Walker& in) {
+bool walk_header(Walker& in, const std::string& where) {
   bool any = false;
   for (;; any = true) {
     if (in.name().empty()) return any;
-    const std::string_view type = in.name();
-    walk_value(type, Walker(in.take(in.word())));
+    const std::string_view type = in.name(), value = in.take(in.word());
+    walk_value(type, Walker(value));
+    if (type == "compression") require_known_compression(value, where);
   }
 }
 
 }  // namespace
 
-void check_exr_header(std::string_view file) {
+void check_exr_header(std::string_view file, const std::string& where) {
   Walker in(file);
   in.word();
   const bool many = (in.word() & kManyParts) != 0;
-  while (walk_header(in) && many) {
+  while (walk_header(in, where) && many) {
   }
 }
 

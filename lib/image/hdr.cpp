@@ -62,7 +62,7 @@ struct HdrHeader {
   double exposure = 1;
   glm::dvec3 correction{1};
   Primaries primaries = kRadiance;
-  bool xyz = false, has_format = false;
+  bool xyz = false;
   std::map<std::string, std::string> attributes;
 };
 
@@ -98,8 +98,19 @@ void read_primaries(HdrHeader& h, std::string_view value, const std::string& whe
   const std::vector<double> v = numbers(value);
   if (v.size() < 8) damaged(where, "PRIMARIES is not eight numbers");
   const auto xy = [&](std::size_t i) { return Vec2(glm::dvec2(v[i], v[i + 1])); };
-  h.primaries = {xy(0), xy(2), xy(4), xy(6)};
+  const Primaries given{xy(0), xy(2), xy(4), xy(6)};
+  if (given.not_given()) return;
+  h.primaries = given;
   if (!is_valid(h.primaries)) damaged(where, "PRIMARIES is not a colour space");
+}
+
+void read_format(HdrHeader& h, std::string_view value, const std::string& where) {
+  while (value.ends_with(' ') || value.ends_with('\t')) value.remove_suffix(1);
+  h.xyz = value == "32-bit_rle_xyze";
+  if (!h.xyz && value != "32-bit_rle_rgbe")
+    throw Error(ExitCode::bad_input, where,
+                text("has the FORMAT \"", value,
+                     "\", which phos does not read; convert it to 32-bit_rle_rgbe or 32-bit_rle_xyze"));
 }
 
 /// Header lines are NAME=value; a line that starts with a blank or has no '=' is a remark (Radiance,
@@ -120,8 +131,7 @@ HdrHeader read_header(Cursor& in) {
     } else if (name == "PRIMARIES") {
       read_primaries(h, value, in.where());
     } else if (name == "FORMAT") {
-      h.xyz = value == "32-bit_rle_xyze", h.has_format = true;
-      if (!h.xyz && value != "32-bit_rle_rgbe") damaged(in.where(), "FORMAT is neither rgbe nor xyze");
+      read_format(h, value, in.where());
     } else {
       h.attributes[name] = value;
     }

@@ -1,11 +1,14 @@
 #include "image/image.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "file/atomic_file.h"
+#include "file/lfs_pointer.h"
 #include "image/formats.h"
 
 namespace phos {
@@ -79,12 +82,19 @@ std::vector<std::string> Image::layers() const {
 
 bool is_image(std::string_view bytes) { return bytes.starts_with(kExrMagic) || bytes.starts_with("#?"); }
 
+bool is_named_image(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".exr" || extension == ".hdr";
+}
+
 Image read_image(const std::string& path) {
   const std::string bytes = read_text(path);
   if (bytes.starts_with(kExrMagic)) return decode_exr(bytes, path);
   if (bytes.starts_with("#?")) return decode_hdr(bytes, path);
   throw Error(ExitCode::bad_input, path,
-              "neither an OpenEXR nor a Radiance .hdr image; convert it to one of these");
+              text("neither an OpenEXR nor a Radiance .hdr image",
+                   is_lfs_pointer(bytes) ? text(", but ", kLfsPointer) : "; convert it to one of these"));
 }
 
 void write_exr(const std::string& path, const Image& image, ExrCompression compression) {

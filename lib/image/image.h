@@ -60,6 +60,8 @@ std::string channel_name(const std::string& layer, const std::string& component)
 Image read_image(const std::string& path);
 /// Do bytes begin as one of these?
 bool is_image(std::string_view bytes);
+/// Is a file called .exr or .hdr, whatever it holds?
+bool is_named_image(const std::string& path);
 
 /// All are lossless: zip is read everywhere, piz takes half again the time to write and makes a
 /// sixth less of pictures with noise, none takes the least time.

@@ -9,6 +9,8 @@ namespace phos {
 struct Primaries {
   Vec2 red, green, blue, white;
   bool operator==(const Primaries&) const = default;
+  /// All zeros, which writers put where they know none.
+  bool not_given() const { return *this == Primaries{Vec2(0), Vec2(0), Vec2(0), Vec2(0)}; }
 };
 
 inline constexpr Primaries kRec709{{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}, {0.3127f, 0.3290f}};
@@ -16,7 +18,8 @@ inline constexpr Primaries kRec709{{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f
 inline constexpr Primaries kRadiance{
     {0.640f, 0.330f}, {0.290f, 0.600f}, {0.150f, 0.060f}, {1.0f / 3, 1.0f / 3}};
 
-/// False for values that span no colour space (collinear, not finite, y of 0).
+/// False for values that span no colour space (collinear, not finite) or have a white without X, Y or Z.
+/// Primaries that no light has, as ACES AP0 and CIE XYZ have, are valid.
 bool is_valid(const Primaries& p);
 
 /// XYZ of RGB; white has Y = 1. (SMPTE RP 177)

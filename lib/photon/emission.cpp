@@ -42,7 +42,8 @@ double spot_solid_angle_sr(double cos_inner, double cos_outer) {
 double sample_spot_cosine(double cos_inner, double cos_outer, float u) {
   const Cone c = cone(cos_inner, cos_outer);
   const double x = static_cast<double>(u) * (c.cap + c.ring);
-  const double cosine = x < c.cap ? 1 - x : c.outer + c.rise * std::cbrt((x - c.cap) / c.ring);
+  const bool in_cap = x < c.cap || c.ring == 0;
+  const double cosine = in_cap ? 1 - x : c.outer + c.rise * std::cbrt((x - c.cap) / c.ring);
   return std::clamp(cosine, -1.0, 1.0);
 }
 

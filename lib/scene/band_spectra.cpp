@@ -3,7 +3,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "scene/named_files.h"
+#include "core/named_files.h"
 
 namespace phos {
 namespace {

@@ -13,6 +13,8 @@ namespace {
 /// Points per side of the grid over a triangle on which an emissive texture is averaged; texels beyond it are
 /// sampled.
 constexpr int kMaxGrid = 64;
+/// The same at least, where a part of the triangle is cut out.
+constexpr float kLeastMaskedGrid = 16;
 
 /// KHR_lights_punctual: (t)^2 with t linear in the cosine from the outer to the inner cone, integrated over
 /// the sphere.
@@ -87,10 +89,11 @@ void require_power(Scene& scene) {
 
 }  // namespace
 
-Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
-  const Material& material = scene.material_of(triangle);
-  const TextureUse& use = material.emissive;
-  if (!use.used()) return material.emission;
+namespace {
+
+/// Texels of a use along the sides of a triangle.
+float texels_across(const Scene& scene, std::uint32_t triangle, const TextureUse& use) {
+  if (!use.used()) return 1;
   const Texture& texture = scene.texture[static_cast<std::size_t>(use.texture)];
   const auto corner = [&](float u, float v) {
     return transformed(use, texture_coordinates(scene, triangle, use.set, u, v));
@@ -98,9 +101,26 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
   const Vec2 size(texture.width, texture.height);
   const Vec2 span =
       glm::max(glm::abs(corner(1, 0) - corner(0, 0)), glm::abs(corner(0, 1) - corner(0, 0))) * size;
-  const float texels = std::max(span.x, span.y);
-  const int n =
-      std::isfinite(texels) ? static_cast<int>(std::clamp(std::ceil(texels), 1.0f, float{kMaxGrid})) : 1;
+  return std::max(span.x, span.y);
+}
+
+/// Points per side of the grid on which a triangle's emission is averaged. The edge of a cut-out may run
+/// anywhere within a texel.
+int grid_of(const Scene& scene, std::uint32_t triangle) {
+  const Material& material = scene.material_of(triangle);
+  const bool opaque = material.alpha_mode == Material::Alpha::opaque;
+  float texels = texels_across(scene, triangle, material.emissive);
+  if (!opaque) texels = std::max(texels, texels_across(scene, triangle, material.base_colour));
+  const float least = opaque ? 1.f : kLeastMaskedGrid;
+  return std::isfinite(texels) ? static_cast<int>(std::clamp(std::ceil(texels), least, float{kMaxGrid})) : 1;
+}
+
+}  // namespace
+
+Rgb mean_emission(const Scene& scene, std::uint32_t triangle) {
+  const Material& material = scene.material_of(triangle);
+  if (!material.emissive.used() && material.alpha_mode == Material::Alpha::opaque) return material.emission;
+  const int n = grid_of(scene, triangle);
   // Centroids of the n^2 equal triangles of an n-fold subdivision.
   glm::dvec3 sum(0);
   for (int i = 0; i < n; ++i) {
@@ -139,7 +159,10 @@ void fill_lights(Scene& scene) {
     if (max_component(light.flux_lm) > 0) {
       scene.light.push_back(light);
     } else {
-      scene.warnings.push_back("light \"" + instance.node + "\" has no area or is black: it is ignored");
+      const bool opaque = scene.material[instance.material].alpha_mode == Material::Alpha::opaque;
+      const char* why = opaque || !(light.area_m2 > 0) ? "has no area or is black"
+                                                       : "is cut out wholly by its alpha, or black";
+      scene.warnings.push_back(text("light \"", instance.node, "\" ", why, ": it is ignored"));
     }
   }
   const float radius_m = bounding_radius_m(scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/comma_list.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
@@ -35,13 +36,17 @@ Vec3 side_within(const RayScene& rays, const Portal& p) {
 
 std::vector<Portal> named_portals(const Scene& scene, const std::string& names) {
   std::vector<Portal> pieces;
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
-    begin = end + 1;
+  const auto is_named = [&](const Instance& instance, const std::string& name) {
+    return instance.node == name || scene.material[instance.material].name == name;
+  };
+  const auto known = [&](const std::string& name) {
+    return std::any_of(scene.instance.begin(), scene.instance.end(),
+                       [&](const Instance& instance) { return is_named(instance, name); });
+  };
+  for (const std::string& name : split_known_names(names, known)) {
     bool found = false;
     for (const Instance& instance : scene.instance) {
-      if (instance.node != name && scene.material[instance.material].name != name) continue;
+      if (!is_named(instance, name)) continue;
       found = true;
       for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {
         const auto& v = scene.triangle[instance.first_triangle + t].v;

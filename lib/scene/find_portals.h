@@ -13,8 +13,8 @@ namespace phos {
 /// sky is seen.
 std::vector<Portal> find_portals(const RayScene& rays, const std::string& which);
 
-/// The scene's surfaces of the nodes and materials of these names, comma by comma, both ways; none without
-/// area. Throws Error(usage) for a name that there is not.
+/// The scene's surfaces of the nodes and materials of these names (split_known_names()), both ways; none
+/// without area. Throws Error(usage) for a name that there is not.
 std::vector<Portal> named_portals(const Scene& scene, const std::string& names);
 
 /// Where the sky is seen from within (look_about()). The six faces of the box about all places within are

@@ -8,7 +8,9 @@
 
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
+#include "file/lfs_pointer.h"
 #include "scene/gltf_check.h"
+#include "scene/gltf_compression.h"
 #include "scene/gltf_uri.h"
 
 namespace phos {
@@ -118,6 +120,7 @@ std::string buffer_bytes(const GltfDocument& document, std::size_t i, const Chun
     const std::optional<std::string> file = uri_file(document.path, uri);
     if (!file) document.fail(text("buffers[", i, "].uri must be a relative path, not \"", uri, "\""));
     bytes = read_referred(*file);
+    if (is_lfs_pointer(bytes)) document.fail(text("buffers[", i, "].uri, ", uri, ", is ", kLfsPointer));
   }
   if (bytes.size() < length) {
     document.fail(text("buffers[", i, "] is truncated: ", bytes.size(), " of ", length, " bytes are there"));
@@ -189,6 +192,7 @@ GltfDocument read_gltf(const std::string& path, std::string_view bytes) {
   check_version(document.json, path);
   check_extensions(document.json, path);
   check_gltf(document.json, path);
+  require_uncompressed(document.json, path);
   for (std::size_t i = 0; i < count_at(document.json, "buffers"); ++i) {
     document.buffer.push_back(buffer_bytes(document, i, chunks));
   }

@@ -17,6 +17,7 @@
 #include "scene/load_mesh.h"
 #include "scene/load_textures.h"
 #include "scene/node_extent.h"
+#include "scene/spot_cone.h"
 
 namespace phos {
 namespace {
@@ -335,11 +336,9 @@ class SceneReader {
       light.kind = Light::Kind::spot;
       const double inner = light_number(index, "spot/innerConeAngle", 0);
       const double outer = light_number(index, "spot/outerConeAngle", 0.25 * std::numbers::pi);
-      if (!(inner >= 0 && inner < outer && outer <= 0.5 * std::numbers::pi)) {
-        fail("its cone angles must satisfy 0 <= inner < outer <= pi/2");
-      }
-      light.cos_inner = std::cos(inner);
-      light.cos_outer = std::cos(outer);
+      if (!set_spot_cone(light, inner, outer))
+        fail(text("its cone angles must satisfy 0 <= inner <= outer <= pi/2, outer above 0; they are ",
+                  shortest(static_cast<float>(inner)), " and ", shortest(static_cast<float>(outer)), " rad"));
     } else {
       fail("type \"" + type + "\" is not point, spot or directional");
     }

@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
-#include "scene/named_files.h"
+#include "core/named_files.h"
 
 namespace phos {
 namespace {

@@ -67,6 +67,16 @@ class Numbers {
     return values;
   }
 
+  /// All that are left, up to the end or a word that is none; and the line of each.
+  std::vector<std::pair<double, std::size_t>> rest() const {
+    std::vector<std::pair<double, std::size_t>> values;
+    Numbers copy = *this;
+    double value = 0;
+    while (!copy.done() && photometric_number(copy.word(), value))
+      values.emplace_back(value, copy.last_line());
+    return values;
+  }
+
   [[noreturn]] void fail(const std::string& message) const { fail_at(where_, line(), message); }
 
  private:
@@ -195,7 +205,42 @@ class Reader {
     }
   }
 
+  /// Do angles begin here, which ascend from one of the first angles that LM-63 allows?
+  static bool are_angles(const std::vector<std::pair<double, std::size_t>>& all, std::size_t at,
+                         std::size_t n) {
+    const double first = all[at].first;
+    if (first != 0 && first != 90 && first != -90) return false;
+    for (std::size_t i = 1; i < n; ++i)
+      if (!(all[at + i].first > all[at + i - 1].first)) return false;
+    return all[at + n - 1].first <= 360;
+  }
+
+  /// Some makers leave out the line of the ballast, or a length of the opening: what follows would be taken
+  /// for what it is not. The counts of angles tell how many numbers there should be.
+  void require_all_before_angles(const Numbers& numbers) const {
+    constexpr std::size_t kBefore = 13, kCounts = 5;  // numbers before the angles; up to the counts of these
+    const std::vector<std::pair<double, std::size_t>> all = numbers.rest();
+    if (all.size() < kBefore) return;
+    const double v = all[3].first, h = all[4].first, needed = kBefore + v + h + v * h;
+    const double missing = needed - static_cast<double>(all.size());
+    if (!(v >= 2 && h >= 1 && missing >= 1 && missing <= kBefore - kCounts) || missing != std::floor(missing))
+      return;
+    const auto n = static_cast<std::size_t>(missing);
+    const auto vertical = static_cast<std::size_t>(v), horizontal = static_cast<std::size_t>(h);
+    const std::size_t begin = kBefore - n;
+    if (are_angles(all, kBefore, vertical) || !are_angles(all, begin, vertical) ||
+        !are_angles(all, begin + vertical, horizontal))
+      return;
+    const char* which = n == 3 ? "ballast factor, ballast-lamp factor and input watts"
+                               : "there must be 13, the last of them ballast factor, ballast-lamp factor "
+                                 "and input watts";
+    fail_at(where_, all[begin].second,
+            text(n, n == 1 ? " number is" : " numbers are", " missing before the angles: ", which, "; ",
+                 kAskTheMaker));
+  }
+
   void read_lamps(Numbers& numbers) {
+    require_all_before_angles(numbers);
     const double lamps = numbers.next("the number of lamps"), lm = numbers.next("the lumens per lamp");
     factor_ = numbers.next("the candela multiplier");
     if (!(factor_ > 0))

@@ -12,6 +12,7 @@
 #include "scene/load_textures.h"
 #include "scene/merl.h"
 #include "scene/sky_access.h"
+#include "scene/spot_cone.h"
 
 namespace phos {
 namespace {
@@ -100,6 +101,10 @@ class Linter {
     for (const Light& light : scene_.light) {
       if (light.kind == Light::Kind::area && light.fitting < 0) check_lamp(light);
       if (light.fitting >= 0) check_luminaire(light);
+      if (has_hard_edge(light))
+        add(Level::info, "hard-edge",
+            text("light \"", light.name, "\": the inner angle of its cone is the outer one: a hard edge"),
+            "give it a smaller inner angle if its beam should fade");
     }
   }
 

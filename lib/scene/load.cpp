@@ -4,13 +4,14 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/named_files.h"
 #include "file/atomic_file.h"
+#include "file/lfs_pointer.h"
 #include "scene/daylight.h"
 #include "scene/environment.h"
 #include "scene/find_portals.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
-#include "scene/named_files.h"
 #include "scene/obj_load.h"
 #include "scene/portal_sight.h"
 #include "scene/to_bands.h"
@@ -24,6 +25,8 @@ bool is_gltf(const std::string& bytes) { return looks_like_glb(bytes) || looks_l
 std::string scene_bytes(const std::string& path) {
   std::string bytes = read_text(path);
   if (bytes.empty()) throw Error(ExitCode::bad_input, path, "the file is empty; export the scene again");
+  if (is_lfs_pointer(bytes))
+    throw Error(ExitCode::bad_input, path, text("neither glTF nor OBJ, but ", kLfsPointer));
   return bytes;
 }
 
@@ -66,7 +69,8 @@ void declare_light_options(Options& options, SceneOptions& scene) {
       "portals", scene.portals, "auto|NAMES",
       "aims photons and shadow rays of sky, sun and environment at openings: auto finds those through which "
       "the sky is seen from within; or names of nodes or materials, comma by comma, whose surfaces fill them "
-      "(panes). One in ten (where a sky or map has bright spots, one shadow ray in two) is not aimed, so "
+      "(panes; commas of names that the scene has part none, nor do \\,). One in ten (where a sky or map has "
+      "bright spots, one shadow ray in two) is not aimed, so "
       "that no light is lost",
       Recorded::if_given);
 }

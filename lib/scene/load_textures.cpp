@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "file/lfs_pointer.h"
 #include "scene/texture.h"
 
 namespace phos {
@@ -91,6 +92,7 @@ void fill_texels(const std::vector<unsigned char>& bytes, bool srgb, std::vector
 
 /// Empty if it worked; else why not.
 std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) {
+  if (is_lfs_pointer(bytes)) return text("is ", kLfsPointer);
   const Size size = header_size(bytes);
   if (size.width <= 0 || size.height <= 0) return "is neither PNG, JPEG, BMP nor TGA";
   if (size.width > kMaxSide || size.height > kMaxSide || size.width * size.height > kMaxPixels) {

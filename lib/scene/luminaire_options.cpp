@@ -1,6 +1,6 @@
 #include "scene/luminaire_options.h"
 
-#include "scene/named_files.h"
+#include "core/named_files.h"
 #include "scene/photometric_file.h"
 
 namespace phos {

@@ -9,6 +9,7 @@
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
 #include "scene/texture.h"
+#include "scene/visible_share.h"
 
 namespace phos {
 
@@ -17,11 +18,13 @@ Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point, const Vec3&
   if (!material.emits() || !(point.front || material.double_sided)) return Rgb(0);
   if (const std::int32_t f = scene.instance[point.instance].fitting; f >= 0)
     return scene.fitting[static_cast<std::size_t>(f)].luminance(towards);
-  return material.emission * Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
+  return visible_share(scene, point) * material.emission *
+         Rgb(look_up(scene, material.emissive, point.uv0, point.uv1));
 }
 
 bool shines_evenly(const Scene& scene, const Instance& instance) {
-  return instance.fitting < 0 && !scene.material[instance.material].emissive.used();
+  const Material& material = scene.material[instance.material];
+  return instance.fitting < 0 && !material.emissive.used() && material.alpha_mode == Material::Alpha::opaque;
 }
 
 Ray shadow_ray(const SurfacePoint& point, const Illumination& light) {
@@ -93,7 +96,9 @@ float near2_m2(const Vec3 corner[3], const Vec3& middle) {
 /// Mean luminance of a triangle's emission, from 16 points of it.
 double mean_emission(const Scene& scene, std::uint32_t triangle) {
   constexpr int kSide = 4;
-  if (!scene.material_of(triangle).emissive.used()) return luminance(scene.material_of(triangle).emission);
+  const Material& material = scene.material_of(triangle);
+  if (!material.emissive.used() && material.alpha_mode == Material::Alpha::opaque)
+    return luminance(material.emission);
   double sum = 0;
   for (int k = 0; k < kSide * kSide; ++k) {
     const Vec2 u((static_cast<float>(k % kSide) + 0.5f) / kSide,

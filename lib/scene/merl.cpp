@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
+#include "file/lfs_pointer.h"
 
 namespace phos {
 namespace {
@@ -45,6 +46,7 @@ bool reachable(std::size_t cell) {
 }
 
 void check_layout(std::string_view bytes, const std::string& path) {
+  if (is_lfs_pointer(bytes)) fail(path, text("not a MERL file, but ", kLfsPointer));
   if (bytes.size() < kHeaderBytes) fail(path, "truncated: not a MERL file; copy it again");
   std::int32_t n[3];
   std::memcpy(n, bytes.data(), sizeof n);

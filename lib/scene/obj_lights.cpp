@@ -8,6 +8,7 @@
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
 #include "scene/gltf_document.h"
+#include "scene/spot_cone.h"
 
 namespace phos {
 namespace {
@@ -89,11 +90,9 @@ class Reader {
     if (kind != "directional") light.position = place(from, "position");
     if (kind != "point") light.direction = direction(from, "direction");
     if (kind == "spot") {
-      const double outer = number(from, "outer_deg", 45, 0, 90);
-      const double inner = number_at(from, "inner_deg", 0);
-      if (!(inner >= 0 && inner < outer)) fail("\"inner_deg\" must be below \"outer_deg\"");
-      light.cos_inner = std::cos(glm::radians(inner));
-      light.cos_outer = std::cos(glm::radians(outer));
+      const double outer = number_at(from, "outer_deg", 45), inner = number_at(from, "inner_deg", 0);
+      if (!set_spot_cone(light, glm::radians(inner), glm::radians(outer)))
+        fail("the half angles must satisfy 0 <= \"inner_deg\" <= \"outer_deg\" <= 90, \"outer_deg\" above 0");
     }
     if (light.kind != Light::Kind::directional) {
       if (std::shared_ptr<const PhotometricFile> file = given_.find(light.name)) {

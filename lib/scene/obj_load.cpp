@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/origin.h"
 #include "file/atomic_file.h"
+#include "file/lfs_pointer.h"
 #include "scene/gltf_uri.h"
 #include "scene/load_mesh.h"
 #include "scene/load_textures.h"
@@ -82,6 +83,10 @@ class MtlReader : public tinyobj::MaterialReader {
     const std::optional<std::string> bytes = read_if_there(beside(obj_path_, name));
     if (!bytes) {
       missing.push_back(name);
+      return false;
+    }
+    if (is_lfs_pointer(*bytes)) {
+      missing.push_back(text(name, " is ", kLfsPointer));
       return false;
     }
     std::istringstream stream(*bytes);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "file/lfs_pointer.h"
 #include "scene/gltf_uri.h"
 #include "scene/photometric_lines.h"
 
@@ -111,6 +112,9 @@ bool is_photometry(const std::string& path) {
 
 PhotometricFile parse_photometry(std::string_view bytes, const std::string& where, const ReadBeside& beside) {
   const Format format = format_of(bytes);
+  if (is_lfs_pointer(bytes))
+    throw Error(ExitCode::bad_input, where,
+                text("is neither an IES (LM-63) nor a EULUMDAT file of photometry, but ", kLfsPointer));
   if (format == Format::none)
     throw Error(ExitCode::bad_input, where, "is neither an IES (LM-63) nor a EULUMDAT file of photometry");
   PhotometricFile file =

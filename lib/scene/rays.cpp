@@ -14,7 +14,7 @@
 #include "scene/offset.h"
 #include "scene/passage.h"
 #include "scene/shading_frame.h"
-#include "scene/texture.h"
+#include "scene/visible_share.h"
 
 namespace phos {
 
@@ -44,18 +44,7 @@ bool is_flat(const Scene& scene, const Triangle& triangle, const Vec3& normal) {
 
 /// A texel that rays pass through.
 bool is_hole(const Scene& scene, std::uint32_t triangle, float u, float v) {
-  const Material& material = scene.material_of(triangle);
-  float alpha = material.alpha;
-  if (material.base_colour.used()) {
-    const Vec2 uv = texture_coordinates(scene, triangle, material.base_colour.set, u, v);
-    alpha *= look_up(scene, material.base_colour, uv, uv).w;
-  }
-  if (!scene.colour.empty()) {
-    const auto& corner = scene.triangle[triangle].v;
-    alpha *= (1 - u - v) * scene.colour[corner[0]].w + u * scene.colour[corner[1]].w +
-             v * scene.colour[corner[2]].w;
-  }
-  return alpha < material.alpha_cutoff;
+  return alpha_at(scene, triangle, u, v) < scene.material_of(triangle).alpha_cutoff;
 }
 
 /// Hits on panes, of rays that go on: of each ray of a packet, in any order.

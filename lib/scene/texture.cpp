@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/visible_share.h"
+
 namespace phos {
 
 namespace {
@@ -110,9 +112,10 @@ Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, fl
 
 Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
   const Material& material = scene.material_of(triangle);
-  if (!material.emissive.used()) return material.emission;
+  const float share = visible_share(scene, triangle, u, v);
+  if (!material.emissive.used()) return share * material.emission;
   const Vec2 uv = texture_coordinates(scene, triangle, material.emissive.set, u, v);
-  return material.emission * Rgb(look_up(scene, material.emissive, uv, uv));
+  return share * material.emission * Rgb(look_up(scene, material.emissive, uv, uv));
 }
 
 }  // namespace phos

@@ -255,7 +255,8 @@ void main() {
     if (kind >= 4) value *= share_towards(-to_light);
     if (kind == 0 || kind == 5) value *= two_sided != 0 ? abs(along) : max(along, 0.0);
     if (kind == 2) {
-      float falloff = along >= cone.y ? 1.0 : along <= cone.x ? 0.0 : (along - cone.x) / (cone.y - cone.x);
+      float rise = max(cone.y - cone.x, 1e-12);  // above 0 where the edge is hard
+      float falloff = along >= cone.y ? 1.0 : along <= cone.x ? 0.0 : (along - cone.x) / rise;
       value *= falloff * falloff;
     }
   }

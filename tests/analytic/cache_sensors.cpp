@@ -3,6 +3,7 @@
 
 #include "cache/sensor_grid.h"
 #include "core/error.h"
+#include "support/cutouts.h"
 #include "support/sensors.h"
 
 namespace phos::test {
@@ -26,6 +27,20 @@ TEST(SensorsAnalytic, DirectLightOfPointsAndRectangles) {
       EXPECT_EQ(r.indirect_lx, 0);
     }
     EXPECT_EQ(read.report.uncovered, 0u);
+  }
+}
+
+/// The edge of what is cut out costs samples.
+TEST(SensorsAnalytic, LampsThatAreCutOut) {
+  for (const AnalyticScene& s : cut_out_lamps()) {
+    SensorOptions options;
+    options.direct_only = true;
+    options.light_samples = 1 << 16;
+    const Read read = read_sensors_of(s.scene, sensors_at(s.checks), {}, options);
+    for (std::size_t i = 0; i < s.checks.size(); ++i) {
+      const double expected = s.checks[i].irradiance_lx;
+      EXPECT_NEAR(double(read.readings[i].illuminance_lx), expected, 0.003 * expected) << s.name;
+    }
   }
 }
 

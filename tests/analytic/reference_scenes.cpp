@@ -8,6 +8,7 @@
 #include "core/sampling.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "support/cutouts.h"
 #include "support/scenes.h"
 
 namespace {
@@ -48,6 +49,9 @@ TEST(ReferenceAnalytic, PointLightOverPlane) { check_points(test::point_light_ov
 TEST(ReferenceAnalytic, ParallelRectangle) { check_points(test::rectangle_light_parallel(), 20000, 0.01); }
 TEST(ReferenceAnalytic, PerpendicularRectangle) {
   check_points(test::rectangle_light_perpendicular(), 20000, 0.01);
+}
+TEST(ReferenceAnalytic, LampsThatAreCutOut) {
+  for (const AnalyticScene& s : test::cut_out_lamps()) check_points(s, 40000, 0.01);
 }
 TEST(ReferenceAnalytic, EmittingEnvironment) { check_points(test::emitting_environment(), 20000, 0.01); }
 TEST(ReferenceAnalytic, ThinWalls) { check_points(test::thin_walls(), 64, 1e-6); }

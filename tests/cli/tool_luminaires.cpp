@@ -103,6 +103,27 @@ TEST(LuminaireTools, GiveLightsByName) {
   expect_refused("scene", {scene, "--luminaire", "lamp=nowhere.ies"}, 3, "nowhere.ies");
 }
 
+/// Decimal commas are common in names of lamps.
+TEST(LuminaireTools, NamesAndFilesWithCommas) {
+  const std::string f = scratch("luminaire-commas"), lamp = "Downlight 3,5 W", file = f + "/iso 3,5W.ies";
+  std::filesystem::create_directory(f + "/luminaires");
+  for (const char* name : {"pendant.ldt", "spot.ies"})
+    spill(f + "/luminaires/" + name, slurp(data(std::string("luminaires/") + name)));
+  std::string scene = slurp(data("luminaires.gltf"));
+  for (std::size_t at = 0; (at = scene.find("\"lamp\"", at)) != std::string::npos; at += lamp.size())
+    scene.replace(at, 6, "\"" + lamp + "\"");
+  spill(f + "/room.gltf", scene);
+  spill(file, slurp(data("luminaires/street.ies")));
+  const double lumens = scene_json({file}).find("lumens")->as_number();
+  for (const std::string& word : {lamp + "=" + file, "Downlight 3\\,5 W=" + file,
+                                  "pendant=" + data("luminaires/flood.ies") + "," + lamp + "=" + file}) {
+    const Json j = scene_json({f + "/room.gltf", "--luminaire", word});
+    EXPECT_NEAR(light_named(j, lamp.c_str())->find("lumens")->as_number(), lumens, 1e-3 * lumens) << word;
+  }
+  expect_refused("scene", {f + "/room.gltf", "--luminaire", "downlight 3,5 W=" + file}, 2,
+                 "no point, spot or IES light \"downlight 3,5 W\"");
+}
+
 /// The picture of the caches agrees with path tracing, and with a cache of another distribution nothing is
 /// drawn.
 TEST(LuminaireTools, AgreeWithTheReference) {

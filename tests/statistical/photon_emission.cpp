@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "photon/emission.h"
+#include "support/cutouts.h"
 #include "support/scenes.h"
 
 namespace phos {
@@ -60,6 +61,42 @@ TEST(Emission, PointLightIsUniformOverTheSphere) {
   EXPECT_NEAR(flux, 40 * std::numbers::pi, 1e-4 * flux);
 }
 
+/// A lamp gives the lumens of what is there of it, and photons start nowhere else.
+TEST(Emission, CutOutLampsShineWhereTheyAreSeen) {
+  // 2 x 3 m of 1000 cd/m2, one side.
+  const double whole = 6000 * std::numbers::pi;
+  const double shares[] = {0.5, 1, 0.5, 0.7, 1};
+  const std::vector<test::AnalyticScene> lamps = test::cut_out_lamps();
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    const Scene& scene = lamps[k].scene;
+    ASSERT_EQ(scene.light.size(), 1u) << lamps[k].name;
+    EXPECT_NEAR(static_cast<double>(scene.light[0].flux_lm.x), shares[k] * whole, 1e-4 * whole);
+    constexpr std::uint64_t kPaths = 100'000;
+    const Emitter emitter(scene, 0.1, kPaths, 1);
+    double flux = 0;
+    for (std::uint64_t i = 0; i < kPaths; ++i) {
+      const EmittedPhoton p = emitted(emitter, i);
+      flux += static_cast<double>(p.flux_lm.x);
+      if (shares[k] == 0.5 && p.flux_lm.x > 0) {
+        EXPECT_LT(p.ray.origin.x, 1.0001f) << lamps[k].name;
+      }
+    }
+    EXPECT_NEAR(flux, shares[k] * whole, 0.01 * whole) << lamps[k].name;
+  }
+}
+
+TEST(Emission, LampsWithoutAVisibleTexelAreTold) {
+  for (const Material::Alpha mode : {Material::Alpha::mask, Material::Alpha::blend}) {
+    Scene scene = test::rectangle_light_parallel().scene;
+    scene.material[1].alpha_mode = mode, scene.material[1].alpha = 0;
+    scene.warnings.clear();
+    finalize(scene);
+    EXPECT_TRUE(scene.light.empty());
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], "light \"light\" is cut out wholly by its alpha, or black: it is ignored");
+  }
+}
+
 TEST(Emission, SpotFollowsItsRampForEveryCone) {
   // The cumulative share of c is the integral of the ramp from c to 1; it must be uniform.
   for (const auto& [inner, outer] :
@@ -78,6 +115,7 @@ TEST(Emission, SpotFollowsItsRampForEveryCone) {
     for (const std::uint64_t n : counts)
       EXPECT_NEAR(static_cast<double>(n), kSamples / 50.0, 0.05 * kSamples / 50) << inner;
     EXPECT_NEAR(spot_solid_angle_sr(inner, outer), 2 * std::numbers::pi * total, 1e-12);
+    EXPECT_NEAR(sample_spot_cosine(inner, outer, 1), double(inner), 1e-12);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "scene/lint.h"
 #include "scene/load.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
@@ -363,6 +364,57 @@ TEST(Lights, FluxOfEveryKind) {
         break;
     }
   }
+}
+
+/// A spot of 10 cd over the unit square, the half angles of its cone in rad.
+Gltf spot_of(double inner, double outer) {
+  Gltf g;
+  g.square_node();
+  Json l, n;
+  l["type"] = "spot";
+  l["intensity"] = 10;
+  l["spot"]["innerConeAngle"] = inner;
+  l["spot"]["outerConeAngle"] = outer;
+  g.json["extensions"]["KHR_lights_punctual"]["lights"].push_back(l);
+  n["name"] = "spot";
+  n["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  g.node(n);
+  return g;
+}
+
+TEST(Lights, ConesWithHardEdges) {
+  // A hard edge: I x 2 pi (1 - cos), and a finding that does not ask for anything.
+  for (const double angle : {0.5235987901687622, 0.01, 1.2, 0.5 * M_PI, double(float(0.5 * M_PI)), 1.571}) {
+    const Scene s = load(spot_of(angle, angle));
+    ASSERT_EQ(s.light.size(), 1u) << angle;
+    const double cosine = std::cos(std::min(angle, 0.5 * M_PI));
+    EXPECT_NEAR(s.light[0].flux_lm.x, 10 * 2 * M_PI * (1 - cosine), 1e-6 * 10 * 2 * M_PI) << angle;
+    for (const std::string& w : s.warnings) EXPECT_EQ(w.find("spot"), std::string::npos) << w;
+    bool told = false;
+    for (const Finding& f : lint_scene(s)) {
+      if (f.code != "hard-edge") continue;
+      told = true;
+      EXPECT_EQ(f.level, Finding::Level::info);
+    }
+    EXPECT_TRUE(told) << angle;
+  }
+  const Scene soft = load(spot_of(0.5235, 0.5236));
+  for (const Finding& f : lint_scene(soft)) EXPECT_NE(f.code, "hard-edge");
+}
+
+TEST(Lights, ConesOfHalfTheSphere) {
+  // t = cos: the integral of cos^2 over the half sphere is 2 pi / 3.
+  for (const double outer : {0.5 * M_PI, double(float(0.5 * M_PI)), 1.5708}) {
+    const Scene s = load(spot_of(0, outer));
+    EXPECT_NEAR(s.light[0].flux_lm.x, 10 * 2 * M_PI / 3, 1e-5) << outer;
+  }
+}
+
+TEST(Lights, ConesThatAreNone) {
+  for (const auto& [inner, outer] :
+       {std::pair{0.6, 0.5}, {0.50001, 0.5}, {-0.1, 0.5}, {0.0, 0.0}, {0.1, 1.6}, {1.6, 1.6}, {0.0, 3.2}})
+    EXPECT_NE(error_of(spot_of(inner, outer)).find("0 <= inner <= outer <= pi/2"), std::string::npos)
+        << inner << " " << outer;
 }
 
 TEST(Cameras, KindsAndLookup) {

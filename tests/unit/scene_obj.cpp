@@ -74,6 +74,28 @@ TEST_F(Obj, GeometryMaterialsAndLights) {
                                              folder + "/room.mtl"}));
 }
 
+/// kLights with a cone of these half angles.
+std::string with_cone(const std::string& inner, const std::string& outer) {
+  std::string lights = kLights;
+  const std::string cone = R"("inner_deg": 10, "outer_deg": 30)";
+  return lights.replace(lights.find(cone), cone.size(),
+                        "\"inner_deg\": " + inner + ", \"outer_deg\": " + outer);
+}
+
+TEST_F(Obj, ConesWithHardEdgesAndOfHalfTheSphere) {
+  for (const auto& [angle, cosine] : {std::pair{"60", 0.5}, {"90", 0.0}, {"90.00001", 0.0}}) {
+    for (const Light& l : load(kSquare, kMaterials, with_cone(angle, angle)).light) {
+      if (l.kind == Light::Kind::spot) {
+        EXPECT_NEAR(l.flux_lm.x, 50 * 2 * M_PI * (1 - cosine), 1e-4) << angle;
+      }
+    }
+  }
+  for (const auto& [inner, outer] : {std::pair{"40", "30"}, {"0", "0"}, {"10", "95"}, {"-1", "30"}})
+    EXPECT_NE(error_of(kSquare, kMaterials, with_cone(inner, outer)).find("\"inner_deg\" <= \"outer_deg\""),
+              std::string::npos)
+        << inner << " " << outer;
+}
+
 TEST_F(Obj, SmoothingGroupsShareNormals) {
   // A roof: two faces over one ridge (vertices 1 and 2).
   const std::string roof = "v 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 0 -1\nv 1 0 -1\n";

@@ -181,6 +181,21 @@ TEST(Ies, TellsWhatIsWrongAndWhere) {
   EXPECT_TRUE(warns(parse(replaced(good, "100 50 0\n", "0 0 0\n")), "gives no light"));
 }
 
+TEST(Ies, TellsOfNumbersThatAreMissingBeforeTheAngles) {
+  const auto complaint = [](const std::string& bytes) { return complaint_of([&] { parse(bytes); }); };
+  EXPECT_EQ(complaint(replaced(small_ies(), "0.9 1 50\n", "")),
+            "lamp.ies:7: 3 numbers are missing before the angles: ballast factor, ballast-lamp factor and "
+            "input watts; ask the maker for a sound file");
+  // Without a height of the opening; without watts.
+  for (const auto& [from, to] : {std::pair{"-0.1 -0.1 0", "-0.1 -0.1"}, {"0.9 1 50", "0.9 1"}}) {
+    const std::string why = complaint(replaced(small_ies(), from, to));
+    EXPECT_NE(why.find("1 number is missing before the angles"), std::string::npos) << why;
+  }
+  // As many are missing at the end of a file that is cut short.
+  const std::string cut = complaint(replaced(small_ies(), "100 50 0\n", ""));
+  EXPECT_NE(cut.find("cut short"), std::string::npos) << cut;
+}
+
 TEST(Ies, SurvivesBeingCutAnywhere) {
   for (const std::string name : {"spot.ies", "street.ies", "flood.ies", "pendant.ldt"}) {
     const std::string bytes = slurp(data("luminaires/" + name));

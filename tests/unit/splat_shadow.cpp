@@ -56,6 +56,29 @@ TEST(ShadowMaps, PointLightOverAPlane) {
   EXPECT_EQ(share_off(s, light_up(s.scene, s.scene.camera[0], 1), 1e-4), 0);
 }
 
+TEST(ShadowMaps, SpotsWithHardEdges) {
+  for (const double cosine : {0.8, 0.5}) {
+    test::AnalyticScene s = test::point_light_over_plane();
+    Light& spot = s.scene.light[0];
+    spot.kind = Light::Kind::spot, spot.direction = {0, -1, 0};
+    spot.cos_inner = spot.cos_outer = cosine;
+    const Lit lit = light_up(s.scene, s.scene.camera[0], 1);
+    int within = 0, beyond = 0;
+    for (std::size_t i = 0; i < lit.lx.size(); ++i) {
+      if (!lit.g.covered(i)) continue;
+      const Vec3 p(lit.g.position[i]);
+      const double along = static_cast<double>(glm::normalize(p - spot.position).y) * -1;
+      if (std::fabs(along - cosine) < 1e-4) continue;
+      const bool in = along > cosine;
+      ++(in ? within : beyond);
+      const double expected = in ? s.irradiance_lx(p, Vec3(lit.g.normal[i])) : 0;
+      EXPECT_NEAR(static_cast<double>(lit.lx[i].y), expected, 1e-4 * expected);
+    }
+    EXPECT_GT(within, 100);
+    EXPECT_GT(beyond, 100);
+  }
+}
+
 TEST(ShadowMaps, AreaLights) {
   // 64 points instead of the integral: within 3 % of the brightest.
   test::AnalyticScene s = test::rectangle_light_parallel();
