@@ -5,24 +5,10 @@
 #include "scene/pane.h"
 #include "support/daylight.h"
 #include "support/gathered.h"
+#include "support/panes.h"
 
 namespace phos::test {
 namespace {
-
-constexpr double kClear = 0.92307692;  // at normal incidence, n = 1.5
-constexpr double kAt30 = 0.920734444;  // at 30 degrees: mean of both polarisations
-
-/// A black floor of 40 x 40 m at y = 0 and a pane over it.
-Scene under_a_pane(float pane_m, float albedo = 0) {
-  Scene scene;
-  begin_instance(scene, "floor", add_lambert(scene, "floor", albedo));
-  add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0});
-  const std::uint32_t glass = add_lambert(scene, "glass", 0);
-  scene.material[glass].model = Model::thin_dielectric;
-  begin_instance(scene, "pane", glass);
-  add_quad(scene, {-20, pane_m, -20}, {0, 0, 40}, {40, 0, 0});
-  return scene;
-}
 
 double direct_lx(const Scene& scene, const Vec3& p, int samples = 256) {
   const RayScene rays(scene);
@@ -77,9 +63,7 @@ TEST(Panes, GatheredRaysPassThem) {
   Scene scene;
   begin_instance(scene, "room", add_lambert(scene, "room", 0, 100));
   add_room(scene, {-1, 0, -1}, {1, 2, 1});
-  const std::uint32_t glass = add_lambert(scene, "glass", 0);
-  scene.material[glass].model = Model::thin_dielectric;
-  begin_instance(scene, "pane", glass);
+  begin_instance(scene, "pane", add_pane(scene));
   add_quad(scene, {-1, 0.7f, -1}, {0, 0, 2}, {2, 0, 0});
   finalize(scene);
   Gathered gathered(scene);

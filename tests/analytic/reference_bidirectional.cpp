@@ -8,17 +8,17 @@
 #include "core/sampling.h"
 #include "reference/bidirectional_points.h"
 #include "reference/render.h"
+#include "support/reference.h"
 #include "support/scenes.h"
 
 namespace {
 
 using namespace phos;
 using test::AnalyticScene;
+using test::expect_within;
 
-constexpr double kMostSigma = 4;
-
-struct Lit {
-  explicit Lit(const Scene& scene) : rays(scene), luminaires(scene) {}
+struct Lit : test::RaysAndLamps {
+  using RaysAndLamps::RaysAndLamps;
   std::vector<PointIrradiance> measure(const std::vector<SensorPoint>& sensors, std::int64_t samples,
                                        std::int64_t bounces = -1) const {
     PointOptions options;
@@ -26,15 +26,7 @@ struct Lit {
     options.path.bounces = bounces;
     return estimate_bidirectionally(rays, luminaires, sensors, options);
   }
-  RayScene rays;
-  Luminaires luminaires;
 };
-
-void expect_within(double value, double standard_error, double expected, double relative,
-                   const std::string& what) {
-  EXPECT_NEAR(value, expected, kMostSigma * standard_error + 2e-6 * expected) << what;
-  EXPECT_LE(standard_error, relative * expected) << what;
-}
 
 void check_points(const AnalyticScene& s, std::int64_t samples, double relative) {
   std::vector<SensorPoint> sensors;

@@ -9,29 +9,16 @@
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
 #include "support/cutouts.h"
+#include "support/reference.h"
 #include "support/scenes.h"
 
 namespace {
 
 using namespace phos;
 using test::AnalyticScene;
+using test::expect_within;
 
-// Seeds are fixed; the largest of some 150 |z| below is under 4 but for one set of seeds in a hundred.
-constexpr double kMostSigma = 4;
-
-struct Lit {
-  explicit Lit(const Scene& scene) : rays(scene), luminaires(scene) {}
-  RayScene rays;
-  Luminaires luminaires;
-};
-
-/// |value - expected| within kMostSigma standard errors and the rounding of floats. `relative` bounds the
-/// standard error itself, so that a hopeless estimate does not pass.
-void expect_within(double value, double standard_error, double expected, double relative,
-                   const std::string& what) {
-  EXPECT_NEAR(value, expected, kMostSigma * standard_error + 2e-6 * expected) << what;
-  EXPECT_LE(standard_error, relative * expected) << what;
-}
+using Lit = test::RaysAndLamps;
 
 void check_points(const AnalyticScene& s, std::int64_t samples, double relative) {
   const Lit lit(s.scene);
