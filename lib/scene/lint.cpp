@@ -9,6 +9,7 @@
 #include "scene/describe.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
+#include "scene/load.h"
 #include "scene/load_textures.h"
 #include "scene/merl.h"
 #include "scene/sky_access.h"
@@ -60,8 +61,10 @@ class Linter {
   void check_light() {
     if (scene_.light.empty()) {
       add(Level::error, "no-light", "the scene has no light",
-          "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
-          "KHR_lights_punctual light, or give --environment");
+          how_to_add_to(scene_).ends_with("modeller")
+              ? "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
+                "KHR_lights_punctual light, or give --environment"
+              : text("give a material Ke (cd/m2), or ", how_to_add_to(scene_), ", or give --environment"));
       return;
     }
     // A surface turned any way receives a quarter of what an environment sends from all sides.
@@ -293,7 +296,7 @@ class Linter {
   void check_names() {
     if (scene_.camera.empty()) {
       add(Level::warning, "no-camera", "the scene has no camera",
-          "add one in the modeller; pictures need it");
+          how_to_add_to(scene_) + "; pictures need it");
     }
     std::map<std::string, int> cameras, materials;
     for (const Camera& c : scene_.camera) ++cameras[c.name];
