@@ -81,7 +81,9 @@ int main(int argc, char** argv) {
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
   options.file("add-to", add_to,
-               "irradiance file whose records are kept; options left out are taken from it");
+               "irradiance file whose records are kept; options left out are taken from it; the "
+               "output may be the same file",
+               FileUse::grown);
   options.flag("allow-mismatch", allow_mismatch, "use photons of another scene or another version of it");
   options.example("phos-irradiance room.glb room.photons -o room.irradiance",
                   "records where the photons are");

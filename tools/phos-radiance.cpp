@@ -59,7 +59,10 @@ int main(int argc, char** argv) {
   declare_isa(options, isa);
   options.file("at", at,
                "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --gloss-misses writes");
-  options.file("add-to", add_to, "radiance file whose records are kept; options left out are taken from it");
+  options.file("add-to", add_to,
+               "radiance file whose records are kept; options left out are taken from it; the "
+               "output may be the same file",
+               FileUse::grown);
   options.flag("allow-mismatch", allow_mismatch, "use files of another scene or another version of it");
   options.example("phos-radiance room.glb room.photons room.brdf -o room.radiance",
                   "where photons met gloss");

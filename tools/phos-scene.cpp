@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
       const Json description = describe_photometry(read_photometry(path));
       return print(json ? description.dump(2) + "\n" : photometry_text(description));
     }
+    tool.reads("scene", scene_files(path, scene_options));
     const Scene scene = load_scene(path, scene_options);
     const std::vector<Finding> findings = lint_scene(scene);
     const Json report = gloss_report(scene, GlossTables(scene, {}, gloss, {}, tool.counters()));
