@@ -6,6 +6,9 @@
 namespace phos {
 namespace {
 
+/// A band of one texel across one along would take the memory of a square.
+constexpr std::int64_t kMostPixels = 1 << 26;
+
 float coverage_of(const Vec4& texel, CoverageOf channel) {
   switch (channel) {
     case CoverageOf::red:
@@ -51,6 +54,10 @@ Texture with_coverage(const Texture* colour, const Texture& coverage, CoverageOf
   out.wrap_u = sampling.wrap_u, out.wrap_v = sampling.wrap_v, out.nearest = sampling.nearest;
   out.width = std::max(coverage.width, colour ? colour->width : 0);
   out.height = std::max(coverage.height, colour ? colour->height : 0);
+  if (colour && static_cast<std::int64_t>(out.width) * out.height > kMostPixels) {
+    const Texture& larger = colour->size() > coverage.size() ? *colour : coverage;
+    out.width = larger.width, out.height = larger.height;
+  }
   // Codes where none of the colours has to be computed anew.
   const bool as_codes =
       coverage.texels.empty() &&

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "scene/daylight.h"
 #include "scene/describe.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
@@ -283,6 +284,8 @@ class Linter {
       if (warning.rfind(kTextureNotFound, 0) == 0) {
         add(Level::warning, "texture-not-found", warning,
             "put the image beside the scene, or pack it into a .glb");
+      } else if (warning.ends_with(kMoreThanInSpace)) {
+        add(Level::warning, "sun-too-bright", warning, "irradiances are in W/m2, illuminances in lx");
       } else if (warning.find(kFaintLight) != std::string::npos) {
         add(Level::warning, "light-too-faint", warning, "give it more power, or remove it");
       } else if (warning.find("is ignored") != std::string::npos && warning.rfind("light ", 0) == 0) {
