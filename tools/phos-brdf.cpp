@@ -27,7 +27,8 @@ int main(int argc, char** argv) {
   options.section("Output");
   options.file("bases", bases_path,
                "write here how much of each lobe's energy so many functions hold, of hemispherical harmonics "
-               "and of the bases they compete with (CSV)");
+               "and of the bases they compete with (CSV)",
+               FileUse::written);
   options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that keep 99 % of the energy");
   options.example("phos-brdf room.glb --error 0.01 --max-order 15 -o room.brdf", "sharper, at more cost");
   return tool.run(argc, argv, [&] {

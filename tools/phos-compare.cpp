@@ -131,11 +131,13 @@ int main_of_tool(int argc, const char* const* argv) {
   o.flag("json", c.json, "print JSON instead of a table");
   o.file("difference", c.difference,
          "write the signed difference: .png (first layer, blue below, red above, with a legend) or .exr (all "
-         "layers); with --flicker, the flicker of each pixel");
+         "layers); with --flicker, the flicker of each pixel",
+         FileUse::written);
   o.number("difference-range", c.range, "X",
            "what full blue and full red stand for; 0: the 99th percentile (of flicker: the top of the scale)",
            kNotNegative);
-  o.file("per-frame", c.per_frame, "with --flicker, write error and flicker of each frame there (CSV)");
+  o.file("per-frame", c.per_frame, "with --flicker, write error and flicker of each frame there (CSV)",
+         FileUse::written);
   o.section("Limits: exit code 1 beyond");
   limits.declare(o);
   o.example("phos-compare room.exr reference.exr --layer indirect --max-bias 0.01",

@@ -29,7 +29,7 @@ void declare(Options& o, Request& r) {
                       "encoding of --points");
   o.flag("verify", r.verify,
          "print nothing: exit 0 if every checksum holds, 3 if not (--verbose says which)");
-  o.file("output,o", r.output, "print there instead of on standard output");
+  o.file("output,o", r.output, "print there instead of on standard output", FileUse::written);
   o.example("phos-info room.irradiance", "what it is, how it was made, and the range of each quantity");
   o.example("phos-info room.photons --dump position,flux > photons.csv", "two columns for a spreadsheet");
   o.example("phos-info room.irradiance --points -o records.ply", "the records for a point-cloud viewer");

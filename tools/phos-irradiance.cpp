@@ -1,6 +1,7 @@
 // Places irradiance records and estimates them.
 #include "cache/irradiance_parts.h"
 #include "cache/placement.h"
+#include "cache/points_on_surfaces.h"
 #include "cache/record_ways.h"
 #include "file/tool.h"
 #include "scene/load.h"
@@ -78,10 +79,16 @@ int main(int argc, char** argv) {
   declare_footprint_options(options, records);
   declare_options(options, placement);
   declare_isa(options, isa);
-  options.file("at", at,
-               "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes");
+  options.file(
+      "at", at,
+      "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes. Photons "
+      "land on surfaces: --estimate hull and kernel put a point that is off a surface by up to a "
+      "thousandth of the scene's diagonal on it, leave out one in free air with a warning, and end "
+      "with code 3 where all are; gathered rays serve any point");
   options.file("add-to", add_to,
-               "irradiance file whose records are kept; options left out are taken from it");
+               "irradiance file whose records are kept; options left out are taken from it; the "
+               "output may be the same file",
+               FileUse::grown);
   options.flag("allow-mismatch", allow_mismatch, "use photons of another scene or another version of it");
   options.example("phos-irradiance room.glb room.photons -o room.irradiance",
                   "records where the photons are");
@@ -114,10 +121,12 @@ int main(int argc, char** argv) {
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at, scene.origin_m);
-    const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
-                                 tool.seed()};
+    PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points, tool.seed()};
     resolve(placement, scene, source, records.accuracy);
     const RayScene rays(scene, {isa});
+    if (!at.empty() && of_photons_alone(records))
+      source.points = points = require_surfaces(tool, rays, points, at, "records of photons",
+                                                "let rays gather: --estimate gather");
     const std::vector<LightWay> missed = tell_missed_ways(tool, rays, records);
     const auto provenance = [&] {
       Provenance own = tool.provenance("irradiance", scene.hash, scene.parts);

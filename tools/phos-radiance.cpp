@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "cache/gloss_report.h"
+#include "cache/points_on_surfaces.h"
 #include "cache/radiance_placement.h"
 #include "cache/radiance_report.h"
 #include "cache/record_ways.h"
@@ -57,9 +58,15 @@ int main(int argc, char** argv) {
   declare_options(options, radiance);
   declare_place_options(options, placement);
   declare_isa(options, isa);
-  options.file("at", at,
-               "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --gloss-misses writes");
-  options.file("add-to", add_to, "radiance file whose records are kept; options left out are taken from it");
+  options.file(
+      "at", at,
+      "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --gloss-misses writes. A "
+      "point off a surface by up to a thousandth of the scene's diagonal is put on it; one in free "
+      "air is left out with a warning, and where all are, the end is code 3");
+  options.file("add-to", add_to,
+               "radiance file whose records are kept; options left out are taken from it; the "
+               "output may be the same file",
+               FileUse::grown);
   options.flag("allow-mismatch", allow_mismatch, "use files of another scene or another version of it");
   options.example("phos-radiance room.glb room.photons room.brdf -o room.radiance",
                   "where photons met gloss");
@@ -98,8 +105,7 @@ int main(int argc, char** argv) {
 
     std::vector<SurfaceSample> points;
     if (!at.empty()) points = read_points(at, scene.origin_m);
-    const PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points,
-                                 tool.seed()};
+    PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points, tool.seed()};
     resolve(placement, scene, source, radiance.records.accuracy);
     std::vector<LightWay> missed;
     tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
@@ -108,6 +114,9 @@ int main(int argc, char** argv) {
                     ": the file is empty"));
     } else {
       const RayScene rays(scene, {isa});
+      if (!at.empty())
+        source.points = points =
+            require_surfaces(tool, rays, points, at, "radiance records", "let phos-sense read light there");
       missed = tell_missed_ways(tool, rays, radiance.records);
       const ChosenRadianceEstimators estimators = [&] {
         const auto timer = tool.time("coarse records");

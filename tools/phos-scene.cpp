@@ -19,7 +19,15 @@ int main(int argc, char** argv) {
       "the "
       "wrong way, textures that are not there. Of a luminaire's photometry (IES LM-63, EULUMDAT) it prints "
       "lumens, "
-      "maximum, beam and field angles, the luminous opening, and what is odd about the file.",
+      "maximum, beam and field angles, the luminous opening, and what is odd about the file. "
+      "Cameras and lights of an OBJ scene NAME.obj stand in NAME.lights.json beside it (its surfaces shine "
+      "by "
+      "Ke, in cd/m2): {\"lights\": [{\"name\": \"lamp\", \"kind\": \"point\", \"position\": [0, 2, 0], "
+      "\"intensity\": 100}], \"cameras\": [{\"name\": \"view\", \"eye\": [0, 1.6, 3], \"target\": [0, 1, 0], "
+      "\"up\": [0, 1, 0], \"yfov_deg\": 45, \"aspect\": 1}]}. Lengths are in m; an intensity is a number or "
+      "RGB, "
+      "in cd. The kind \"spot\" has a \"direction\" and the half angles \"inner_deg\" and \"outer_deg\" too, "
+      "\"directional\" a \"direction\" and its intensity in lx.",
       1, Tool::Output::none);
   std::string path;
   SceneOptions scene_options;
@@ -47,6 +55,7 @@ int main(int argc, char** argv) {
       const Json description = describe_photometry(read_photometry(path));
       return print(json ? description.dump(2) + "\n" : photometry_text(description));
     }
+    tool.reads("scene", scene_files(path, scene_options));
     const Scene scene = load_scene(path, scene_options);
     const std::vector<Finding> findings = lint_scene(scene);
     const Json report = gloss_report(scene, GlossTables(scene, {}, gloss, {}, tool.counters()));

@@ -167,7 +167,8 @@ int main(int argc, char** argv) {
       "the same sky (--sky overcast, by the norm; no sun, no lamps); a sky seen through a window takes more "
       "rays: --light-samples is 4096 unless it is given",
       Recorded::if_given);
-  options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON");
+  options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON",
+               FileUse::written);
   options.flag("allow-mismatch", allow_mismatch, "use caches of another scene or another version of it");
   options.example("phos-sense room.glb room.irradiance --grid 0.5 --height 0.8 --margin 0.5 -o desk.csv",
                   "a workplane");

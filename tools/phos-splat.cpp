@@ -75,10 +75,11 @@ int main(int argc, char** argv) {
       {{"zip", ExrCompression::zip}, {"piz", ExrCompression::piz}, {"none", ExrCompression::none}},
       "of the EXR file, lossless: piz is the smallest, none the fastest");
   options.file("misses", misses_path,
-               "write the visible points without a record here (CSV), for phos-irradiance --at");
-  options.file(
-      "gloss-misses", gloss_misses_path,
-      "write the visible glossy points without a radiance record here (CSV), for phos-radiance --at");
+               "write the visible points without a record here (CSV), for phos-irradiance --at",
+               FileUse::written);
+  options.file("gloss-misses", gloss_misses_path,
+               "write the visible glossy points without a radiance record here (CSV), for phos-radiance --at",
+               FileUse::written);
   options.flag("allow-mismatch", allow_mismatch,
                "accept a cache of another version of the scene, or radiance of fewer bands than its lobes "
                "(recorded)");

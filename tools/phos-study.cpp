@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   StudyOptions study;
   Options& options = tool.options();
   options.input("STUDY", study.file, "study file (TOML)");
-  options.file("output,o", study.folder, "folder for results and for what is kept to go on from", true);
+  options.file("output,o", study.folder, "folder for results and for what is kept to go on from",
+               FileUse::folder, true);
   options.integer("pictures", study.pictures, "N",
                   "settings of each scene and camera whose pictures the page shows", kNotNegative,
                   Recorded::no);
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (options.given("seed"))
       throw Error(ExitCode::usage, "--seed", "seeds are the study's own: [study] seeds = [0, 1, 2]");
+    tool.writes("--output", study.folder, {"results.csv", "results.json", "index.html"});
     if (options.given("threads")) study.threads = thread_count();
     const StudyOutcome outcome = run_study(
         study, [&](const std::string& line) { tool.say(line); },

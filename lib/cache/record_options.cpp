@@ -41,6 +41,10 @@ const Names<RasterBorder> kBorders{
 
 const char* name_of(GradientMode mode) { return name_in(kGradients, mode).c_str(); }
 
+bool of_photons_alone(const RecordOptions& records) {
+  return records.estimate == Estimate::hull || records.estimate == Estimate::kernel;
+}
+
 void RecordOptions::resolve(float diagonal_m) {
   const double size = diagonal_m > 0 && std::isfinite(diagonal_m) ? static_cast<double>(diagonal_m) : 1;
   if (!min_radius_m) min_radius_m = std::min(size / 100, max_radius_m.value_or(HUGE_VAL));
@@ -62,7 +66,7 @@ void RecordOptions::resolve(float diagonal_m) {
   if (footprint == Footprint::circle_min) radius = RadiusRule::least;
   if (footprint == Footprint::circle_harmonic) radius = RadiusRule::harmonic;
   using G = GradientMode;
-  const bool photons = estimate == Estimate::hull || estimate == Estimate::kernel;
+  const bool photons = of_photons_alone(*this);
   const std::vector<G> allowed =
       photons ? std::vector<G>{G::analytic, G::hemisphere, G::positional, G::blend, G::none}
       : estimate == Estimate::gather

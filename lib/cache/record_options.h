@@ -15,6 +15,9 @@ enum class Quantity {
   indirect,  ///< all light but that straight from a lamp
   all,
 };
+struct RecordOptions;
+/// Do its records count photons, and nothing else? They are then of places where photons land.
+bool of_photons_alone(const RecordOptions& records);
 /// As a file names it (IrradianceCache::quantity).
 const char* name_of(Quantity quantity);
 enum class Estimate {

@@ -3,7 +3,7 @@
 namespace phos {
 
 Sampler sampler_of(const RecordOptions& records) {
-  const bool photons = records.estimate == Estimate::hull || records.estimate == Estimate::kernel;
+  const bool photons = of_photons_alone(records);
   if (photons) return Sampler::photons;
   return records.caustics_apart ? Sampler::gathering_beside_caustics : Sampler::gathering;
 }

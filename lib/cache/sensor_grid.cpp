@@ -6,6 +6,7 @@
 #include <map>
 
 #include "cache/direct_light.h"
+#include "cache/inside_solid.h"
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
@@ -222,25 +223,64 @@ Sensors find_sensors(const std::string& points_path, const GridOptions& grid, co
   return sensors;
 }
 
-float floor_level_m(const Scene& scene, Axis up) {
+namespace {
+
+/// Level surfaces at one level.
+struct Level {
+  double area_m2 = 0;
+  float height_m = 0;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// Is there room for people over most of these, and no inside of a slab?
+bool free_above(const RayScene& rays, const Level& level, const Vec3& axis) {
+  constexpr std::size_t kEnough = 32;  // triangles: the largest
+  const Scene& scene = rays.scene();
+  std::vector<std::uint32_t> largest = level.triangles;
+  std::sort(largest.begin(), largest.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const float m2_a = area_m2(scene, a), m2_b = area_m2(scene, b);
+    return m2_a != m2_b ? m2_a > m2_b : a < b;
+  });
+  largest.resize(std::min(largest.size(), kEnough));
+  double free_m2 = 0, all_m2 = 0;
+  for (const std::uint32_t t : largest) {
+    const auto& v = scene.triangle[t].v;
+    const Vec3 middle = (scene.position[v[0]] + scene.position[v[1]] + scene.position[v[2]]) / 3.f;
+    const auto m2 = static_cast<double>(area_m2(scene, t));
+    all_m2 += m2;
+    if (!inside_solid(rays, receiver(scene, middle, axis))) free_m2 += m2;
+  }
+  return 2 * free_m2 > all_m2;
+}
+
+}  // namespace
+
+float floor_level_m(const RayScene& rays, Axis up) {
+  const Scene& scene = rays.scene();
   const Vec3 axis = axis_of(up);
   const int k = static_cast<int>(up);
   const Vec3 size = scene.bounds.size();
   const double plan = static_cast<double>(size[(k + 1) % 3]) * static_cast<double>(size[(k + 2) % 3]);
-  std::map<double, double> area;  // of what faces up, by its level in thousandths of the height
-  std::map<double, float> level;
   const double step = std::max(1e-3 * static_cast<double>(size[k]), 1e-30);
+  std::map<double, Level> tops, bottoms;  // by their level in thousandths of the height
   for (std::uint32_t t = 0; t < scene.triangle.size(); ++t) {
-    if (!(glm::dot(geometric_normal(scene, t), axis) > kLevel)) continue;
+    const float facing = glm::dot(geometric_normal(scene, t), axis);
+    if (!(std::fabs(facing) > kLevel) || (facing < 0 && !scene.material_of(t).double_sided)) continue;
     const float h = scene.position[scene.triangle[t].v[0]][k];
-    const double bin = std::floor(static_cast<double>(h - scene.bounds.lo[k]) / step);
-    area[bin] += static_cast<double>(area_m2(scene, t));
-    level[bin] = h;
+    Level& level =
+        (facing > 0 ? tops : bottoms)[std::floor(static_cast<double>(h - scene.bounds.lo[k]) / step)];
+    level.area_m2 += static_cast<double>(area_m2(scene, t));
+    level.height_m = h;
+    level.triangles.push_back(t);
   }
-  for (const auto& [bin, sum] : area) {
-    if (sum >= kFloorShare * plan) return level[bin];
+  const double enough_m2 = kFloorShare * plan;
+  const auto top = std::find_if(tops.begin(), tops.end(),
+                                [&](const auto& level) { return level.second.area_m2 >= enough_m2; });
+  for (const auto& [bin, level] : bottoms) {
+    if (top != tops.end() && bin >= top->first) break;
+    if (level.area_m2 >= enough_m2 && free_above(rays, level, axis)) return level.height_m;
   }
-  return scene.bounds.lo[k];
+  return top != tops.end() ? top->second.height_m : scene.bounds.lo[k];
 }
 
 Sensors mesh_grid(const Scene& scene, const GridOptions& grid) {
@@ -288,7 +328,7 @@ Sensors workplane(const RayScene& rays, const GridOptions& grid) {
   const Ticks ys = ticks(static_cast<double>(bounds.lo[b]), static_cast<double>(bounds.hi[b]),
                          *grid.spacing_m, grid.margin_m);
   require_few(xs.count, ys.count, *grid.spacing_m);
-  const auto level = static_cast<float>(static_cast<double>(floor_level_m(scene, grid.up)) + *grid.height_m);
+  const auto level = static_cast<float>(static_cast<double>(floor_level_m(rays, grid.up)) + *grid.height_m);
   sensors.level_m = world_number(scene.origin_m[k], level);
   const std::size_t n = xs.count * ys.count;
   const auto place = [&](std::size_t i) {

@@ -27,8 +27,9 @@ void check(const GridOptions& grid, const std::string& points_path);
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays);
 
 /// The lowest surface that faces up and is level, at least a hundredth of the scene's plan in size; the
-/// bottom of the scene if there is none. m along `up`.
-float floor_level_m(const Scene& scene, Axis up);
+/// bottom of the scene if there is none. m along `up`. A double-sided surface that faces down counts where no
+/// inside of a solid lies above it: floors of building models whose fronts face outwards.
+float floor_level_m(const RayScene& rays, Axis up);
 
 /// On the front of the node's surfaces. A flat piece that fills most of its smallest rectangle and has room
 /// for four points, or is the whole mesh, has a grid of its own: along the rectangle's sides, centred, points

@@ -7,6 +7,7 @@
 #include "cache/caustic_light.h"
 #include "cache/direct_light.h"
 #include "cache/gather.h"
+#include "cache/inside_solid.h"
 #include "cache/placement.h"
 #include "cache/radiance_cache.h"
 #include "cache/two_level.h"
@@ -356,28 +357,6 @@ std::string summary_line(const Json& summary) {
   add("mean_lx", ": mean ", " lx"), add("min_lx", ", min ", " lx"), add("max_lx", ", max ", " lx");
   add("U0", ", U0 ", ""), add("Ud", ", Ud ", "");
   return line;
-}
-
-bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {
-  // The corners of a cube, turned so that they do not run along walls and diagonals.
-  static const std::array<Vec3, 8> kDirections = [] {
-    std::array<Vec3, 8> d;
-    const Vec3 x = glm::normalize(Vec3(3, 1, 0.6f)), y = glm::normalize(glm::cross(Vec3(0.2f, -0.7f, 2), x)),
-               z = glm::cross(x, y);
-    for (std::size_t i = 0; i < 8; ++i)
-      d[i] = glm::normalize((i & 1 ? 1.f : -1.f) * x + (i & 2 ? 1.f : -1.f) * y + (i & 4 ? 1.f : -1.f) * z);
-    return d;
-  }();
-  const Vec3 origin = receiver.position + receiver.error_m * receiver.geometric_normal;
-  int hits = 0, behind = 0;
-  for (const Vec3& direction : kDirections) {
-    Hit hit;
-    const Ray ray{origin, direction};
-    if (!rays.intersect(ray, hit)) continue;
-    ++hits;
-    behind += glm::dot(geometric_normal(rays.scene(), hit.triangle), direction) > 0;
-  }
-  return 2 * behind > hits;
 }
 
 }  // namespace phos

@@ -131,8 +131,4 @@ Json summarise(std::span<const Reading> readings);
 /// A summary (which may also hold the level_m of a workplane) in a line for people.
 std::string summary_line(const Json& summary);
 
-/// Is a point inside a solid, or behind the one-sided walls of a room? More than half of the surfaces that
-/// eight rays meet are seen from behind.
-bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
-
 }  // namespace phos

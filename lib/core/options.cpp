@@ -28,6 +28,8 @@ struct Declaration {
   Recorded recorded = Recorded::yes;
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
+  FileUse use = FileUse::read;
+  std::function<std::vector<std::string>()> paths;  // of what names files
   std::string default_text;
   Json initial;  // value at the declaration, of Recorded::unless_default
   CLI::Option* parsed = nullptr;
@@ -114,6 +116,7 @@ struct Options::Impl {
   CLI::App app;
   std::vector<Declaration> declarations;
   std::vector<Example> examples;
+  std::vector<std::string> option_files;  // of @FILE
   bool help = false, version = false, manual = false, options_json = false;
 
   Declaration& declare(const std::string& names, const std::string& unit, const std::string& help_text,
@@ -302,14 +305,25 @@ void Options::named_files(const std::string& name, std::vector<std::string>& val
     for (const std::string& s : value) names.push_back(name_of(s));
     return names;
   };
+  // A name may hold the sign too: whatever follows one may be the file.
+  d.paths = [&value] {
+    std::vector<std::string> paths;
+    for (const std::string& s : value)
+      for (std::size_t at = 0; (at = s.find('=', at)) != std::string::npos;) paths.push_back(s.substr(++at));
+    return paths;
+  };
   impl_->add_several(d, value, split_named_files);
 }
 
-void Options::file(const std::string& name, std::string& value, const std::string& help, bool required) {
+void Options::file(const std::string& name, std::string& value, const std::string& help, FileUse use,
+                   bool required) {
   Declaration& d = impl_->declare(name, "FILE", help, Recorded::no);
-  d.required = required, d.kind = "file";
+  d.required = required, d.kind = "file", d.use = use;
   d.value = [&value] { return Json(value); };
-  impl_->add(d, [&value](const std::string& s) { value = s; });
+  d.paths = [&value] { return std::vector<std::string>{value}; };
+  impl_->add(d, [&value, use](const std::string& s) {
+    value = use == FileUse::written && s == "-" ? "/dev/stdout" : s;
+  });
 }
 
 void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names,
@@ -335,6 +349,7 @@ void Options::input(const std::string& placeholder, std::string& value, const st
   Declaration& d = impl_->declare(placeholder, placeholder, help, Recorded::no);
   d.is_input = true, d.required = required, d.kind = "input";
   d.value = [&value] { return Json(value); };
+  d.paths = [&value] { return std::vector<std::string>{value}; };
   d.parsed = impl_->app.add_option(placeholder, value);
 }
 
@@ -343,6 +358,7 @@ void Options::inputs(const std::string& placeholder, std::vector<std::string>& v
   Declaration& d = impl_->declare(placeholder, placeholder + "...", help, Recorded::no);
   d.is_input = true, d.required = required, d.kind = "inputs";
   d.value = [] { return Json(); };
+  d.paths = [&values] { return values; };
   d.parsed = impl_->app.add_option(placeholder, values)->expected(-1);
 }
 
@@ -362,7 +378,7 @@ std::string options_text(const std::string& path) {
 
 /// Replaces each @file by the options it holds: one per line, `name=value`, `name value` or a flag; # starts
 /// a comment.
-std::vector<std::string> expand_files(int argc, const char* const* argv) {
+std::vector<std::string> expand_files(int argc, const char* const* argv, std::vector<std::string>& files) {
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -370,7 +386,8 @@ std::vector<std::string> expand_files(int argc, const char* const* argv) {
       arguments.push_back(argument);
       continue;
     }
-    std::istringstream in(options_text(argument.substr(1)));
+    files.push_back(argument.substr(1));
+    std::istringstream in(options_text(files.back()));
     for (std::string line; std::getline(in, line);) {
       line = line.substr(0, line.find('#'));
       const std::size_t begin = line.find_first_not_of(" \t\r");
@@ -390,7 +407,7 @@ std::vector<std::string> expand_files(int argc, const char* const* argv) {
 }  // namespace
 
 bool Options::parse(int argc, const char* const* argv) {
-  std::vector<std::string> arguments = expand_files(argc, argv);
+  std::vector<std::string> arguments = expand_files(argc, argv, impl_->option_files);
   const bool empty = arguments.empty();
   std::reverse(arguments.begin(), arguments.end());  // CLI11 pops from the back
   const std::string see = "; see " + impl_->tool + " --help";
@@ -436,6 +453,22 @@ std::string Options::first_given_in(const std::string& section) const {
   for (const Declaration& d : impl_->declarations)
     if (!d.is_input && d.section == section && given(d.name)) return "--" + d.name;
   return "";
+}
+
+std::vector<GivenFile> Options::files() const {
+  std::vector<GivenFile> all;
+  for (const Declaration& d : impl_->declarations) {
+    if (!d.paths) continue;
+    for (const std::string& path : d.paths())
+      if (!path.empty()) all.push_back({d.is_input ? d.name : "--" + d.name, path, d.use});
+  }
+  for (const std::string& path : impl_->option_files) all.push_back({"@FILE", path, FileUse::read});
+  return all;
+}
+
+Json Options::value(const std::string& name) const {
+  const Declaration* d = impl_->find(name);
+  return d ? d->value() : Json();
 }
 
 Json Options::recorded() const {

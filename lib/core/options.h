@@ -29,6 +29,20 @@ struct Range {
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity(), false};
 
+/// What becomes of a file that the command line names.
+enum class FileUse {
+  read,
+  written,  ///< "-" stands for standard output
+  grown,    ///< read; the output may be the same file, as it keeps what is in it
+  folder,   ///< its files are written
+};
+
+/// A path of the command line, and the option or input that it was given to ("--stats", "SCENE").
+struct GivenFile {
+  std::string given_to, path;
+  FileUse use = FileUse::read;
+};
+
 /// The options and inputs of one tool. The value at the time of declaration is the default shown in the help.
 /// `name` is without dashes ("photons"); `unit` is the placeholder in the help ("METRES", "N", "FILE").
 class Options {
@@ -54,7 +68,8 @@ class Options {
   void list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
             const std::string& help, Recorded = Recorded::yes);
   /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
-  void file(const std::string& name, std::string& value, const std::string& help, bool required = false);
+  void file(const std::string& name, std::string& value, const std::string& help, FileUse use = FileUse::read,
+            bool required = false);
   /// NAME=FILE; may be given several times, or once with commas (split_named_files()). NAMEs are recorded, if
   /// given, FILEs never.
   void named_files(const std::string& name, std::vector<std::string>& value, const std::string& help);
@@ -97,6 +112,10 @@ class Options {
   std::string first_given(std::initializer_list<const char*> names) const;
   /// The same of all options that were declared in a section.
   std::string first_given_in(const std::string& section) const;
+  /// Every path that the command line names: inputs, files, the FILEs of NAME=FILE, and files of options.
+  std::vector<GivenFile> files() const;
+  /// The value of an option as it is now; null where there is none of that name.
+  Json value(const std::string& name) const;
   /// Every recorded option as resolved now (call after automatic values are filled in), sorted by name.
   Json recorded() const;
   /// `tool --name value ...` from recorded(), without paths.

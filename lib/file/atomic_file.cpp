@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
+#include "file/same_file.h"
 
 namespace phos {
 
@@ -31,13 +32,6 @@ namespace {
 
 /// Folder of a path, with its final '/'; "" is the current one.
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
-
-/// The standard streams by name: opening them anew would lose the place a shell redirection left them at.
-int standard_stream(const std::string& path) {
-  if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1") return 1;
-  if (path == "/dev/stderr" || path == "/dev/fd/2" || path == "/proc/self/fd/2") return 2;
-  return -1;
-}
 
 /// Where a symbolic link leads, so that the link stays and its target is replaced.
 std::string without_links(const std::string& path) {
@@ -121,6 +115,7 @@ bool in_place(const std::string& path, mode_t* mode) {
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  // Opening a standard stream anew would lose the place that a shell redirection left it at.
   if (const int stream = standard_stream(path_); stream >= 0) {
     fd_ = ::fcntl(stream, F_DUPFD_CLOEXEC, 0);
     if (fd_ < 0) fail(path_, errno);

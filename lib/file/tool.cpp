@@ -84,12 +84,12 @@ void Tool::declare_common() {
   options_.section("Common options");
   if (wants_output_ != Output::none)
     options_.file("output,o", output_, "where the result goes; it appears whole or not at all",
-                  wants_output_ == Output::required);
+                  FileUse::written, wants_output_ == Output::required);
   options_.integer("threads", threads_, "N",
                    "threads to use; 0 is all cores (the result does not depend on it)", {0, 4096, false},
                    Recorded::no);
   options_.integer("seed", seed_, "N", "seed of the random numbers", kNotNegative);
-  options_.file("stats", stats_path_, "write times, counts and memory to this file (JSON)");
+  options_.file("stats", stats_path_, "write times, counts and memory to this file (JSON)", FileUse::written);
   options_.choice<ProgressMode>("progress", progress_,
                                 {{"auto", ProgressMode::automatic},
                                  {"always", ProgressMode::always},
@@ -118,6 +118,7 @@ void Tool::begin() {
   if (wants_output_ == Output::required && output_.empty())
     throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
   require_frames_of_pattern();
+  refuse_shared_files();
   if (!stats_path_.empty()) require_writable(stats_path_);
   if (!output_.empty() && !why_ && frames_.empty()) require_writable(output_);
 }
@@ -170,6 +171,7 @@ void Tool::add_input(const std::string& role, const std::string& path) {
 
 void Tool::add_input(const std::string& role, const std::vector<std::string>& paths) {
   PHOS_CHECK(!paths.empty(), role);
+  reads(role, paths);
   std::string unique = role;
   for (int n = 2; inputs_.contains(unique); ++n) unique = text(role, '.', n);
   std::string& hash = inputs_[unique];

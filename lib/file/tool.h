@@ -77,6 +77,12 @@ class Tool {
   /// that says such things takes, Error(numerical) and no output.
   void doubt(const std::string& line) const;
 
+  /// What the program reads besides the files that the command line names (textures of a scene): throws
+  /// Error(usage) where an output is among them. add_input() does so.
+  void reads(const std::string& role, const std::vector<std::string>& paths) const;
+  /// What it writes besides, files of an output folder: throws Error(usage) where one is an input.
+  void writes(const std::string& option, const std::string& folder, const std::vector<std::string>& names);
+
   /// Registers an input by content hash (of several files together where one input is many). A phos
   /// container's own history is appended to ours.
   void add_input(const std::string& role, const std::string& path);
@@ -134,6 +140,10 @@ class Tool {
   void declare_common();
   void begin();
   void require_frames_of_pattern() const;
+  void refuse_shared_files();
+  void add_written(const GivenFile& file, const std::string& path);
+  void require_not_written(const GivenFile& file, const std::string& path) const;
+  std::vector<std::string> files_of(const GivenFile& file) const;
   void run_frames(const std::function<void()>& body);
   void begin_frame(std::int64_t frame, const FramePattern& names);
   int out_of_memory() const;
@@ -160,8 +170,10 @@ class Tool {
   Counters counters_;
   std::map<std::string, std::string> inputs_;
   Json history_ = Json::Array{};
-  std::string frames_;                      ///< --frames
-  std::optional<double>* frame_ = nullptr;  ///< --frame
+  std::map<std::string, GivenFile> written_;  ///< outputs, by what file_key() says of them
+  std::set<std::string> grown_;               ///< keys of inputs that the output may replace
+  std::string frames_;                        ///< --frames
+  std::optional<double>* frame_ = nullptr;    ///< --frame
   std::optional<std::int64_t> at_frame_;
   std::vector<std::function<void()>> fresh_;
   mutable std::set<std::string> said_;

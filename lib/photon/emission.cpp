@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "scene/environment.h"
+#include "scene/load.h"
 
 namespace phos {
 namespace {
@@ -55,9 +56,9 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
                 text("no light: no lamp shines in triplet ", scene.bands.triplet, " of ", scene.bands.number,
                      " bands; leave it out, and tell phos-bands: --dark ", scene.bands.triplet));
   if (luminaires_.size() == 0)
-    throw Error(
-        ExitCode::bad_input, scene.path,
-        "no light: the scene has no lamp and no emissive material; add one (phos-scene shows what it has)");
+    throw Error(ExitCode::bad_input, scene.path,
+                text("no light: the scene has no lamp and no emissive material; ", how_to_add_to(scene),
+                     "; phos-scene shows what it has"));
   share_ = luminaires_.power_shares(minimum_share, portals_ ? portals_->flux_lm() : -1);
   Rgb total(0);
   double shares = 0;

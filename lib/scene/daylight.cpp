@@ -132,6 +132,25 @@ void resolve_perez(const DaylightOptions& o, const SunPosition& sun, Daylight& d
   d.sky = perez.shape, d.sky_lx = o.sky_lx.value_or(perez.sky_lx), d.sun_lx = o.sun_lx.value_or(perez.sun_lx);
 }
 
+/// What the sun gives outside of the atmosphere, at a distance of 1 au, on a surface that faces it. The
+/// irradiance is the solar constant of Kopp and Lean (2011), the illuminance the one of the CIE.
+constexpr double kSolarConstant_w_m2 = 1361, kSolarIlluminance_lx = 133800;
+
+/// Warns of more light than the sun gives outside of the atmosphere.
+void check_against_space(const DaylightOptions& o, double distance_au, Daylight& d) {
+  const double nearer = 1 / (distance_au * distance_au);
+  const auto warn = [&](const char* option, double value, double most, const char* unit) {
+    if (value > most)
+      d.warnings.push_back(text(option, " ", shortest(value), " ", unit, " is more than the ",
+                                std::llround(most), " ", unit, kMoreThanInSpace));
+  };
+  const double most_w_m2 = kSolarConstant_w_m2 * nearer, most_lx = kSolarIlluminance_lx * nearer;
+  warn("--direct-irradiance", o.direct_w_m2.value_or(0), most_w_m2, "W/m2");
+  warn("--diffuse-irradiance", o.diffuse_w_m2.value_or(0), most_w_m2, "W/m2");
+  warn("--sun-illuminance", o.sun_lx.value_or(0), most_lx, "lx");
+  warn("--sky-illuminance", o.sky_lx.value_or(0), most_lx, "lx");
+}
+
 /// Six digits of each number: what of them the processor's rounding leaves alone.
 std::string recipe_of(const Daylight& d) {
   std::string recipe;
@@ -200,6 +219,7 @@ Daylight resolve(const DaylightOptions& o) {
                                 " degrees high); all of it shines"));
   }
   if (!o.any()) return d;
+  check_against_space(o, sun ? sun->distance_au : 1, d);
   if (!(d.sky_lx > 0) && !(d.sun_lx > 0))
     fail("--sky", "gives no light: neither sky nor sun has any illuminance");
   if (!std::isfinite(static_cast<float>(d.sky_lx)) || !(d.sun_lx < 1e30))

@@ -24,6 +24,10 @@ struct Daylight {
   std::vector<std::string> warnings;  ///< one line each
 };
 
+/// End of the warning about more light than the sun gives outside of the atmosphere; lint looks for it.
+inline constexpr const char* kMoreThanInSpace =
+    " of the sun outside of the atmosphere; is it in another unit?";
+
 /// Nothing where no option is given. Throws Error(usage) where options are missing, contradict each other or
 /// cannot be read, where the sun is below the horizon, or where there would be no light at all.
 Daylight resolve(const DaylightOptions& options);

@@ -6,9 +6,11 @@
 #include <map>
 
 #include "core/error.h"
+#include "scene/daylight.h"
 #include "scene/describe.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
+#include "scene/load.h"
 #include "scene/load_textures.h"
 #include "scene/merl.h"
 #include "scene/sky_access.h"
@@ -61,8 +63,10 @@ class Linter {
   void check_light() {
     if (scene_.light.empty()) {
       add(Level::error, "no-light", "the scene has no light",
-          "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
-          "KHR_lights_punctual light, or give --environment");
+          how_to_add_to(scene_).ends_with("modeller")
+              ? "give a material an emissiveFactor with KHR_materials_emissive_strength (cd/m2), or add a "
+                "KHR_lights_punctual light, or give --environment"
+              : text("give a material Ke (cd/m2), or ", how_to_add_to(scene_), ", or give --environment"));
       return;
     }
     // A surface turned any way receives a quarter of what an environment sends from all sides.
@@ -285,6 +289,8 @@ class Linter {
       if (warning.rfind(kTextureNotFound, 0) == 0) {
         add(Level::warning, "texture-not-found", warning,
             "put the image beside the scene, or pack it into a .glb");
+      } else if (warning.ends_with(kMoreThanInSpace)) {
+        add(Level::warning, "sun-too-bright", warning, "irradiances are in W/m2, illuminances in lx");
       } else if (warning.find(kFaintLight) != std::string::npos) {
         add(Level::warning, "light-too-faint", warning, "give it more power, or remove it");
       } else if (warning.find("is ignored") != std::string::npos && warning.rfind("light ", 0) == 0) {
@@ -298,7 +304,7 @@ class Linter {
   void check_names() {
     if (scene_.camera.empty()) {
       add(Level::warning, "no-camera", "the scene has no camera",
-          "add one in the modeller; pictures need it");
+          how_to_add_to(scene_) + "; pictures need it");
     }
     std::map<std::string, int> cameras, materials;
     for (const Camera& c : scene_.camera) ++cameras[c.name];

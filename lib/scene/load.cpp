@@ -12,6 +12,7 @@
 #include "scene/find_portals.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
+#include "scene/obj_lights.h"
 #include "scene/obj_load.h"
 #include "scene/portal_sight.h"
 #include "scene/to_bands.h"
@@ -134,10 +135,18 @@ std::vector<std::string> scene_files(const std::string& path, const SceneOptions
   return files;
 }
 
-const Camera& find_camera(const Scene& scene, const std::string& name) {
-  if (scene.camera.empty()) {
-    throw Error(ExitCode::bad_input, scene.path, "the scene has no camera; add one in the modeller");
+std::string how_to_add_to(const Scene& scene) {
+  try {
+    if (!is_gltf(scene_bytes(scene.path)))
+      return text("add one in ", obj_lights_path(scene.path), " (phos-scene --help has its form)");
+  } catch (const Error&) {  // made in memory, or removed since
   }
+  return "add one in the modeller";
+}
+
+const Camera& find_camera(const Scene& scene, const std::string& name) {
+  if (scene.camera.empty())
+    throw Error(ExitCode::bad_input, scene.path, "the scene has no camera; " + how_to_add_to(scene));
   if (name.empty()) return scene.camera.front();
   std::string names;
   for (const Camera& camera : scene.camera) {

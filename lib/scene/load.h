@@ -42,6 +42,10 @@ Scene load_scene(const std::string& path, const SceneOptions& options = {});
 /// Error(bad_input) if the scene file itself cannot be read.
 std::vector<std::string> scene_files(const std::string& path, const SceneOptions& options = {});
 
+/// How a user adds cameras or lights to the file that a scene was read from: in the modeller, or, as OBJ
+/// cannot hold them, in a file beside it, which is named.
+std::string how_to_add_to(const Scene& scene);
+
 /// The camera of that name, or the first. Throws Error(usage) naming the cameras there are; Error(bad_input)
 /// if none.
 const Camera& find_camera(const Scene& scene, const std::string& name);

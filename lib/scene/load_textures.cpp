@@ -140,7 +140,7 @@ std::int32_t TexturePool::add(const std::string& key, const std::string& name, s
   return index;
 }
 
-void TexturePool::decode(Scene& scene) {
+std::vector<std::int32_t> TexturePool::decode(Scene& scene) {
   std::vector<Texture> decoded(requests_.size());
   std::vector<std::string> problem(requests_.size());
   parallel_for(requests_.size(), 1, [&](std::size_t i) {
@@ -166,6 +166,7 @@ void TexturePool::decode(Scene& scene) {
   for (Material& m : scene.material) {
     for (TextureUse* use : m.texture_uses()) remap(*use, place);
   }
+  return place;
 }
 
 }  // namespace phos

@@ -23,8 +23,8 @@ class TexturePool {
   std::int32_t add(const std::string& key, const std::string& name, std::string bytes,
                    const std::string& missing, const Sampling& sampling, bool srgb);
   /// Fills scene.texture. Uses of textures that cannot be decoded are cleared, with a warning each
-  /// ("texture not found: ...").
-  void decode(Scene& scene);
+  /// ("texture not found: ..."). Returns the place in scene.texture of each index that add() gave; -1: none.
+  std::vector<std::int32_t> decode(Scene& scene);
 
  private:
   struct Request {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -16,8 +18,9 @@
 #include "file/lfs_pointer.h"
 #include "scene/gltf_uri.h"
 #include "scene/load_mesh.h"
-#include "scene/load_textures.h"
 #include "scene/obj_lights.h"
+#include "scene/obj_material.h"
+#include "scene/solid_parts.h"
 
 namespace phos {
 namespace {
@@ -28,25 +31,20 @@ std::string one_line(std::string s) {
   return s;
 }
 
-/// Names may hold backslashes from other systems.
-std::string texture_path(const std::string& obj_path, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return beside(obj_path, name);
-}
+/// What tinyobjloader does not tell of a file.
+struct ObjText {
+  std::vector<DVec3> vertices;                ///< their places as the file states them
+  std::map<std::string, std::size_t> unread;  ///< how often statements stand there that are not read
+};
 
-/// Text of a file, nothing if it cannot be read.
-std::optional<std::string> read_if_there(const std::string& path) {
-  try {
-    return read_referred(path);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-/// Places of the vertices as the file states them. tinyobjloader reads a number it cannot parse, "nan" among
-/// them, as 0; such a vertex must not pass for a good one.
-std::vector<DVec3> check_vertices(const std::string& path, std::string_view bytes) {
-  std::vector<DVec3> vertices;
+/// tinyobjloader reads a number it cannot parse, "nan" among them, as 0; such a vertex must not pass for a
+/// good one.
+ObjText check_text(const std::string& path, std::string_view bytes) {
+  static const std::set<std::string_view> kRead = {"f", "l",  "p",  "g",      "o",     "s",
+                                                   "v", "vt", "vn", "usemtl", "mtllib"};
+  constexpr std::size_t kMostKeywords = 16;
+  ObjText found;
+  std::vector<DVec3>& vertices = found.vertices;
   constexpr std::string_view kBlank = " \t\r";
   for (std::size_t line = 1; !bytes.empty(); ++line) {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
@@ -58,7 +56,13 @@ std::vector<DVec3> check_vertices(const std::string& path, std::string_view byte
       rest.remove_prefix(word.size());
       return word;
     };
-    if (next_word() != "v") continue;
+    const std::string_view keyword = next_word();
+    const bool named = !keyword.empty() && std::isalpha(static_cast<unsigned char>(keyword[0])) != 0;
+    if (named && !kRead.contains(keyword)) {
+      const std::string name(keyword);
+      if (found.unread.size() < kMostKeywords || found.unread.contains(name)) ++found.unread[name];
+    }
+    if (keyword != "v") continue;
     DVec3& vertex = vertices.emplace_back(0);
     for (int k = 0; k < 3; ++k) {
       std::string_view word = next_word();
@@ -71,7 +75,7 @@ std::vector<DVec3> check_vertices(const std::string& path, std::string_view byte
                   text("line ", line, ": a vertex needs three finite numbers; mend it in the modeller"));
     }
   }
-  return vertices;
+  return found;
 }
 
 /// Hands tinyobjloader the text of each mtllib, from beside the .obj only.
@@ -80,7 +84,7 @@ class MtlReader : public tinyobj::MaterialReader {
   explicit MtlReader(std::string obj_path) : obj_path_(std::move(obj_path)) {}
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* map, std::string* warning, std::string* error) override {
-    const std::optional<std::string> bytes = read_if_there(beside(obj_path_, name));
+    const std::optional<std::string> bytes = read_if_there(obj_file(obj_path_, name));
     if (!bytes) {
       missing.push_back(name);
       return false;
@@ -92,9 +96,12 @@ class MtlReader : public tinyobj::MaterialReader {
     std::istringstream stream(*bytes);
     stream.exceptions(std::ios::badbit);  // for want of memory
     tinyobj::LoadMtl(map, materials, &stream, warning, error);
+    for (MtlStatements& s : mtl_statements(*bytes)) said.push_back(std::move(s));
+    said.resize(materials->size());  // a library without any newmtl gives one without a name
     return true;
   }
   std::vector<std::string> missing;
+  std::vector<MtlStatements> said;  ///< by material
 
  private:
   std::string obj_path_;
@@ -102,10 +109,10 @@ class MtlReader : public tinyobj::MaterialReader {
 
 class ObjReader {
  public:
-  explicit ObjReader(Scene& scene) : scene_(scene) {}
+  explicit ObjReader(Scene& scene) : scene_(scene), obj_materials_(scene) {}
 
   void read(std::string_view bytes) {
-    std::vector<DVec3> vertices = check_vertices(scene_.path, bytes);
+    ObjText obj = check_text(scene_.path, bytes);
     MtlReader mtl(scene_.path);
     std::istringstream stream{std::string(bytes)};
     stream.exceptions(std::ios::badbit);  // for want of memory
@@ -118,16 +125,21 @@ class ObjReader {
                   why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
     }
     for (const std::string& name : mtl.missing) scene_.warnings.push_back("material file not found: " + name);
-    choose_origin(std::move(vertices));
-    TexturePool textures;
-    for (const tinyobj::material_t& m : materials_) add_material(m, textures);
-    textures.decode(scene_);
+    for (const auto& [keyword, n] : obj.unread)
+      scene_.warnings.push_back(text("statement \"", keyword, "\", ", n, " times, is not read"));
+    choose_origin(std::move(obj.vertices));
+    mtl.said.resize(materials_.size());
+    for (std::size_t i = 0; i < materials_.size(); ++i) obj_materials_.add(materials_[i], mtl.said[i]);
+    obj_materials_.finish();
+    tell_sheets_from_solids();
     for (std::size_t i = 0; i < shapes_.size(); ++i) add_shape(shapes_[i], i);
     if (skipped_)
       scene_.warnings.push_back(text(skipped_, " lines and points are left out: they have no surface"));
   }
 
  private:
+  enum class GlassFace : std::uint8_t { sheet, solid, inside_out };
+
   /// Far from the world's origin floats of tinyobjloader are coarse: the file's own numbers stand in.
   void choose_origin(std::vector<DVec3> vertices) {
     if (3 * vertices.size() != attrib_.vertices.size()) return;
@@ -140,53 +152,57 @@ class ObjReader {
     }
   }
 
-  static Rgb colour(const tinyobj::real_t c[3]) {
-    const auto clean = [](tinyobj::real_t v) {
-      return std::isfinite(v) && v > 0 ? static_cast<float>(v) : 0.0f;
-    };
-    return {clean(c[0]), clean(c[1]), clean(c[2])};
-  }
-
-  TextureUse texture(const std::string& name, TexturePool& textures, const tinyobj::texture_option_t& option,
-                     bool srgb) {
-    TextureUse use;
-    if (name.empty()) return use;
-    const std::optional<std::string> bytes = read_if_there(texture_path(scene_.path, name));
-    TexturePool::Sampling sampling;
-    if (option.clamp) sampling.wrap_u = sampling.wrap_v = Texture::Wrap::clamp;
-    use.texture = textures.add(text(name, option.clamp ? " clamp" : ""), name, bytes.value_or(""),
-                               bytes ? "" : "cannot be read beside the scene", sampling, srgb);
-    return use;
-  }
-
-  /// Kd, Ks and Ns as a normalised Phong where the illumination model has highlights (2 and above), else
-  /// Lambert. Ke is the luminance in cd/m2.
-  void add_material(const tinyobj::material_t& from, TexturePool& textures) {
-    Material m;
-    m.name = from.name;
-    const auto warn = [&](const std::string& what) {
-      scene_.warnings.push_back("material \"" + m.name + "\": " + what);
-    };
-    m.kd = colour(from.diffuse);
-    m.emission = colour(from.emission);
-    const Rgb ks = colour(from.specular);
-    const bool shiny = max_component(ks) > 0 && from.shininess > 0 && from.illum >= 2;
-    if (shiny) {
-      m.model = Model::phong;
-      m.ks = ks;
-      m.exponent = std::isfinite(from.shininess) ? static_cast<float>(from.shininess) : 1.0f;
-      if (max_component(m.kd + m.ks) > 1.0001f)
-        warn("Kd + Ks is above 1: it reflects more light than it gets");
+  /// Sheets of glass are thin panes; what is closed is solid, wherever the file splits it.
+  void tell_sheets_from_solids() {
+    for (std::size_t m = 0; m < materials_.size(); ++m) {
+      const auto index = static_cast<std::uint32_t>(m);
+      if (!obj_materials_.is_glass(index)) continue;
+      std::vector<std::pair<std::size_t, std::size_t>> faces;  // shape, face
+      std::vector<Vec3> corners;
+      for (std::size_t s = 0; s < shapes_.size(); ++s)
+        for (std::size_t f = 0; f < shapes_[s].mesh.material_ids.size(); ++f)
+          if (shapes_[s].mesh.material_ids[f] == static_cast<int>(m) && add_corners(shapes_[s], f, corners))
+            faces.emplace_back(s, f);
+      const SolidParts parts = find_solid_parts(corners);
+      bool sheets = false, solids = false;
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        const auto& [s, f] = faces[i];
+        std::vector<GlassFace>& kinds = glass_face_[s];
+        kinds.resize(shapes_[s].mesh.material_ids.size());
+        kinds[f] = !parts.closed[i]      ? GlassFace::sheet
+                   : parts.inside_out[i] ? GlassFace::inside_out
+                                         : GlassFace::solid;
+        (parts.closed[i] ? solids : sheets) = true;
+      }
+      if (!sheets) continue;
+      sheet_of_[index] = index;
+      if (solids) {
+        sheet_of_[index] = static_cast<std::uint32_t>(scene_.material.size());
+        scene_.material.push_back(Material(scene_.material[m]));
+      }
+      ObjMaterials::make_thin(scene_.material[sheet_of_[index]]);
     }
-    if (from.dissolve < 1) warn("d and Tr are ignored: it is opaque");
-    if (from.illum >= 4 && from.illum <= 9 && from.illum != 8)
-      warn(text("illum ", from.illum, " is read as reflection only"));
-    m.base_colour = texture(from.diffuse_texname, textures, from.diffuse_texopt, true);
-    // A map stands in for a Kd that exporters leave black.
-    if (m.base_colour.used() && max_component(m.kd) == 0) m.kd = Rgb(1);
-    if (m.emits()) m.emissive = texture(from.emissive_texname, textures, from.emissive_texopt, true);
-    m.normal = texture(from.normal_texname, textures, from.normal_texopt, false);
-    scene_.material.push_back(m);
+  }
+
+  /// False, and nothing added: an index is out of range, which add_vertex tells of.
+  bool add_corners(const tinyobj::shape_t& shape, std::size_t face, std::vector<Vec3>& corners) const {
+    if (3 * face + 3 > shape.mesh.indices.size()) return false;
+    Vec3 p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int v = shape.mesh.indices[3 * face + k].vertex_index;
+      if (v < 0 || static_cast<std::size_t>(v) >= attrib_.vertices.size() / 3) return false;
+      for (int c = 0; c < 3; ++c)
+        p[k][c] = static_cast<float>(
+            attrib_.vertices[3 * static_cast<std::size_t>(v) + static_cast<std::size_t>(c)]);
+    }
+    corners.insert(corners.end(), p, p + 3);
+    return true;
+  }
+
+  GlassFace glass_face(std::size_t shape, std::size_t face) const {
+    const auto found = glass_face_.find(shape);
+    return found == glass_face_.end() || face >= found->second.size() ? GlassFace::sheet
+                                                                      : found->second[face];
   }
 
   std::uint32_t material_of(int index) {
@@ -203,24 +219,26 @@ class ObjReader {
     return *default_material_;
   }
 
-  /// One instance per material of a shape; vertices joined where position, normal and texture coordinates
-  /// agree.
+  /// One instance per material of a shape (two of glass, where some of it is solid); vertices joined where
+  /// position, normal and texture coordinates agree.
   void add_shape(const tinyobj::shape_t& shape, std::size_t index) {
     skipped_ += shape.lines.num_line_vertices.size() + shape.points.indices.size();
-    std::map<int, std::vector<std::size_t>> faces;
+    std::map<std::pair<int, bool>, std::vector<std::size_t>> faces;  // by material; is it solid glass?
     const std::size_t n = shape.mesh.indices.size() / 3;
     for (std::size_t f = 0; f < n; ++f) {
-      faces[f < shape.mesh.material_ids.size() ? shape.mesh.material_ids[f] : -1].push_back(f);
+      const int material = f < shape.mesh.material_ids.size() ? shape.mesh.material_ids[f] : -1;
+      faces[{material, glass_face(index, f) != GlassFace::sheet}].push_back(f);
     }
     const std::string name = shape.name.empty() ? text("shape ", index) : shape.name;
-    for (const auto& [material, list] : faces) {
-      const std::uint32_t m = material_of(material);
-      add_instance(scene_, mesh_of(shape, list, name), glm::dmat4(1), name, m,
+    for (const auto& [key, list] : faces) {
+      std::uint32_t m = material_of(key.first);
+      if (const auto sheet = sheet_of_.find(m); sheet != sheet_of_.end() && !key.second) m = sheet->second;
+      add_instance(scene_, mesh_of(shape, index, list, name), glm::dmat4(1), name, m,
                    scene_.material[m].normal.used(), "group \"" + name + "\"");
     }
   }
 
-  MeshData mesh_of(const tinyobj::shape_t& shape, const std::vector<std::size_t>& faces,
+  MeshData mesh_of(const tinyobj::shape_t& shape, std::size_t index, const std::vector<std::size_t>& faces,
                    const std::string& name) {
     MeshData mesh;
     std::map<std::array<int, 4>, std::uint32_t> known;
@@ -250,6 +268,7 @@ class ObjReader {
         if (fresh) add_vertex(mesh, i, has_normals || smooth, has_uv, name);
         t.v[k] = it->second;
       }
+      if (glass_face(index, f) == GlassFace::inside_out) std::swap(t.v[1], t.v[2]);
       mesh.triangle.push_back(t);
     }
     return mesh;
@@ -294,6 +313,9 @@ class ObjReader {
   }
 
   Scene& scene_;
+  ObjMaterials obj_materials_;
+  std::map<std::uint32_t, std::uint32_t> sheet_of_;  ///< the thin pane of a glass that has solids too
+  std::map<std::size_t, std::vector<GlassFace>> glass_face_;  ///< by shape that has any: of each of its faces
   tinyobj::attrib_t attrib_;
   std::vector<tinyobj::shape_t> shapes_;
   std::vector<tinyobj::material_t> materials_;
@@ -339,9 +361,9 @@ std::vector<std::string> obj_external_files(const std::string& path, std::string
     files.push_back(beside(path, name));
     const std::optional<std::string> mtl = read_if_there(files.back());
     if (!mtl) continue;
-    for (const char* keyword : {"map_Kd", "map_Ke", "norm"}) names_after(*mtl, keyword, textures);
+    for (const char* keyword : {"map_Kd", "map_Ke", "map_d", "norm"}) names_after(*mtl, keyword, textures);
   }
-  for (const std::string& name : textures) files.push_back(texture_path(path, name));
+  for (const std::string& name : textures) files.push_back(obj_file(path, name));
   files.push_back(obj_lights_path(path));
   return files;
 }

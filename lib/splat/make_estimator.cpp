@@ -28,7 +28,7 @@ GlossCache gloss_cache(const RayScene& rays, const EstimateInputs& inputs, const
 
 CoarseLevel coarse_of_diffuse(const RayScene& rays, const EstimateInputs& inputs,
                               const RecordOptions& options, std::uint64_t seed) {
-  const bool photons_only = options.estimate == Estimate::hull || options.estimate == Estimate::kernel;
+  const bool photons_only = of_photons_alone(options);
   if (photons_only && !inputs.photons) {
     throw Error(ExitCode::usage, "--estimate",
                 "hull and kernel count photons; give the output of phos-photons too, or --estimate gather");

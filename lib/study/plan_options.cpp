@@ -55,8 +55,8 @@ void declare_options(Options& options, PlanOptions& p) {
                  kNotNegative);
   options.flag("sh", p.script, "print a shell script (this is usual)");
   options.flag("json", p.json, "print JSON");
-  options.file("output,o", p.output,
-               "where the plan goes (else stdout); with --run, the folder of all files");
+  options.file("output,o", p.output, "where the plan goes (else stdout); with --run, the folder of all files",
+               FileUse::written);
   options.section("Run");
   options.flag(
       "run", p.run,

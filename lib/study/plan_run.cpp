@@ -151,6 +151,13 @@ std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, dou
   return {};
 }
 
+std::vector<std::string> files_of_run(bool with_sensors) {
+  std::vector<std::string> names = {kPlanPhotons, kPlanRecords, kPlanPicture,
+                                    kPlanLux,     "plan.json",  "plan.sh"};
+  if (with_sensors) names.push_back(kPlanPoints);
+  return names;
+}
+
 PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& first, const PlanGoal& goal,
                     const Plan& plan, const PlanRunOptions& options) {
   make_folder(options.folder);

@@ -45,6 +45,9 @@ struct PlanReport {
   std::vector<std::string> doubts;  ///< why the references of the last round are not to be trusted, if so
 };
 
+/// Names of the files that run_plan() writes for keeping; with the sensors, where the plan makes them itself.
+std::vector<std::string> files_of_run(bool with_sensors);
+
 /// Makes two references (their time is stated apart), then runs the pipeline of `plan` in the folder. Where
 /// its error is more than was asked for, the parts of the pilot's model are scaled to what was measured, and
 /// the settings chosen anew, until the error is met, the seconds of the goal are spent, or nothing better can

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "cache/direct_light.h"
+#include "cache/inside_solid.h"
 #include "cache/sensor_grid.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -95,7 +96,7 @@ Scene furnished() {
 TEST(SensorGrid, AWorkplaneLiesOverTheFloorAndAvoidsSolidsAndWalls) {
   const Scene scene = furnished();
   const RayScene rays(scene);
-  EXPECT_EQ(floor_level_m(scene, Axis::y), -3);
+  EXPECT_EQ(floor_level_m(rays, Axis::y), -3);
   const Sensors all = workplane(rays, at_height(2.5, 1));
   EXPECT_EQ(all.points.size(), 36u);
   EXPECT_EQ(all.left_out, 0u);
@@ -131,6 +132,61 @@ TEST(Sensors, InsideAndOutsideOfSolids) {
   EXPECT_FALSE(inside({-2, -0.5f, -2}));
   EXPECT_FALSE(inside({1, -3, 1}));
   EXPECT_FALSE(inside({-2, -1, -2}));  // on the block
+}
+
+/// A room whose fronts face outwards, as energy models have them, double-sided; its north wall may be open. A
+/// box of the same material, closed, and one of one-sided walls stand in it.
+struct OutwardRoom {
+  bool open = false, lamp = false;
+  Scene scene() const {
+    Scene s;
+    const std::uint32_t both = add_lambert(s, "both", 0.5f), one = add_lambert(s, "one", 0.5f);
+    s.material[both].double_sided = true;
+    const auto box = [&](const char* name, std::uint32_t material, const Vec3& lo, const Vec3& hi,
+                         bool lidless) {
+      begin_instance(s, name, material);
+      const Vec3 d = hi - lo, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
+      add_quad(s, lo, z, y), add_quad(s, lo + x, y, z);  // fronts outwards
+      if (!lidless) add_quad(s, lo, y, x);
+      add_quad(s, lo + z, x, y), add_quad(s, lo, x, z), add_quad(s, lo + y, z, x);
+    };
+    box("room", both, Vec3(-3), Vec3(3), open);
+    box("chest", both, Vec3(-2.5f), Vec3(-1.5f), false);
+    box("block", one, Vec3(1.5f, -2.5f, 1.5f), Vec3(2.5f, -1.5f, 2.5f), false);
+    if (lamp) {
+      Light light;
+      light.intensity = Rgb(100);
+      s.light.push_back(light);
+    }
+    finalize(s);
+    return s;
+  }
+};
+
+TEST(Sensors, RoomsWhoseDoubleSidedFrontsFaceOutwardsAreNoSolids) {
+  for (const OutwardRoom& room : {OutwardRoom{true, false}, OutwardRoom{false, true}}) {
+    const Scene scene = room.scene();
+    const RayScene rays(scene);
+    const auto inside = [&](const Vec3& p) { return inside_solid(rays, receiver(scene, p, {0, 1, 0})); };
+    EXPECT_FALSE(inside({0.3f, -2.9f, 0.2f}));
+    EXPECT_FALSE(inside({-2.9f, -2.9f, -2.9f}));  // behind the chest
+    EXPECT_FALSE(inside({5, 0, 0}));
+    EXPECT_TRUE(inside({-2, -2, -2}));
+    EXPECT_TRUE(inside({2, -2, 2}));
+  }
+  // No light gets into it: nobody can tell such a room from a solid.
+  const Scene dark = OutwardRoom{}.scene();
+  const RayScene rays(dark);
+  EXPECT_TRUE(inside_solid(rays, receiver(dark, {0.3f, -2.9f, 0.2f}, {0, 1, 0})));
+}
+
+TEST(SensorGrid, AWorkplaneOfARoomWhoseFrontsFaceOutwards) {
+  const Scene scene = OutwardRoom{false, true}.scene();
+  const RayScene rays(scene);
+  const Sensors low = workplane(rays, at_height(0.9, 0.5));
+  EXPECT_EQ(floor_level_m(rays, Axis::y), -3);
+  EXPECT_EQ(low.left_out, 8u);  // 2 x 2 in either box
+  EXPECT_EQ(low.points.size(), 136u);
 }
 
 TEST(Sensors, TableAndSummary) {

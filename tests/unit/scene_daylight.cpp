@@ -73,6 +73,31 @@ TEST(Sky, OfEachTypeHasItsIlluminance) {
   }
 }
 
+TEST(Daylight, MoreThanTheSunGivesInSpaceIsToldOf) {
+  DaylightOptions o;
+  o.sky = "perez", o.sun = "180,60", o.diffuse_w_m2 = 100, o.direct_w_m2 = 900;
+  EXPECT_TRUE(resolve(o).warnings.empty());
+  o.direct_w_m2 = 1500;
+  const Daylight d = resolve(o);
+  ASSERT_EQ(d.warnings.size(), 1u);
+  EXPECT_EQ(d.warnings[0].find("--direct-irradiance 1500 W/m2 is more than the 1361 W/m2"), 0u)
+      << d.warnings[0];
+  // In January the sun is nearer: 1361 / 0.9833^2 = 1408.
+  o.sun.clear(), o.location = "-30,0", o.when = "2026-01-04T12:00+00:00";
+  o.direct_w_m2 = 1400;
+  EXPECT_TRUE(resolve(o).warnings.empty());
+  o.direct_w_m2 = 1415;
+  EXPECT_EQ(resolve(o).warnings.size(), 1u);
+
+  DaylightOptions sun;
+  sun.sun = "180,60", sun.sun_lx = 130000;
+  EXPECT_TRUE(resolve(sun).warnings.empty());
+  sun.sun_lx = 150000;
+  EXPECT_EQ(resolve(sun).warnings.size(), 1u);
+  sun.sun_lx.reset(), sun.sky = "clear", sun.sky_lx = 1e6;
+  EXPECT_EQ(resolve(sun).warnings.size(), 1u);
+}
+
 /// Traditional overcast: E = pi Lz (1 + 2 x 2/3) / 3 = 7 pi Lz / 9, and a third of the zenith at the horizon.
 /// Uniform: L = E / pi. Ground: albedo E / pi.
 TEST(Sky, ClosedForms) {

@@ -1,0 +1,15 @@
+// Places where no sensor can be meant.
+#pragma once
+
+#include "scene/rays.h"
+
+namespace phos {
+
+/// Is a point inside a solid, or behind the one-sided walls of a room? More than half of the surfaces that
+/// eight rays meet are seen from behind. Backs of double-sided surfaces say little, as exporters of building
+/// models let the fronts of a room's walls face outwards: where most backs are of that kind, the point is
+/// inside of a solid if light cannot get there either, neither from a lamp nor from outside, over 16
+/// surfaces.
+bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
+
+}  // namespace phos

@@ -1,0 +1,20 @@
+// Which triangles enclose a volume.
+#pragma once
+
+#include <vector>
+
+#include "core/vector.h"
+
+namespace phos {
+
+/// Of a soup of triangles, three corners each: is this triangle a part of a closed surface, and is it wound
+/// so that its front faces outwards? Parts are what hangs together by the places of its corners, however the
+/// file splits it; a part is closed where every edge belongs to an even number of its triangles and it has a
+/// volume.
+struct SolidParts {
+  std::vector<bool> closed;      ///< by triangle
+  std::vector<bool> inside_out;  ///< by triangle of a closed part: its signed volume is negative
+};
+SolidParts find_solid_parts(const std::vector<Vec3>& corner);
+
+}  // namespace phos
