@@ -112,14 +112,16 @@ class ObjReader {
       throw Error(ExitCode::bad_input, scene_.path,
                   why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
     }
-    for (const std::string& name : mtl.missing) scene_.warnings.push_back("material file not found: " + name);
+    for (const std::string& name : mtl.missing)
+      scene_.warnings.emplace_back("material file not found: " + name);
     choose_origin(std::move(vertices));
     TexturePool textures;
     for (const tinyobj::material_t& m : materials_) add_material(m, textures);
     textures.decode(scene_);
     for (std::size_t i = 0; i < shapes_.size(); ++i) add_shape(shapes_[i], i);
     if (skipped_)
-      scene_.warnings.push_back(text(skipped_, " lines and points are left out: they have no surface"));
+      scene_.warnings.emplace_back(Note::Level::info, "loader", "", "",
+                                   text(skipped_, " lines and points are left out: they have no surface"));
   }
 
  private:
@@ -160,7 +162,7 @@ class ObjReader {
     Material m;
     m.name = from.name;
     const auto warn = [&](const std::string& what) {
-      scene_.warnings.push_back("material \"" + m.name + "\": " + what);
+      scene_.warnings.emplace_back(Note::Level::warning, "loader", "material", m.name, what);
     };
     m.kd = colour(from.diffuse);
     m.emission = colour(from.emission);
@@ -171,7 +173,8 @@ class ObjReader {
       m.ks = ks;
       m.exponent = std::isfinite(from.shininess) ? static_cast<float>(from.shininess) : 1.0f;
       if (max_component(m.kd + m.ks) > 1.0001f)
-        warn("Kd + Ks is above 1: it reflects more light than it gets");
+        scene_.warnings.emplace_back(Note::Level::info, kSaidByLint, "material", m.name,
+                                     "Kd + Ks is above 1: it reflects more light than it gets");
     }
     if (from.dissolve < 1) warn("d and Tr are ignored: it is opaque");
     if (from.illum >= 4 && from.illum <= 9 && from.illum != 8)
@@ -193,7 +196,8 @@ class ObjReader {
       m.name = "default";
       m.kd = Rgb(0.5f);
       scene_.material.push_back(m);
-      scene_.warnings.push_back("some faces have no material: they are read as grey Lambert, kd 0.5");
+      scene_.warnings.emplace_back(Note::Level::info, "loader", "", "",
+                                   "some faces have no material: they are read as grey Lambert, kd 0.5");
     }
     return *default_material_;
   }

@@ -291,6 +291,7 @@ TEST(Materials, MissingTextureIsAWarningAndTheFactorStays) {
   texture["source"] = 0;
   g.json["textures"].push_back(texture);
   Json m;
+  m["pbrMetallicRoughness"]["metallicFactor"] = 0;
   m["pbrMetallicRoughness"]["baseColorFactor"] = Json::Array{0.3, 0.3, 0.3, 1};
   m["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
   g.square_node(m);
@@ -298,7 +299,7 @@ TEST(Materials, MissingTextureIsAWarningAndTheFactorStays) {
   EXPECT_FALSE(s.material[0].base_colour.used());
   EXPECT_EQ(s.material[0].kd, Rgb(0.3f));
   ASSERT_EQ(s.warnings.size(), 1u);
-  EXPECT_EQ(s.warnings[0].rfind("texture not found: not-there.png", 0), 0u) << s.warnings[0];
+  EXPECT_EQ(s.warnings[0].line().rfind("texture not found: not-there.png", 0), 0u) << s.warnings[0].line();
 }
 
 TEST(Lights, FluxOfEveryKind) {
