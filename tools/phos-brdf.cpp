@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
                "write here how much of each lobe's energy so many functions hold, of hemispherical harmonics "
                "and of the bases they compete with (CSV)",
                FileUse::written);
+  tool.takes_strict();
   options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that keep 99 % of the energy");
   options.example("phos-brdf room.glb --error 0.01 --max-order 15 -o room.brdf", "sharper, at more cost");
   return tool.run(argc, argv, [&] {
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
       throw Error(ExitCode::usage, "--bases", "is not written where nothing is made anew; leave out --reuse");
     if (tool.up_to_date()) return;
     const Scene scene = load_scene(scene_path, scene_options);
+    tell_losses(tool, scene);
     std::vector<BrdfTable> tables;
     Json materials = Json::Array{};
     {

@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
     if (tool.up_to_date()) return;
 
     const Scene scene = load_scene(files.scene, scene_options);
+    tell_losses(tool, scene);
     const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     IrradianceCache cache;
     if (!add_to.empty()) cache = open_earlier(add_to, files, scene, allow_mismatch, options, records);

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   tool.options().input("SCENE", scene_path, "glTF (.glb, .gltf) or OBJ scene");
   declare_options(tool.options(), options);
   declare_options(tool.options(), scene_options);
+  tool.takes_strict();
   tool.options().example("phos-photons room.glb --photons 1000000 -o room.photons", "a million paths");
   tool.options().example("phos-photons room.glb --shard 1/2 -o a.photons",
                          "half of them, to be joined by phos-merge");
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
     {
       const Tool::Timer timer = tool.time("load");
       scene = load_scene(scene_path, scene_options);
+      tell_losses(tool, *scene);
       rays.emplace(*scene, RayOptions{options.isa});
     }
     PhotonTotals totals;

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   options.input("SCENE", scene_path, "glTF or OBJ scene");
   declare_options(options, plan);
   declare_options(options, scene_options);
+  tool.takes_strict();
   options.example("phos-plan room.glb --error 5% --width 640 > plan.sh; bash plan.sh folder",
                   "a script, and its files");
   options.example("phos-plan room.glb --seconds 60 --json", "what can be had in a minute, for a program");
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
     const PlanGoal goal = goal_of(options, plan);
     PlanTask task = task_of(options, plan, scene_path, scene_options);
     const Scene scene = load_scene(scene_path, scene_options);
+    tell_losses(tool, scene);
     Needs needs = plan_needs(
         scene, gloss_report(scene, GlossTables(scene, {}, GlossBy::automatic, {}, tool.counters())));
     if (!needs.lit)

@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
     if (tool.up_to_date()) return;
 
     const Scene scene = load_scene(files.scene, scene_options);
+    tell_losses(tool, scene);
     const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     const GlossTables tables = [&] {
       const auto timer = tool.time("tables");

@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    tell_losses(tool, scene);
     if (reference.adaptive && reference.method == ReferenceMethod::bidirectional)
       throw Error(ExitCode::usage, "--adaptive",
                   "shares out paths from the eye alone; leave it out, or give --method path");

@@ -31,14 +31,16 @@ int main(int argc, char** argv) {
       1, Tool::Output::none);
   std::string path;
   SceneOptions scene_options;
-  bool json = false, strict = false;
+  bool json = false;
   GlossBy gloss = GlossBy::automatic;
   tool.options().input("SCENE", path, "glTF (.glb, .gltf) or OBJ scene; or photometry (.ies, .ldt)");
   declare_options(tool.options(), scene_options);
   declare_options(tool.options(), gloss);
   tool.options().section("Report");
   tool.options().flag("json", json, "print one JSON object instead of text", Recorded::no);
-  tool.options().flag("strict", strict, "end with code 1 if a finding is an error", Recorded::no);
+  tool.takes_strict(
+      "end with code 3 where the scene says something that is not modelled as it says (findings of other "
+      "programs' warnings), with code 1 where a finding is an error");
   tool.options().example("phos-scene room.glb", "what is in it, and what is wrong with it");
   tool.options().example("phos-scene lamp.ies", "what a luminaire does");
   tool.options().example("phos-scene room.glb --json --strict > room.json", "for a script");
@@ -66,7 +68,8 @@ int main(int argc, char** argv) {
       out += text("\nGloss (", report.as_array().size(), ")\n", gloss_text(report));
     print(out);
     for (const Finding& f : findings) {
-      if (strict && f.level == Finding::Level::error) tool.set_exit(ExitCode::check_failed);
+      if (tool.strict() && f.level == Finding::Level::error) tool.set_exit(ExitCode::check_failed);
     }
+    if (tool.strict() && !losses(scene).empty()) throw Error(ExitCode::bad_input, path, kRefusedForLosses);
   });
 }

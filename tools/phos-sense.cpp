@@ -183,6 +183,7 @@ int main(int argc, char** argv) {
     check(grid, inputs.points);
     tool.add_input("scene", scene_files(inputs.scene, scene_options));
     const Scene scene = load_scene(inputs.scene, scene_options);
+    tell_losses(tool, scene);
     if (const auto frames = tool.frames()) require_frames(scene, *frames);
     std::vector<Container> files;
     for (const std::string& path : inputs.caches) {

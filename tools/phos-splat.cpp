@@ -112,6 +112,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("load scene");
       return load_scene(scene_path, scene_options);
     }();
+    tell_losses(tool, scene);
     if (const auto frames = tool.frames()) require_frames(scene, *frames);
     if (!allow_mismatch)
       for (const Container& file : files) require_same_scene(file, scene_path, scene);

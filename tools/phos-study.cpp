@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
   options.flag("discard", study.discard, "remove photons and caches once no setting is left that reads them",
                Recorded::no);
   options.flag("list", study.list, "print the commands that are still to be run, and run none", Recorded::no);
+  tool.takes_strict(
+      "run nothing, and end with code 3, where something of a scene is lost or replaced (told as warnings)");
   options.example("phos-study room.toml -o room-study", "run it, or go on with it");
   options.example("phos-study room.toml -o room-study --list", "what would it do?");
 
@@ -40,6 +42,7 @@ int main(int argc, char** argv) {
     if (options.given("seed"))
       throw Error(ExitCode::usage, "--seed", "seeds are the study's own: [study] seeds = [0, 1, 2]");
     tool.writes("--output", study.folder, {"results.csv", "results.json", "index.html"});
+    study.strict = tool.strict();
     if (options.given("threads")) study.threads = thread_count();
     const StudyOutcome outcome = run_study(
         study, [&](const std::string& line) { tool.say(line); },

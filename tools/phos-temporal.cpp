@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   declare_options(options, records);
   declare_place_options(options, job.placement);
   declare_isa(options, isa);
+  tool.takes_strict();
   options.example("phos-temporal room.glb --frames 0:199 -o room.irradiance",
                   "200 frames of what the first camera sees");
   options.example("phos-splat room.glb room.irradiance --frames 0:199 -o room/%04d.exr", "their pictures");
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
     }
     FrameScenes scenes(files.scene, scene_options, isa);
     const std::shared_ptr<const FrameScene> first = scenes.at(range.first);
+    tell_losses(tool, first->scene);
     job.light.radiance = radiance_options(records, options);
     records.resolve(first->scene.bounds.diagonal_m());
     job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());

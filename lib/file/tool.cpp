@@ -98,11 +98,7 @@ void Tool::declare_common() {
                                 "progress on standard error", Recorded::no);
   options_.flag("quiet", quiet_, "no messages but warnings and errors", Recorded::no);
   options_.flag("verbose", verbose_, "more messages", Recorded::no);
-  if (takes_strict_)
-    options_.flag("strict", strict_,
-                  "end with code 5 and no output where light is known to be left out, or the stated error is "
-                  "not to be trusted",
-                  Recorded::no);
+  if (!strict_help_.empty()) options_.flag("strict", strict_, strict_help_, Recorded::no);
   if (wants_output_ == Output::none || !keyed_) return;
   options_.flag("reuse", reuse_, "do nothing if the output already holds exactly this result", Recorded::no);
   options_.flag("why", why_, "print what differs from the existing output, and do nothing else",
@@ -273,6 +269,13 @@ void Tool::say(const std::string& line) const {
 }
 
 void Tool::warn(const std::string& line) const { tell("warning: ", line); }
+
+void Tool::takes_strict(const std::string& help) {
+  strict_help_ = !help.empty() ? help
+                               : "end without output: with code 3 where something of the scene is lost or "
+                                 "replaced, with code 5 where light is known to be left out, or the stated "
+                                 "error is not to be trusted";
+}
 
 void Tool::doubt(const std::string& line) const {
   if (strict_) throw Error(ExitCode::numerical, "", line);

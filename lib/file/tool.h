@@ -71,8 +71,10 @@ class Tool {
   const std::string& output() const { return output_; }
   bool verbose() const { return verbose_; }
 
-  /// Declares --strict: what the result cannot answer for is refused (see doubt()). Call before run().
-  void takes_strict() { takes_strict_ = true; }
+  /// Declares --strict: what the result cannot answer for is refused (see doubt(), and tell_losses() of
+  /// scene/note.h). `help` says what it does where that is not what it does elsewhere. Call before run().
+  void takes_strict(const std::string& help = "");
+  bool strict() const { return strict_; }
   /// Light that a result lacks, or an error that cannot be stated: a warning; with --strict, which every tool
   /// that says such things takes, Error(numerical) and no output.
   void doubt(const std::string& line) const;
@@ -163,7 +165,8 @@ class Tool {
   ProvenanceReader provenance_reader_;
   bool keyed_ = true;
   bool quiet_ = false, verbose_ = false, reuse_ = false, why_ = false;
-  bool takes_strict_ = false, strict_ = false;
+  std::string strict_help_;  ///< empty: no --strict
+  bool strict_ = false;
   ProgressMode progress_ = ProgressMode::automatic;
   ExitCode exit_ = ExitCode::done;
   Json stats_;

@@ -116,14 +116,36 @@ Target target_of(const Json& channel) {
   target.node = static_cast<int>(number_at(channel, "target/node", -1));
   target.pointer = text_at(channel, "target/extensions/KHR_animation_pointer/pointer", "");
   // "/nodes/3/rotation" is the ordinary target in other words.
-  int node = 0;
+  int node = 0, length = 0;
   char path[16] = "";
-  if (std::sscanf(target.pointer.c_str(), "/nodes/%d/%15[a-z]", &node, path) == 2) {
+  if (std::sscanf(target.pointer.c_str(), "/nodes/%d/%15[a-z]%n", &node, path, &length) == 2 &&
+      static_cast<std::size_t>(length) == target.pointer.size()) {
     target.node = node;
     target.path = path;
     target.pointer.clear();
   }
   return target;
+}
+
+/// Does the reader of that list ask for what a pointer sets?
+bool is_asked_for(const std::string& pointer) {
+  constexpr const char* kPointers[] = {
+      "/nodes/%d/extensions/KHR_node_visibility/visible%n",
+      "/materials/%d/emissiveFactor%n",
+      "/materials/%d/extensions/KHR_materials_emissive_strength/emissiveStrength%n",
+      "/extensions/KHR_lights_punctual/lights/%d/color%n",
+      "/extensions/KHR_lights_punctual/lights/%d/intensity%n",
+      "/extensions/KHR_lights_punctual/lights/%d/spot/innerConeAngle%n",
+      "/extensions/KHR_lights_punctual/lights/%d/spot/outerConeAngle%n",
+  };
+  for (const char* form : kPointers) {
+    int index = 0, length = 0;
+    // The form is one of those above.
+    if (std::sscanf(pointer.c_str(), form, &index, &length) == 1 && length > 0 &&
+        static_cast<std::size_t>(length) == pointer.size())
+      return true;
+  }
+  return false;
 }
 
 class Animator {
@@ -136,6 +158,7 @@ class Animator {
     animation.name = text_at(from, "name", text("animation ", index));
     animation.start_s = std::numeric_limits<double>::infinity();
     place_ = text("animations[", index, "]");
+    name_ = animation.name;
     for (const Json& channel : from.find("channels")->as_array()) {
       const Target target = target_of(channel);
       const auto sampler = static_cast<std::size_t>(channel.find("sampler")->as_number());
@@ -179,6 +202,7 @@ class Animator {
   std::string set(const Target& target, const std::vector<float>& value) {
     if (!target.pointer.empty()) {
       document_.animated[target.pointer] = value;
+      if (!is_asked_for(target.pointer)) tell(target.pointer);
       return target.pointer;
     }
     if (static_cast<std::size_t>(target.node) >= poses_.size())
@@ -197,13 +221,19 @@ class Animator {
     if (target.path == "scale") pose.scale = {value[0], value[1], value[2]};
     if (target.path == "rotation") pose.rotation = quaternion(value.data());
     if (target.path == "weights") pose.weights = value;
+    if (!vector && target.path != "rotation" && target.path != "weights") tell(label);
     return label;
+  }
+
+  void tell(const std::string& target) {
+    scene_.warnings.emplace_back(Note::Level::warning, kExtension, "animation", name_,
+                                 target + " is not moved: it stays as the file states it");
   }
 
   GltfDocument& document_;
   Scene& scene_;
   std::vector<NodePose>& poses_;
-  std::string place_;
+  std::string place_, name_;
 };
 
 }  // namespace

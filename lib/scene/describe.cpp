@@ -22,16 +22,29 @@ namespace {
 /// diffuse.
 constexpr float kDullRoughness = 0.9f;
 
-void classify(const Scene& scene, MaterialSummary& s) {
+/// Along the normal. Of a surface that is black but for its gloss, that; the base colour holds what others
+/// reflect together.
+double reflectance_of(const Scene& scene, const Material& m, double base) {
+  const float face = (m.ior - 1) / (m.ior + 1) * ((m.ior - 1) / (m.ior + 1));
+  const double gloss = luminance(m.specular * glm::min(face * m.specular_colour, Rgb(1)));
+  const double passes = m.transmission * mean_texel(scene, m.transmission_map).x, metal = m.metallic;
+  if (passes == 0) return std::max(base, (1 - metal) * gloss);
+  return metal * base + (1 - metal) * (gloss + (1 - gloss) * (1 - passes) * base);
+}
+
+/// `colour`: mean luminance of the vertex colours.
+void classify(const Scene& scene, double colour, MaterialSummary& s) {
   const Material& m = *s.material;
-  const double texture = luminance(Rgb(mean_texel(scene, m.base_colour)));
+  const double texture = luminance(Rgb(mean_texel(scene, m.base_colour))) * colour;
   const double kd = luminance(m.kd) * texture, ks = luminance(m.ks);
   switch (m.model) {
     case Model::metallic_roughness:
-      s.reflectance = kd;
-      s.diffuse = kd > 0 && m.metallic < 1;
-      s.specular = m.roughness == 0 && m.anisotropy == 0;
-      s.glossy = !s.specular && (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
+      s.reflectance = reflectance_of(scene, m, kd);
+      s.diffuse =
+          kd > 0 && m.metallic < 1 && !(m.transmission == 1 && m.metallic == 0 && !m.transmission_map.used());
+      s.specular = m.transmission > 0 || (m.roughness == 0 && m.anisotropy == 0);
+      s.glossy = !(m.roughness == 0 && m.anisotropy == 0) &&
+                 (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
       break;
     case Model::lambert:
       s.reflectance = kd;
@@ -70,6 +83,14 @@ void classify(const Scene& scene, MaterialSummary& s) {
       break;
     }
   }
+}
+
+/// Mean luminance of the vertex colours of a triangle.
+double colour_of(const Scene& scene, std::uint32_t triangle) {
+  double sum = 0;
+  for (const std::uint32_t v : scene.triangle[triangle].v)
+    sum += static_cast<double>(luminance(Rgb(scene.colour[v])));
+  return sum / 3;
 }
 
 std::string names_of(const std::vector<const Material*>& materials) {
@@ -228,15 +249,21 @@ const char* model_name(Model model) {
 
 std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<MaterialSummary> out(scene.material.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].material = &scene.material[i];
-    classify(scene, out[i]);
-  }
+  std::vector<double> coloured_m2(scene.material.size(), 0);
   for (const Instance& instance : scene.instance) {
     MaterialSummary& s = out[instance.material];
     s.triangles += instance.triangle_count;
-    for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
-      s.area_m2 += area_m2(scene, instance.first_triangle + t);
+    for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {
+      const double area = area_m2(scene, instance.first_triangle + t);
+      s.area_m2 += area;
+      if (!scene.colour.empty())
+        coloured_m2[instance.material] += area * colour_of(scene, instance.first_triangle + t);
+    }
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].material = &scene.material[i];
+    const bool coloured = !scene.colour.empty() && out[i].area_m2 > 0;
+    classify(scene, coloured ? coloured_m2[i] / out[i].area_m2 : 1, out[i]);
   }
   return out;
 }
@@ -260,7 +287,7 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
   if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
   if (lit && !glossy.empty()) out.push_back({"gloss", "glossy: " + names_of(glossy)});
   if (!specular.empty())
-    out.push_back({"specular tracing", "mirrors or smooth glass: " + names_of(specular)});
+    out.push_back({"specular tracing", "mirrors, or what light passes straight: " + names_of(specular)});
   if (!scene.animation.empty()) {
     out.push_back({"temporal data", text("animated over ", scene.frames, " frames")});
   }

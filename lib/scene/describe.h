@@ -10,15 +10,16 @@
 
 namespace phos {
 
-/// A material and what it does to light. Textures count by their mean.
+/// A material and what it does to light. Textures and vertex colours count by their mean
+/// (over the area that has the material).
 struct MaterialSummary {
   const Material* material = nullptr;
   std::uint64_t triangles = 0;
   double area_m2 = 0;      ///< of all its triangles, one side
-  double reflectance = 0;  ///< luminance of diffuse plus specular part; glass counts none
+  double reflectance = 0;  ///< luminance of diffuse plus specular part; clear glass counts none
   bool diffuse = false;    ///< has a Lambert part
   bool glossy = false;     ///< has a rough specular part worth computing
-  bool specular = false;   ///< mirror or smooth glass
+  bool specular = false;   ///< mirror, or light passes it straight
 };
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 const char* model_name(Model model);

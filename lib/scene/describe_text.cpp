@@ -75,10 +75,19 @@ std::string light_line(const Json& l) {
   return line;
 }
 
+/// Luminance of what passes straight along the normal.
+std::string passes(const Json& m) {
+  const Json* share = m.find("transmittance");
+  if (!share) return "";
+  const Json::Array& c = share->as_array();
+  const auto of = [&](std::size_t i) { return static_cast<float>(c[i].as_number()); };
+  return text(", passes ", figure(Json(static_cast<double>(luminance(Rgb(of(0), of(1), of(2)))))));
+}
+
 std::string material_line(const Json& m) {
   std::string line =
       text("  ", padded(at(m, "name").as_string(), 24), " ", padded(at(m, "model").as_string(), 20),
-           "reflects ", figure(at(m, "reflectance")), ", ", figure(at(m, "area_m2")), " m2, ",
+           "reflects ", figure(at(m, "reflectance")), passes(m), ", ", figure(at(m, "area_m2")), " m2, ",
            at(m, "triangles").as_integer(), " triangles");
   for (const Json& t : at(m, "textures").as_array()) line += text(", ", t.as_string(), " texture");
   line += '\n';

@@ -1,5 +1,7 @@
 #include <array>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "core/origin.h"
 #include "file/hash.h"
@@ -162,6 +164,11 @@ std::string hash_lights(const Scene& scene) {
 /// What each named thing is and where, so that a mismatch can say which one moved. Null if there are too
 /// many.
 Json hash_nodes(const Scene& scene) {
+  std::set<std::string_view> names;
+  for (const Instance& i : scene.instance) {
+    names.insert(i.node);
+    if (names.size() > kMaxNamedNodes) return Json();
+  }
   std::map<std::string, std::vector<const Instance*>> instances;
   std::map<std::string, std::vector<const Light*>> lights;
   for (const Instance& i : scene.instance) instances[i.node].push_back(&i);

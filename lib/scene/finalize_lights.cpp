@@ -82,8 +82,8 @@ void require_power(Scene& scene) {
   for (const Light& light : scene.light) {
     const float own_lm = max_component(light.flux_lm);
     if (static_cast<double>(own_lm) >= kLeast_lm) continue;
-    scene.warnings.push_back(
-        text("light \"", light.name, "\" emits only ", shortest(own_lm), " lm: ", kFaintLight));
+    scene.warnings.emplace_back(Note::Level::warning, kLightTooFaint, "light", light.name,
+                                text("emits only ", shortest(own_lm), " lm: ", kFaintLight));
   }
 }
 
@@ -162,7 +162,8 @@ void fill_lights(Scene& scene) {
       const bool opaque = scene.material[instance.material].alpha_mode == Material::Alpha::opaque;
       const char* why = opaque || !(light.area_m2 > 0) ? "has no area or is black"
                                                        : "is cut out wholly by its alpha, or black";
-      scene.warnings.push_back(text("light \"", instance.node, "\" ", why, ": it is ignored"));
+      scene.warnings.emplace_back(Note::Level::info, kLightIgnored, "light", instance.node,
+                                  text(why, ": it is ignored"));
     }
   }
   const float radius_m = bounding_radius_m(scene);
@@ -188,7 +189,8 @@ void fill_lights(Scene& scene) {
     if (max_component(light.flux_lm) > 0) return false;
     // In a band many a lamp is dark.
     if (scene.bands.number == 0)
-      scene.warnings.push_back("light \"" + light.name + "\" has no intensity: it is ignored");
+      scene.warnings.emplace_back(Note::Level::info, kLightIgnored, "light", light.name,
+                                  "has no intensity: it is ignored");
     return true;
   });
   require_power(scene);

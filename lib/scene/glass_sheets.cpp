@@ -91,8 +91,9 @@ void make_sheets_thin(Scene& scene) {
     for (const auto& [root, instances] : parts)
       if (lies_in_a_plane(scene, instances)) sheets.insert(sheets.end(), instances.begin(), instances.end());
     if (sheets.empty()) continue;
-    scene.warnings.push_back(text("material \"", m.name, "\": ", sheets.size(),
-                                  " instances of it enclose no volume; each is read as a thin pane"));
+    scene.warnings.emplace_back(
+        Note::Level::info, "loader", "material", m.name,
+        text(sheets.size(), " instances of it enclose no volume; each is read as a thin pane"));
     const bool all = sheets.size() == static_cast<std::size_t>(std::count_if(
                                           scene.instance.begin(), scene.instance.end(),
                                           [&](const Instance& i) { return i.material == material; }));

@@ -73,6 +73,10 @@ constexpr Rule kRules[] = {
     {"materials", "extensions/KHR_materials_anisotropy/anisotropyRotation", Kind::number},
     {"materials", "extensions/KHR_materials_anisotropy/anisotropyTexture/index", Kind::index, "textures"},
     {"materials", "extensions/KHR_materials_anisotropy/anisotropyTexture/texCoord", Kind::small_count},
+    {"materials", "extensions/KHR_materials_clearcoat/clearcoatFactor", Kind::number},
+    {"materials", "extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", Kind::number},
+    {"materials", "extensions/KHR_materials_sheen/sheenColorFactor", Kind::numbers, "", 3},
+    {"materials", "extensions/KHR_materials_sheen/sheenRoughnessFactor", Kind::number},
     {"materials", "extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
     {"materials", "extensions/KHR_materials_ior/ior", Kind::number},
     {"materials", "extensions/KHR_materials_specular/specularFactor", Kind::number},
@@ -93,6 +97,7 @@ constexpr Rule kRules[] = {
     {"nodes", "rotation", Kind::numbers, "", 4},
     {"nodes", "scale", Kind::numbers, "", 3},
     {"nodes", "weights", Kind::numbers},
+    {"nodes", "extensions/KHR_node_visibility/visible", Kind::boolean},
     {"meshes", "name", Kind::text},
     {"meshes", "weights", Kind::numbers},
     {"skins", "joints", Kind::indices, "nodes", 0, "."},
@@ -126,6 +131,11 @@ class Checker {
     for (std::size_t i = 0; i < count_at(document_, "meshes"); ++i) mesh(i);
     for (std::size_t i = 0; i < count_at(document_, "animations"); ++i) animation(i);
     lights();
+    for (std::size_t i = 0; i < count_at(document_, "nodes"); ++i)
+      if (const Json* copies =
+              find_path(element(document_, "nodes", i), "extensions/EXT_mesh_gpu_instancing"))
+        attributes(copies->find("attributes"),
+                   text("nodes[", i, "].extensions.EXT_mesh_gpu_instancing.attributes"));
   }
 
  private:
@@ -273,6 +283,7 @@ class Checker {
       apply({"", "name", Kind::text}, light, place);
       apply({"", "color", Kind::numbers, "", 3}, light, place);
       apply({"", "intensity", Kind::number}, light, place);
+      apply({"", "range", Kind::number}, light, place);
       apply({"", "spot/innerConeAngle", Kind::number}, light, place);
       apply({"", "spot/outerConeAngle", Kind::number}, light, place);
     }

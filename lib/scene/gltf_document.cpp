@@ -12,16 +12,10 @@
 #include "scene/gltf_check.h"
 #include "scene/gltf_compression.h"
 #include "scene/gltf_uri.h"
+#include "scene/scene_features.h"
 
 namespace phos {
 namespace {
-
-constexpr const char* kExtensions[] = {
-    "EXT_lights_ies",           "KHR_animation_pointer",           "KHR_lights_punctual",
-    "KHR_materials_anisotropy", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular",   "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_materials_volume",     "KHR_mesh_quantization",           "KHR_texture_transform",
-};
 
 constexpr const char* kVersion1 = "glTF 1.0 is not supported; convert it to 2.0";
 
@@ -97,7 +91,7 @@ void check_extensions(const Json& document, const std::string& path) {
   if (!required->is_array()) throw Error(ExitCode::bad_input, path, "extensionsRequired must be an array");
   for (const Json& name : required->as_array()) {
     const std::string s = name.is_string() ? name.as_string() : name.dump();
-    if (std::find(std::begin(kExtensions), std::end(kExtensions), s) == std::end(kExtensions)) {
+    if (!can_be_required(s)) {
       throw Error(ExitCode::bad_input, path,
                   "the scene requires the extension " + s + ", which is not supported; export it without");
     }

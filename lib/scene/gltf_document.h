@@ -26,7 +26,6 @@ struct GltfDocument {
       model;  ///< accessors, views, meshes, materials, nodes, cameras, skins
   /// Values that KHR_animation_pointer sets at the time of the scene, by JSON pointer.
   std::map<std::string, std::vector<float>> animated;
-  std::vector<std::string> warnings;
 
   [[noreturn]] void fail(const std::string& message) const {
     throw Error(ExitCode::bad_input, path, message);

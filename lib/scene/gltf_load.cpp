@@ -9,7 +9,10 @@
 #include "scene/animation.h"
 #include "scene/glass_sheets.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_coats.h"
+#include "scene/gltf_copies.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_findings.h"
 #include "scene/gltf_luminaires.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
@@ -33,6 +36,10 @@ class SceneReader {
 
   void read(const SceneOptions& options) {
     read_time(options);
+    for (const auto find : {gltf_findings, metals_by_default}) {
+      const std::vector<Note> notes = find(document_.json);
+      scene_.warnings.insert(scene_.warnings.end(), notes.begin(), notes.end());
+    }
     const std::vector<NodePose> rest = rest_poses(document_);
     std::vector<NodePose> poses = rest;
     apply_animations(document_, scene_, poses);
@@ -40,13 +47,15 @@ class SceneReader {
     TexturePool textures;
     read_gltf_materials(document_, textures, scene_);
     textures.decode(scene_);
+    lay_coats(document_, scene_);
     choose_origin(rest);
     place_nodes(poses);
     for (const std::size_t node : order_) read_node(node, poses[node]);
     make_sheets_thin(scene_);
     given_.require_all_found();
     if (skipped_primitives_) {
-      scene_.warnings.push_back(
+      scene_.warnings.emplace_back(
+          Note::Level::info, "loader", "", "",
           text(skipped_primitives_, " mesh primitives are points or lines, which give no surface"));
     }
   }
@@ -102,6 +111,13 @@ class SceneReader {
       const auto mesh = static_cast<std::size_t>(node.mesh);
       std::vector<glm::dmat4> to_world{world_[i]};
       if (node.skin >= 0) to_world = joints(static_cast<std::size_t>(node.skin));
+      if (shown_[i] == Shown::never) continue;
+      if (const std::optional<GltfCopies> copies = GltfCopies::of(document_, i)) {
+        const std::vector<glm::dmat4> placed = std::move(to_world);
+        to_world.clear();
+        for (std::size_t k = 0; k < copies->size(); ++k)
+          for (const glm::dmat4& m : placed) to_world.push_back(m * copies->at(k));
+      }
       const std::vector<float> weights = weights_of(mesh, rest[i]);
       for (std::size_t p = 0; p < document_.model->meshes[mesh].primitives.size(); ++p) {
         const std::optional<MeshData>& data = primitive(mesh, p, weights);
@@ -110,7 +126,8 @@ class SceneReader {
       }
     }
     scene_.origin_m = suitable_origin_m(extent.world());
-    if (std::string coarse = extent.coarse(); !coarse.empty()) scene_.warnings.push_back(std::move(coarse));
+    if (std::string coarse = extent.coarse(); !coarse.empty())
+      scene_.warnings.emplace_back(Note::Level::info, "loader", "", "", std::move(coarse));
   }
 
   /// Transforms from the scene's origin, depth first in file order. Every node has one parent, so that a
@@ -120,6 +137,7 @@ class SceneReader {
     const glm::dmat4 from_origin = glm::translate(glm::dmat4(1), -scene_.origin_m);
     const std::size_t n = document_.model->nodes.size();
     world_.assign(n, glm::dmat4(1));
+    shown_.assign(n, Shown::yes);
     std::vector<bool> seen(n, false);
     std::vector<std::pair<std::size_t, glm::dmat4>> stack;
     const std::vector<std::size_t> first = roots();
@@ -137,11 +155,25 @@ class SceneReader {
         }
       }
       order_.push_back(node);
+      shown_[node] = std::max(shown_[node], own_visibility(node));
       const std::vector<int>& children = document_.model->nodes[node].children;
       for (auto it = children.rbegin(); it != children.rend(); ++it) {
+        shown_[static_cast<std::size_t>(*it)] = shown_[node];
         stack.emplace_back(static_cast<std::size_t>(*it), world_[node]);
       }
     }
+  }
+
+  /// KHR_node_visibility. What an animation hides stays in the scene without an extent, so that its triangles
+  /// are the same at every time.
+  enum class Shown : std::uint8_t { yes, not_now, never };
+  Shown own_visibility(std::size_t node) const {
+    constexpr const char* kVisible = "extensions/KHR_node_visibility/visible";
+    const auto animated = document_.animated.find(text("/nodes/", node, "/", kVisible));
+    if (animated != document_.animated.end() && !animated->second.empty())
+      return animated->second[0] != 0 ? Shown::yes : Shown::not_now;
+    const Json* visible = find_path(element(document_.json, "nodes", node), kVisible);
+    return visible && !visible->as_bool() ? Shown::never : Shown::yes;
   }
 
   std::string node_name(std::size_t node) const {
@@ -169,6 +201,7 @@ class SceneReader {
         place.name,
         find_path(document_.json, "extensions/EXT_lights_ies/lights")->as_array()[luminaire.profile]);
     std::shared_ptr<const PhotometricFile> file = given_.find(place.name);
+    if (shown_[node] != Shown::yes) return;
     if (!file) file = profiles_.read(luminaire.profile);
     hang_luminaire(scene_, std::move(file), place, luminaires_as_);
   }
@@ -186,7 +219,9 @@ class SceneReader {
 
   void read_mesh(std::size_t node, std::size_t mesh, int skin, const NodePose& pose) {
     const tinygltf::Mesh& from = document_.model->meshes[mesh];
+    if (shown_[node] == Shown::never) return;
     const std::vector<float> weights = weights_of(mesh, pose);
+    const std::optional<GltfCopies> copies = GltfCopies::of(document_, node);
     for (std::size_t p = 0; p < from.primitives.size(); ++p) {
       const std::string what = mesh_name(mesh);
       std::optional<MeshData> data = primitive(mesh, p, weights);
@@ -201,7 +236,14 @@ class SceneReader {
       const std::uint32_t material = material_of(from.primitives[p].material);
       const Material& m = scene_.material[material];
       const bool tangents = m.normal.used() || m.anisotropic();
-      add_instance(scene_, std::move(*data), to_world, node_name(node), material, tangents, what);
+      if (shown_[node] == Shown::not_now) to_world[0] = to_world[1] = to_world[2] = glm::dvec4(0);
+      if (!copies) {
+        add_instance(scene_, std::move(*data), to_world, node_name(node), material, tangents, what);
+        continue;
+      }
+      for (std::size_t k = 0; k < copies->size(); ++k)
+        add_instance(scene_, *data, to_world * copies->at(k), text(node_name(node), "[", k, "]"), material,
+                     tangents, what);
     }
   }
 
@@ -252,7 +294,7 @@ class SceneReader {
       m.name = "default";
       m.kd = Rgb(0.5f);
       scene_.material.push_back(m);
-      scene_.warnings.push_back("some meshes have no material: they are read as grey Lambert, kd 0.5");
+      scene_.warnings.emplace_back("some meshes have no material: they are read as grey Lambert, kd 0.5");
     }
     return *default_material_;
   }
@@ -315,6 +357,7 @@ class SceneReader {
     Light light;
     const std::string& name = document_.model->nodes[node].name;
     light.name = !name.empty() ? name : text_at(json, "name", node_name(node));
+    if (shown_[node] != Shown::yes) return static_cast<void>(given_.find(light.name));
     const Mat4 axes = rigid(world_[node]);
     light.position = Vec3(axes[3]);
     light.direction = -Vec3(axes[2]);
@@ -366,6 +409,7 @@ class SceneReader {
   GivenLuminaires given_;
   std::vector<glm::dmat4> world_;
   std::vector<std::size_t> order_;
+  std::vector<Shown> shown_;  // with all above it
   std::map<std::pair<std::size_t, std::size_t>, std::optional<MeshData>> primitives_;
   std::optional<MeshData> morphed_;  // the last that was read with weights
   std::optional<std::uint32_t> default_material_;
@@ -379,7 +423,6 @@ Scene load_gltf(const std::string& path, std::string_view bytes, const SceneOpti
   Scene scene;
   scene.path = path;
   SceneReader(document, scene, options.luminaires).read(options);
-  scene.warnings.insert(scene.warnings.end(), document.warnings.begin(), document.warnings.end());
   return scene;
 }
 

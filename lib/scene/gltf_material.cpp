@@ -83,8 +83,12 @@ class MaterialReader {
   [[noreturn]] void fail(const std::string& message) const {
     document_.fail(text("material \"", material_.name, "\": ", message));
   }
+  /// Of what the scene itself tells, too.
+  void note(const std::string& message) const {
+    scene_.warnings.emplace_back(Note::Level::info, kSaidByLint, "material", material_.name, message);
+  }
   void warn(const std::string& message) const {
-    scene_.warnings.push_back(text("material \"", material_.name, "\": ", message));
+    scene_.warnings.emplace_back(Note::Level::warning, "loader", "material", material_.name, message);
   }
 
   TextureUse use(const char* member, int texture, int set, bool srgb) {
@@ -173,11 +177,6 @@ class MaterialReader {
   }
 
   void read_extensions() {
-    if (find_path(*json_, "extensions/KHR_materials_unlit"))
-      warn("KHR_materials_unlit is ignored: it is lit like others");
-    if (find_path(*json_, "extensions/KHR_materials_pbrSpecularGlossiness")) {
-      warn("KHR_materials_pbrSpecularGlossiness is ignored: the metallic-roughness values are used");
-    }
     material_.ior = static_cast<float>(number_at(*json_, "extensions/KHR_materials_ior/ior", 1.5));
     if (!(material_.ior == 0 || material_.ior >= 1)) fail("KHR_materials_ior.ior must be 1 or more");
     if (material_.ior == 0) material_.ior = 1.5f;  // 0 asks for the legacy specular-glossiness Fresnel
@@ -254,7 +253,7 @@ class MaterialReader {
     if (thickness_m > 0)
       warn("rough or partial transmission of a solid is not modelled: its surface is read as a thin sheet");
     if (!smooth) {
-      warn("it transmits as a thin sheet that does not scatter what passes, however rough it is");
+      warn("what it transmits passes straight through, not scattered, however rough it is");
     } else if (material_.transmission == 1 && !material_.transmission_map.used() && material_.metallic == 0 &&
                material_.specular == 1 && material_.specular_colour == Rgb(1)) {
       become(Model::thin_dielectric);
@@ -452,7 +451,7 @@ class MaterialReader {
     material_.alpha_x = material_.alpha_y = measured.alpha();
     if (material_.base_colour.used()) warn("its base colour texture is not used with measured data");
     material_.base_colour = TextureUse();
-    if (const std::string gain = measured.energy_gain(); !gain.empty()) warn(gain);
+    if (const std::string gain = measured.energy_gain(); !gain.empty()) note(gain);
     if (first) count_cells(measured);
   }
 
@@ -475,7 +474,7 @@ class MaterialReader {
     if (max_component(material_.kd + (material_.model == Model::phong || material_.model == Model::ward
                                           ? material_.ks
                                           : Rgb(0))) > 1.0001f) {
-      warn("kd + ks is above 1: it reflects more light than it gets");
+      note("kd + ks is above 1: it reflects more light than it gets");
     }
   }
 

@@ -79,10 +79,8 @@ glm::dmat4 aimed(const DVec3& position, const DVec3& direction, const DVec3& acr
 void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, const LuminairePlace& place,
                     LuminairesAs as) {
   const Mat3 axes = unit_axes(place.to_world);
-  for (const std::string& warning : file->warnings) {
-    std::string line = text("luminaire \"", place.name, "\": ", warning);
-    scene.warnings.push_back(std::move(line));
-  }
+  for (const std::string& warning : file->warnings)
+    scene.warnings.emplace_back(Note::Level::info, "loader", "luminaire", place.name, warning);
   const double tilt_deg = glm::degrees(std::acos(std::clamp(static_cast<double>(axes[2].y), -1.0, 1.0)));
   const Rgb colour = place.colour * static_cast<float>(file->tilt.factor(tilt_deg));
   const auto index = static_cast<std::int32_t>(scene.fitting.size());
@@ -102,8 +100,8 @@ void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, c
       scene.fitting.emplace_back(std::move(file), axes, colour);
       return;
     }
-    scene.warnings.push_back(
-        text("luminaire \"", place.name, "\": its opening has no size here; a point shines"));
+    scene.warnings.emplace_back(Note::Level::warning, "loader", "luminaire", place.name,
+                                "its opening has no size here; a point shines");
   }
   Light light;
   light.kind = Light::Kind::measured;

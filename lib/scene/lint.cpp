@@ -11,7 +11,6 @@
 #include "scene/environment.h"
 #include "scene/finalize.h"
 #include "scene/load.h"
-#include "scene/load_textures.h"
 #include "scene/merl.h"
 #include "scene/sky_access.h"
 #include "scene/spot_cone.h"
@@ -22,6 +21,24 @@ namespace {
 constexpr double kLargestDiagonal_m = 300, kSmallestDiagonal_m = 0.01;
 constexpr double kDarkest_lx = 1, kBrightest_lx = 200000;
 constexpr double kHighReflectance = 0.95, kAllReflectance = 0.99995, kBackwardShare = 0.01;
+
+constexpr const char *kAboveOne = "reflectance-above-one", *kAbsorbsNothing = "absorbs-nothing",
+                     *kReflectsMuch = "reflectance-high";
+
+struct Mend {
+  const char *code, *mend;
+};
+/// By the code of a note.
+constexpr Mend kMends[] = {
+    {kTextureNotFound, "put the image beside the scene, or pack it into a .glb"},
+    {kLightTooFaint, "give it more power, or remove it"},
+    {kSunTooBright, "irradiances are in W/m2, illuminances in lx"},
+    {kLightIgnored, "give it an area and an intensity, or remove it"},
+    {kAboveOne, "lower kd or ks until kd + ks is at most 1"},
+    {kAbsorbsNothing, "lower kd or ks; white paint reflects 0.8"},
+    {kReflectsMuch, "lower it unless it is meant"},
+    {kMetalByDefault, "give paint, plaster, wood and stone a metallicFactor of 0"},
+};
 
 class Linter {
  public:
@@ -44,7 +61,7 @@ class Linter {
 
  private:
   using Level = Finding::Level;
-  void add(Level level, const char* code, const std::string& message, const std::string& mend) {
+  void add(Level level, const std::string& code, const std::string& message, const std::string& mend) {
     findings_.push_back({level, code, message, mend});
   }
 
@@ -205,25 +222,28 @@ class Linter {
   }
 
   void check_materials() {
+    std::vector<Note> notes;
     for (const MaterialSummary& m : summarize_materials(scene_)) {
       if (m.triangles == 0) continue;
-      const std::string name = "material \"" + m.material->name + "\"";
+      const std::string& name = m.material->name;
       const std::string figure =
-          text(name, " reflects ", shortest(static_cast<float>(m.reflectance)), " of the light");
+          text("reflects ", shortest(static_cast<float>(m.reflectance)), " of the light");
+      const auto note = [&](Note::Level level, const char* code, const char* what) {
+        notes.emplace_back(level, code, "material", name, figure + what);
+      };
       if (m.material->model == Model::measured) {
-        check_measured(name, *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
+        check_measured("material \"" + name + "\"",
+                       *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
       } else if (m.reflectance > 1.0001) {
-        add(Level::warning, "reflectance-above-one", figure + ", more than it gets",
-            "lower kd or ks until kd + ks is at most 1");
+        note(Note::Level::warning, kAboveOne, ", more than it gets");
       } else if (m.reflectance > kAllReflectance && m.diffuse) {
-        add(Level::warning, "absorbs-nothing",
-            figure + ": in a closed room of it light never ends, and has no finite mean",
-            "lower kd or ks; white paint reflects 0.8");
+        note(Note::Level::warning, kAbsorbsNothing,
+             ": in a closed room of it light never ends, and has no finite mean");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
-        add(Level::info, "reflectance-high", figure + "; white paint reflects 0.8",
-            "lower it unless it is meant");
+        note(Note::Level::info, kReflectsMuch, "; white paint reflects 0.8");
       }
     }
+    add_merged(notes);
   }
 
   void check_measured(const std::string& name, const MerlBrdf& measured) {
@@ -281,23 +301,18 @@ class Linter {
     }
   }
 
-  void check_warnings() {
-    for (const std::string& warning : scene_.warnings) {
-      // reflectance-above-one and gains-energy say it.
-      if (warning.find(": kd + ks is above 1") != std::string::npos) continue;
-      if (warning.find(MerlBrdf::kGainsEnergy) != std::string::npos) continue;
-      if (warning.rfind(kTextureNotFound, 0) == 0) {
-        add(Level::warning, "texture-not-found", warning,
-            "put the image beside the scene, or pack it into a .glb");
-      } else if (warning.ends_with(kMoreThanInSpace)) {
-        add(Level::warning, "sun-too-bright", warning, "irradiances are in W/m2, illuminances in lx");
-      } else if (warning.find(kFaintLight) != std::string::npos) {
-        add(Level::warning, "light-too-faint", warning, "give it more power, or remove it");
-      } else if (warning.find("is ignored") != std::string::npos && warning.rfind("light ", 0) == 0) {
-        add(Level::warning, "light-ignored", warning, "give it an area and an intensity, or remove it");
-      } else {
-        add(Level::info, "loader", warning, "change it in the modeller if it matters");
-      }
+  /// Of the loader.
+  void check_warnings() { add_merged(scene_.warnings); }
+
+  void add_merged(const std::vector<Note>& notes) {
+    for (const Note& note : merged(notes)) {
+      if (note.code == kSaidByLint) continue;
+      const auto mend = std::find_if(std::begin(kMends), std::end(kMends),
+                                     [&](const Mend& m) { return note.code == m.code; });
+      const bool warning =
+          note.level == Note::Level::warning || note.code == kLightIgnored || note.code == kSunTooBright;
+      add(warning ? Level::warning : Level::info, note.code, note.message,
+          mend == std::end(kMends) ? "change it in the modeller if it matters" : mend->mend);
     }
   }
 

@@ -39,7 +39,7 @@ void aim(Scene& scene, const std::string& portals) {
   const RayScene rays(scene);
   scene.portal = find_portals(rays, portals);
   if (scene.portal.empty())
-    scene.warnings.push_back(kNothingToAimAt);
+    scene.warnings.emplace_back(Note::Level::info, "loader", "", "", kNothingToAimAt);
   else
     scene.portal_sight = std::make_shared<const PortalSight>(rays, scene.portal);
 }
@@ -102,14 +102,18 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
                                             glm::radians(options.environment_rotation_deg.value_or(0)));
     scene.environment = std::make_shared<const Environment>(std::move(file.map));
     if (file.outside_gamut > 0) {
-      scene.warnings.push_back(text(
-          options.environment, ": ", file.outside_gamut,
-          " texels have colours outside of Rec.709; they are made less saturated, their luminance is kept"));
+      scene.warnings.emplace_back(
+          Note::Level::info, "loader", "", "",
+          text(options.environment, ": ", file.outside_gamut,
+               " texels have colours outside of Rec.709; they are made less saturated, their luminance is "
+               "kept"));
     }
   }
   if (options.daylight.any()) {
     scene.environment = std::make_shared<const Environment>(make_environment(daylight));
-    scene.warnings.insert(scene.warnings.end(), daylight.warnings.begin(), daylight.warnings.end());
+    for (const std::string& line : daylight.warnings)
+      scene.warnings.emplace_back(Note::Level::info,
+                                  line.ends_with(kMoreThanInSpace) ? kSunTooBright : "loader", "", "", line);
   }
   if (options.bands.any()) to_bands(scene, options.bands);
   finalize(scene);

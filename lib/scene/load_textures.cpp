@@ -159,8 +159,8 @@ std::vector<std::int32_t> TexturePool::decode(Scene& scene) {
       place[i] = static_cast<std::int32_t>(scene.texture.size());
       scene.texture.push_back(std::move(decoded[i]));
     } else {
-      scene.warnings.push_back(kTextureNotFound + requests_[i].name + " " + problem[i] +
-                               "; the factor of the material is used");
+      scene.warnings.emplace_back(Note::Level::warning, kTextureNotFound, "texture", requests_[i].name,
+                                  problem[i] + "; the factor of the material is used");
     }
   }
   for (Material& m : scene.material) {

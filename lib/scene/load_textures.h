@@ -23,7 +23,7 @@ class TexturePool {
   std::int32_t add(const std::string& key, const std::string& name, std::string bytes,
                    const std::string& missing, const Sampling& sampling, bool srgb);
   /// Fills scene.texture. Uses of textures that cannot be decoded are cleared, with a warning each
-  /// ("texture not found: ..."). Returns the place in scene.texture of each index that add() gave; -1: none.
+  /// (kTextureNotFound). Returns the place in scene.texture of each index that add() gave; -1: none.
   std::vector<std::int32_t> decode(Scene& scene);
 
  private:
@@ -35,8 +35,5 @@ class TexturePool {
   std::vector<Request> requests_;
   std::map<std::string, std::int32_t> known_;
 };
-
-/// Start of the warning about a texture that is not there; phos-scene's lint looks for it.
-inline constexpr const char* kTextureNotFound = "texture not found: ";
 
 }  // namespace phos

@@ -124,9 +124,10 @@ class ObjReader {
       throw Error(ExitCode::bad_input, scene_.path,
                   why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
     }
-    for (const std::string& name : mtl.missing) scene_.warnings.push_back("material file not found: " + name);
+    for (const std::string& name : mtl.missing)
+      scene_.warnings.emplace_back("material file not found: " + name);
     for (const auto& [keyword, n] : obj.unread)
-      scene_.warnings.push_back(text("statement \"", keyword, "\", ", n, " times, is not read"));
+      scene_.warnings.emplace_back(text("statement \"", keyword, "\", ", n, " times, is not read"));
     choose_origin(std::move(obj.vertices));
     mtl.said.resize(materials_.size());
     for (std::size_t i = 0; i < materials_.size(); ++i) obj_materials_.add(materials_[i], mtl.said[i]);
@@ -134,7 +135,8 @@ class ObjReader {
     tell_sheets_from_solids();
     for (std::size_t i = 0; i < shapes_.size(); ++i) add_shape(shapes_[i], i);
     if (skipped_)
-      scene_.warnings.push_back(text(skipped_, " lines and points are left out: they have no surface"));
+      scene_.warnings.emplace_back(Note::Level::info, "loader", "", "",
+                                   text(skipped_, " lines and points are left out: they have no surface"));
   }
 
  private:
@@ -214,7 +216,8 @@ class ObjReader {
       m.name = "default";
       m.kd = Rgb(0.5f);
       scene_.material.push_back(m);
-      scene_.warnings.push_back("some faces have no material: they are read as grey Lambert, kd 0.5");
+      scene_.warnings.emplace_back(Note::Level::info, "loader", "", "",
+                                   "some faces have no material: they are read as grey Lambert, kd 0.5");
     }
     return *default_material_;
   }

@@ -79,7 +79,7 @@ void ObjMaterials::make_thin(Material& glass) {
 }
 
 void ObjMaterials::warn(const std::string& material, const std::string& what) {
-  scene_.warnings.push_back(text("material \"", material, "\": ", what));
+  scene_.warnings.emplace_back(Note::Level::warning, "loader", "material", material, what);
 }
 
 TextureUse ObjMaterials::texture(const std::string& name, const tinyobj::texture_option_t& option,
@@ -122,7 +122,8 @@ void ObjMaterials::read_reflection(const tinyobj::material_t& from, const MtlSta
       m.exponent = static_cast<float>(ns.value_or(1));
     }
     if (max_component(m.kd + m.ks) > 1.0001f)
-      warn(m.name, "Kd + Ks is above 1: it reflects more light than it gets");
+      scene_.warnings.emplace_back(Note::Level::info, kSaidByLint, "material", m.name,
+                                   "Kd + Ks is above 1: it reflects more light than it gets");
   }
   m.base_colour = texture(from.diffuse_texname, from.diffuse_texopt, true);
   // A map stands in for a Kd that exporters leave black.
@@ -274,7 +275,7 @@ void ObjMaterials::finish() {
     if (m.alpha_mode == Material::Alpha::blend && m.alpha == 1 && !m.base_colour.used())
       m.alpha_mode = Material::Alpha::opaque;  // its map cannot be read
   for (const auto& [what, materials] : unread_)
-    scene_.warnings.push_back(text(what, " (material ", list_of(materials), ")"));
+    scene_.warnings.emplace_back(text(what, " (material ", list_of(materials), ")"));
 }
 
 }  // namespace phos

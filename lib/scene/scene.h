@@ -12,6 +12,7 @@
 #include "core/json.h"
 #include "core/vector.h"
 #include "scene/fitting.h"
+#include "scene/note.h"
 #include "scene/portal.h"
 
 namespace phos {
@@ -243,8 +244,8 @@ struct Scene {
   double frames_per_s = 24;
   BandTriplet bands;
   std::map<std::string, std::string> light_spectrum;  ///< as Material::spectrum, by the light's name
-  std::int64_t frames = 0;            ///< of scenes[0].extras.animation, or from the longest animation
-  std::vector<std::string> warnings;  ///< what the loader mended or ignored, one line each
+  std::int64_t frames = 0;     ///< of scenes[0].extras.animation, or from the longest animation
+  std::vector<Note> warnings;  ///< what the loader mended, ignored or put in place of something
   std::map<std::string, std::uint64_t> events;  ///< degenerate triangles dropped, normals made, ...
   // Filled by finalize().
   Bounds bounds;

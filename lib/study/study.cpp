@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "file/folder.h"
 #include "file/write_text.h"
+#include "scene/note.h"
 #include "study/html.h"
 #include "study/plan.h"
 #include "study/results.h"
@@ -43,6 +44,9 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
   if (options.threads) study.threads = *options.threads;
   const CommandRunner runner = runner_of(study);
   const StudyWork work = plan_work(study, runner, options.folder + "/cache");
+  for (const SceneLoss& loss : work.losses) warn(text(loss.scene, ": ", loss.line));
+  if (options.strict && !work.losses.empty())
+    throw Error(ExitCode::bad_input, work.losses[0].scene, kRefusedForLosses);
   make_folder(options.folder + "/cache");
   StudyJournal journal(options.folder + "/journal.jsonl");
 

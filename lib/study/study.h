@@ -13,6 +13,7 @@ struct StudyOptions {
   std::optional<std::int64_t> threads;  ///< in place of the study's own
   std::int64_t pictures = 24;           ///< points of each scene and camera whose pictures the page shows
   bool discard = false;                 ///< remove photons and caches once nothing is left to read them
+  bool strict = false;                  ///< refuse scenes of which something is lost (scene/note.h)
   bool list = false;                    ///< say what would be run, and do nothing
 };
 

@@ -115,11 +115,13 @@ const std::vector<std::string>& given(const StudyFile& study, const std::string&
   return none;
 }
 
-void check_against_scenes(const StudyFile& study) {
+std::vector<SceneLoss> check_against_scenes(const StudyFile& study) {
   if (study.reads_sensors() && read_sensors(study.sensors).points.empty())
     throw Error(ExitCode::bad_input, study.sensors, "has no sensor; give points");
+  std::vector<SceneLoss> out;
   for (const std::string& path : study.scenes) {
     const Scene scene = load_scene(path, scene_options(study.reference));
+    for (const Note& loss : losses(scene)) out.push_back({path, loss.line()});
     if (scene.light.empty())
       throw Error(
           ExitCode::bad_input, path,
@@ -132,6 +134,7 @@ void check_against_scenes(const StudyFile& study) {
       }
     if (study.reads_sensors()) check_lux(study, given(study, path, "", &GivenReference::lux));
   }
+  return out;
 }
 
 }  // namespace phos

@@ -13,9 +13,14 @@ const std::vector<std::string>& given(const StudyFile& study, const std::string&
                                       const std::string& camera,
                                       std::vector<std::string> GivenReference::*which);
 
-/// Before any work. Throws Error(bad_input) for a scene that cannot be read or has no light, or sensors that
-/// cannot be read; Error(usage) for a camera that is not there; Error(mismatch) for a given reference of
-/// another size, layer, scene or sensors, or whose two files are one.
-void check_against_scenes(const StudyFile& study);
+/// What a scene says and phos does not model: the line that each of its programs says, too.
+struct SceneLoss {
+  std::string scene, line;
+};
+
+/// Before any work: what is lost of the scenes. Throws Error(bad_input) for a scene that cannot be read or
+/// has no light, or sensors that cannot be read; Error(usage) for a camera that is not there; Error(mismatch)
+/// for a given reference of another size, layer, scene or sensors, or whose two files are one.
+std::vector<SceneLoss> check_against_scenes(const StudyFile& study);
 
 }  // namespace phos

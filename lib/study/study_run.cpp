@@ -1,5 +1,6 @@
 #include "study/study_run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -28,6 +29,12 @@ bool is_users(int code) {
 std::string without_digits(std::string s) {
   std::erase_if(s, [](char c) { return c >= '0' && c <= '9'; });
   return s;
+}
+
+/// Is it what a program says is lost of a scene, which the study itself has said?
+bool is_told(const std::vector<SceneLoss>& losses, const std::string& line) {
+  return std::any_of(losses.begin(), losses.end(),
+                     [&](const SceneLoss& loss) { return line.ends_with(": " + loss.line); });
 }
 
 /// Its message, without its name.
@@ -120,6 +127,7 @@ Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJourn
   Readers readers(work, left);
   std::set<std::string> said;
   const auto warn_once = [&](const std::string& line) {
+    if (is_told(work.losses, line)) return;
     if (said.insert(without_digits(line)).second) warn(line);
   };
   Progress progress("study", left.size(), "commands");

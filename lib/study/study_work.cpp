@@ -152,8 +152,8 @@ std::vector<std::size_t> StudyWork::order() const {
 }
 
 StudyWork plan_work(const StudyFile& study, const CommandRunner& runner, const std::string& folder) {
-  check_against_scenes(study);
-  StudyWork work{expand_settings(study), Stages(study, runner, folder), {}, {}, {}};
+  std::vector<SceneLoss> losses = check_against_scenes(study);
+  StudyWork work{expand_settings(study), Stages(study, runner, folder), {}, {}, {}, std::move(losses)};
   Planner planner(study, work);
   planner.references();
   const std::size_t n = work.settings.size();

@@ -7,6 +7,7 @@
 
 #include "study/settings.h"
 #include "study/stage.h"
+#include "study/study_check.h"
 
 namespace phos {
 
@@ -29,6 +30,7 @@ struct StudyWork {
   std::vector<Job> jobs;
   std::vector<ReferenceWork> pictures;  ///< of scene x cameras + camera; empty without pictures
   std::vector<ReferenceWork> lux;       ///< of each scene; empty without sensors
+  std::vector<SceneLoss> losses{};      ///< of the scenes
 
   const ReferenceWork& picture_of(const StudyFile& study, const Setting& s) const {
     return pictures[s.scene * study.cameras.size() + s.camera];

@@ -106,7 +106,7 @@ TEST(Light, LaserThinSpots) {
     spot.intensity = Rgb(static_cast<float>(1 / solid_angle));
     s.light.push_back(spot);
     finalize(s);
-    ASSERT_EQ(s.light.size(), 1u) << half_rad << ": " << (s.warnings.empty() ? "" : s.warnings[0]);
+    ASSERT_EQ(s.light.size(), 1u) << half_rad << ": " << (s.warnings.empty() ? "" : s.warnings[0].line());
     double off = std::fabs(static_cast<double>(s.light[0].flux_lm.y) - 1);
     const Lit lit = light_up(s, 2000);
     EXPECT_EQ(lit.photons.size(), 2000u);

@@ -93,8 +93,8 @@ TEST(Origin, OffsetsInVerticesAreWarnedOf) {
   EXPECT_EQ(far.origin_m, site);
   EXPECT_TRUE(same_bytes(home, far));  // half metres survive floats of 2^21
   const auto warned = [](const Scene& s) {
-    return std::any_of(s.warnings.begin(), s.warnings.end(), [](const std::string& w) {
-      return w.find("put that offset into the node's translation") != std::string::npos;
+    return std::any_of(s.warnings.begin(), s.warnings.end(), [](const Note& w) {
+      return w.line().find("put that offset into the node's translation") != std::string::npos;
     });
   };
   EXPECT_TRUE(warned(far));

@@ -93,7 +93,8 @@ TEST(Emission, LampsWithoutAVisibleTexelAreTold) {
     finalize(scene);
     EXPECT_TRUE(scene.light.empty());
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_EQ(scene.warnings[0], "light \"light\" is cut out wholly by its alpha, or black: it is ignored");
+    EXPECT_EQ(scene.warnings[0].line(),
+              "light \"light\" is cut out wholly by its alpha, or black: it is ignored");
   }
 }
 

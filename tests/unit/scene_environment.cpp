@@ -143,7 +143,7 @@ TEST(Environment, ABlackOneIsIgnoredWithAWarning) {
   surround(scene, constant_map(8, Rgb(0)));
   EXPECT_TRUE(scene.light.empty());
   ASSERT_FALSE(scene.warnings.empty());
-  EXPECT_NE(scene.warnings.back().find("environment"), std::string::npos);
+  EXPECT_NE(scene.warnings.back().line().find("environment"), std::string::npos);
   EXPECT_EQ(Luminaires(scene).environment(), -1);
   EXPECT_EQ(Luminaires(scene).density_beyond(Vec3(0), {0, 1, 0}), 0);
 }

@@ -202,7 +202,7 @@ TEST(HangingLuminaires, TheLintAsksAboutThoseThatDoNotFit) {
 TEST(HangingLuminaires, DarkOnesAreLeftOut) {
   const Scene scene = measured_room(luminaire(isotropic(0), {LuminousOpening::Form::box, {1, 1, 0}}));
   EXPECT_TRUE(scene.light.empty());
-  EXPECT_NE(scene.warnings.back().find("has no intensity"), std::string::npos);
+  EXPECT_NE(scene.warnings.back().line().find("has no intensity"), std::string::npos);
 }
 
 }  // namespace

@@ -292,6 +292,7 @@ TEST(Materials, MissingTextureIsAWarningAndTheFactorStays) {
   texture["source"] = 0;
   g.json["textures"].push_back(texture);
   Json m;
+  m["pbrMetallicRoughness"]["metallicFactor"] = 0;
   m["pbrMetallicRoughness"]["baseColorFactor"] = Json::Array{0.3, 0.3, 0.3, 1};
   m["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
   g.square_node(m);
@@ -299,7 +300,7 @@ TEST(Materials, MissingTextureIsAWarningAndTheFactorStays) {
   EXPECT_FALSE(s.material[0].base_colour.used());
   EXPECT_EQ(s.material[0].kd, Rgb(0.3f));
   ASSERT_EQ(s.warnings.size(), 1u);
-  EXPECT_EQ(s.warnings[0].rfind("texture not found: not-there.png", 0), 0u) << s.warnings[0];
+  EXPECT_EQ(s.warnings[0].line().rfind("texture not found: not-there.png", 0), 0u) << s.warnings[0].line();
 }
 
 TEST(Lights, FluxOfEveryKind) {
@@ -389,7 +390,7 @@ TEST(Lights, ConesWithHardEdges) {
     ASSERT_EQ(s.light.size(), 1u) << angle;
     const double cosine = std::cos(std::min(angle, 0.5 * M_PI));
     EXPECT_NEAR(s.light[0].flux_lm.x, 10 * 2 * M_PI * (1 - cosine), 1e-6 * 10 * 2 * M_PI) << angle;
-    for (const std::string& w : s.warnings) EXPECT_EQ(w.find("spot"), std::string::npos) << w;
+    for (const Note& w : s.warnings) EXPECT_EQ(w.line().find("spot"), std::string::npos) << w.line();
     bool told = false;
     for (const Finding& f : lint_scene(s)) {
       if (f.code != "hard-edge") continue;

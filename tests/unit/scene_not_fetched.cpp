@@ -61,14 +61,14 @@ TEST_F(NotFetched, PointersThatASceneNames) {
   const std::string path = spill("room.glb", g.bytes());
   const Scene scene = load_scene(path);
   ASSERT_FALSE(scene.warnings.empty());
-  expect_says(scene.warnings[0], "wood.png is a Git LFS pointer");
+  expect_says(scene.warnings[0].line(), "wood.png is a Git LFS pointer");
   SceneOptions options;
   options.environment = spill("sky.hdr");
   expect_says(load_error(path, options), "but a Git LFS pointer");
   spill("room.mtl");
   const Scene obj = load_scene(spill("room.obj", "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   ASSERT_FALSE(obj.warnings.empty());
-  expect_says(obj.warnings[0], "room.mtl is a Git LFS pointer");
+  expect_says(obj.warnings[0].line(), "room.mtl is a Git LFS pointer");
 }
 
 /// A square whose attributes stand in the accessors, or only in what Draco holds.

@@ -110,7 +110,7 @@ TEST_F(Obj, SmoothingGroupsShareNormals) {
 TEST_F(Obj, MissingMaterialFileIsAWarning) {
   const Scene s = load("mtllib nowhere.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n", "");
   EXPECT_EQ(s.material[0].kd, Rgb(0.5f));
-  EXPECT_EQ(s.warnings[0], "material file not found: nowhere.mtl");
+  EXPECT_EQ(s.warnings[0].line(), "material file not found: nowhere.mtl");
 }
 
 TEST_F(Obj, BadInputIsOneLine) {

@@ -65,7 +65,7 @@ class ObjTransparency : public ::testing::Test {
   static const Material& leaf(const Scene& scene) { return scene.material.at(1); }
   static int warned(const Scene& scene, const std::string& what) {
     int n = 0;
-    for (const std::string& w : scene.warnings) n += w.find(what) != std::string::npos;
+    for (const Note& w : scene.warnings) n += w.line().find(what) != std::string::npos;
     return n;
   }
 };
@@ -79,7 +79,7 @@ TEST_F(ObjTransparency, DissolveIsTheShareThatIsThere) {
   const Scene scene = load("Tr 0.25\nKs 0.2 0.2 0.2\nNs 20\nillum 2\n");
   EXPECT_EQ(leaf(scene).alpha_mode, Material::Alpha::blend);
   EXPECT_EQ(leaf(scene).model, Model::phong);
-  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0].line();
 }
 
 TEST_F(ObjTransparency, DWinsAndContradictionsAreTold) {
@@ -126,7 +126,7 @@ TEST_F(ObjTransparency, MapOfCoverage) {
   EXPECT_EQ(joined.width, 8);
   EXPECT_NEAR(joined.texel(0).x, 0.2159f, 1e-3);  // 128 of sRGB
   EXPECT_NEAR(joined.texel(0).w, 0.2f, 1e-6);
-  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0].line();
 }
 
 TEST_F(ObjTransparency, MapOfCoverageLargerThanTheColours) {

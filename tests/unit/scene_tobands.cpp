@@ -254,7 +254,7 @@ TEST(ToBands, IsPartOfTheScenesHash) {
   const Scene dark_1 = in_bands(room(Rgb(0)), triplet(1, dark)),
               dark_2 = in_bands(room(Rgb(0)), triplet(2, dark));
   EXPECT_TRUE(dark_1.light.empty());
-  EXPECT_TRUE(dark_1.warnings.empty()) << dark_1.warnings[0];
+  EXPECT_TRUE(dark_1.warnings.empty()) << dark_1.warnings[0].line();
   EXPECT_NE(dark_1.hash, dark_2.hash);
 }
 

@@ -1,0 +1,72 @@
+// docs/scenes.md says what phos makes of scene files, from the table that the loaders use.
+#include <gtest/gtest.h>
+
+#include "scene/scene_features.h"
+#include "support/run.h"
+
+namespace phos {
+namespace {
+
+constexpr const char* kBegin = "<!-- tables -->\n";
+
+TEST(SceneFeatures, TheDocumentHoldsTheTables) {
+  const std::string document = test::slurp(std::string(PHOS_SOURCE) + "/docs/scenes.md");
+  const std::size_t at = document.find(kBegin);
+  ASSERT_NE(at, std::string::npos) << "docs/scenes.md has no line " << kBegin;
+  ASSERT_GT(document.size(), at + std::string(kBegin).size());
+  const std::string there = document.substr(at + std::string(kBegin).size());
+  EXPECT_EQ(there.compare(1, std::string::npos, feature_tables()), 0)
+      << "what follows that line in docs/scenes.md should be:\n\n"
+      << feature_tables();
+}
+
+TEST(SceneFeatures, EveryRowSaysWhatIsDone) {
+  for (const Feature& f : scene_features()) {
+    EXPECT_FALSE(f.name.empty());
+    const bool sentence = f.state == Feature::State::told || f.state == Feature::State::in_part;
+    EXPECT_TRUE(!sentence || !f.sentence.empty()) << f.name;
+    EXPECT_EQ(f.sentence.find('|'), std::string::npos) << f.name;
+  }
+}
+
+TEST(SceneFeatures, RatifiedExtensionsAreAllThere) {
+  for (const char* name : {"KHR_animation_pointer",
+                           "KHR_draco_mesh_compression",
+                           "KHR_lights_punctual",
+                           "KHR_materials_anisotropy",
+                           "KHR_materials_clearcoat",
+                           "KHR_materials_diffuse_transmission",
+                           "KHR_materials_dispersion",
+                           "KHR_materials_emissive_strength",
+                           "KHR_materials_ior",
+                           "KHR_materials_iridescence",
+                           "KHR_materials_pbrSpecularGlossiness",
+                           "KHR_materials_sheen",
+                           "KHR_materials_specular",
+                           "KHR_materials_transmission",
+                           "KHR_materials_unlit",
+                           "KHR_materials_variants",
+                           "KHR_materials_volume",
+                           "KHR_mesh_quantization",
+                           "KHR_node_visibility",
+                           "KHR_texture_basisu",
+                           "KHR_texture_transform",
+                           "KHR_xmp_json_ld",
+                           "EXT_lights_ies",
+                           "EXT_lights_image_based",
+                           "EXT_mesh_gpu_instancing",
+                           "EXT_meshopt_compression",
+                           "EXT_texture_webp"})
+    EXPECT_NE(find_extension(name), nullptr) << name;
+}
+
+TEST(SceneFeatures, WhatMayBeRequired) {
+  for (const char* name : {"KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_node_visibility",
+                           "KHR_materials_clearcoat", "KHR_materials_unlit", "KHR_xmp_json_ld"})
+    EXPECT_TRUE(can_be_required(name)) << name;
+  for (const char* name : {"KHR_draco_mesh_compression", "KHR_texture_basisu", "ACME_louvre", "any"})
+    EXPECT_FALSE(can_be_required(name)) << name;
+}
+
+}  // namespace
+}  // namespace phos
