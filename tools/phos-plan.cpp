@@ -42,9 +42,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (plan.run && !plan.output.empty())
       tool.writes("--output", plan.output, files_of_run(plan.points.empty()));
-    tool.reads("scene", scene_files(scene_path, scene_options));
     const PlanGoal goal = goal_of(options, plan);
     PlanTask task = task_of(options, plan, scene_path, scene_options);
+    tool.reads("scene", scene_files(scene_path, scene_options));
     const Scene scene = load_scene(scene_path, scene_options);
     tell_losses(tool, scene);
     Needs needs = plan_needs(

@@ -45,7 +45,9 @@ TEST(PlanTool, RefusesBadCommandLines) {
     expect_refused("plan", {kBox, "--error", none}, 2, "--error");
   expect_refused("plan", {kBox, "--seconds", "-1"}, 2, "seconds");
   expect_refused("plan", {kBox, "--error", "5%", "--run"}, 2, "-o");
-  expect_refused("plan", {kBox, "--error", "5%", "--run", "-o", kBox}, 3, "is not a folder");
+  expect_refused("plan", {kBox, "--error", "5%", "--run", "-o", kBox}, 2, "is an input too");
+  expect_refused("plan", {kBox, "--error", "5%", "--run", "-o", data("luminaires.gltf")}, 3,
+                 "is not a folder");
   expect_refused("plan", {kBox, "--error", "5%", "--sh", "--json"}, 2, "--sh");
   expect_refused("plan", {kBox, "--error", "5%", "--rounds", "2"}, 2, "--run");
   expect_refused("plan", {kBox, "--error", "5%", "--quantity", "lux"}, 2, "--sensors");
