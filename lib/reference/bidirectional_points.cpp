@@ -26,6 +26,19 @@ constexpr std::uint64_t kProbingItem = kLightItem | std::uint64_t{1} << 56;
 constexpr float kLargestDisc = 0.25f;
 constexpr std::size_t kPathsPerChunk = 64;
 
+/// What comes to a sensor, by channel and luminance (last): along paths from it, by its disc, and both.
+struct Received {
+  Blurred by_paths, by_disc;
+  Moments light, bias;
+
+  void add(double paths, double paths_bias, double disc, double disc_bias) {
+    by_paths.add(paths, paths_bias), by_disc.add(disc, disc_bias);
+    light.add(paths + disc - paths_bias - disc_bias), bias.add(paths_bias + disc_bias);
+  }
+  double mean() const { return by_paths.mean() + by_disc.mean(); }
+  double error() const { return error_with_bias(light, bias); }
+};
+
 struct Part {
   DVec3 lux{0}, bias{0};
   std::uint64_t taken = 0, rejected = 0;
@@ -35,11 +48,9 @@ struct Sensor {
   SurfacePoint point;
   std::unique_ptr<SensorDisc> disc;
   double radius_m = 0;  // of the first pass
-  Moments channel[3], bias_channel[3], luminous, bias;
+  Received channel[3], luminous;
   std::uint64_t samples = 0, rejected = 0;
   bool done = false;
-
-  double error() const { return error_with_bias(luminous, bias); }
 };
 
 class Measurement {
@@ -146,9 +157,10 @@ void Measurement::take_pass(std::uint64_t pass) {
     s.samples += sum.taken, s.rejected += sum.rejected;
     if (sum.taken == sum.rejected) continue;
     const auto n = static_cast<double>(sum.taken - sum.rejected);
-    const Rgb bias = Rgb(sum.bias / n) + discs[k].bias, lux = Rgb(sum.lux / n) + discs[k].lux - bias;
-    for (int c = 0; c < 3; ++c) s.channel[c].add(lux[c]), s.bias_channel[c].add(bias[c]);
-    s.luminous.add(luminance(lux)), s.bias.add(luminance(bias));
+    const DVec3 lux = sum.lux / n, bias = sum.bias / n, disc(discs[k].lux), disc_bias(discs[k].bias);
+    for (int c = 0; c < 3; ++c) s.channel[c].add(lux[c], bias[c], disc[c], disc_bias[c]);
+    const auto grey = [](const DVec3& c) { return static_cast<double>(luminance(Rgb(c))); };
+    s.luminous.add(grey(lux), grey(bias), grey(disc), grey(disc_bias));
   }
 }
 
@@ -162,7 +174,7 @@ std::vector<PointIrradiance> Measurement::run() {
     check *= 2;
     bool all = true;
     for (Sensor& s : sensors_) {
-      s.done = s.done || s.error() <= *options_.relative_error * s.luminous.mean();
+      s.done = s.done || s.luminous.error() <= *options_.relative_error * s.luminous.mean();
       all = all && s.done;
     }
     if (all) break;
@@ -172,10 +184,10 @@ std::vector<PointIrradiance> Measurement::run() {
     PointIrradiance e;
     for (int c = 0; c < 3; ++c) {
       e.irradiance_lx[c] = static_cast<float>(s.channel[c].mean());
-      e.stderr_lx[c] = static_cast<float>(error_with_bias(s.channel[c], s.bias_channel[c]));
+      e.stderr_lx[c] = static_cast<float>(s.channel[c].error());
     }
     e.illuminance_lx = s.luminous.mean();
-    e.illuminance_stderr_lx = s.error();
+    e.illuminance_stderr_lx = s.luminous.error();
     e.samples = s.samples, e.rejected = s.rejected;
     result.push_back(e);
   }

@@ -35,4 +35,19 @@ inline double error_with_bias(const Moments& light, const Moments& bias) {
   return std::sqrt(noise * noise + std::max(0.0, bias.mean() * bias.mean() - doubt * doubt));
 }
 
+/// Light that is blurred over a radius, with the estimated bias of that.
+class Blurred {
+ public:
+  void add(double light, double bias) { light_.add(light), bias_.add(bias); }
+  /// Less the bias, which is no better known than to a half of the light: beside the edge of bright light it
+  /// is as large as the light itself. Never below 0 for light that is not.
+  double mean() const {
+    const double light = light_.mean(), most = 0.5 * std::fabs(light);
+    return light - std::clamp(bias_.mean(), -most, most);
+  }
+
+ private:
+  Moments light_, bias_;
+};
+
 }  // namespace phos
