@@ -39,8 +39,8 @@ int main(int argc, char** argv) {
   tool.options().section("Report");
   tool.options().flag("json", json, "print one JSON object instead of text", Recorded::no);
   tool.takes_strict(
-      "end with code 3 where the scene says something that is not modelled as it says (findings of other "
-      "programs' warnings), with code 1 where a finding is an error");
+      "end with code 3 where something of the scene is lost or replaced, with code 1 where a finding is an "
+      "error");
   tool.options().example("phos-scene room.glb", "what is in it, and what is wrong with it");
   tool.options().example("phos-scene lamp.ies", "what a luminaire does");
   tool.options().example("phos-scene room.glb --json --strict > room.json", "for a script");
@@ -70,6 +70,6 @@ int main(int argc, char** argv) {
     for (const Finding& f : findings) {
       if (tool.strict() && f.level == Finding::Level::error) tool.set_exit(ExitCode::check_failed);
     }
-    if (tool.strict() && !losses(scene).empty()) throw Error(ExitCode::bad_input, path, kRefusedForLosses);
+    if (tool.strict() && refused(losses(scene))) throw Error(ExitCode::bad_input, path, kRefusedForLosses);
   });
 }

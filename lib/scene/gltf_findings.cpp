@@ -222,7 +222,7 @@ std::vector<Note> metals_by_default(const Json& document) {
     if (likely_paint(material))
       notes.emplace_back(Note::Level::warning, kMetalByDefault, "material",
                          text_at(material, "name", text("material ", i)),
-                         "has no metallicFactor, which makes it a metal, as glTF says: paint should state 0");
+                         "no metallicFactor is stated, which means metal; paint should state 0");
   }
   return notes;
 }

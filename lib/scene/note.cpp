@@ -61,10 +61,14 @@ std::vector<Note> losses(const Scene& scene) {
   return out;
 }
 
+bool refused(const std::vector<Note>& told) {
+  return std::any_of(told.begin(), told.end(), [](const Note& n) { return n.code != kMetalByDefault; });
+}
+
 void tell_losses(Tool& tool, const Scene& scene) {
   const std::vector<Note> told = losses(scene);
   for (const Note& note : told) tool.warn(note.line());
-  if (!told.empty() && tool.strict()) throw Error(ExitCode::bad_input, scene.path, kRefusedForLosses);
+  if (tool.strict() && refused(told)) throw Error(ExitCode::bad_input, scene.path, kRefusedForLosses);
 }
 
 }  // namespace phos

@@ -51,6 +51,8 @@ std::vector<Note> merged(const std::vector<Note>& notes);
 
 /// The merged warnings of a scene.
 std::vector<Note> losses(const Scene& scene);
+/// Does --strict refuse a scene for them? Not for a metal that is as the file says, likely by mistake.
+bool refused(const std::vector<Note>& losses);
 /// Says them on standard error, a line for each kind; with --strict, which the tool takes, Error(bad_input)
 /// then. For every program that computes light from a scene, once it is loaded.
 void tell_losses(Tool& tool, const Scene& scene);

@@ -45,8 +45,8 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
   const CommandRunner runner = runner_of(study);
   const StudyWork work = plan_work(study, runner, options.folder + "/cache");
   for (const SceneLoss& loss : work.losses) warn(text(loss.scene, ": ", loss.line));
-  if (options.strict && !work.losses.empty())
-    throw Error(ExitCode::bad_input, work.losses[0].scene, kRefusedForLosses);
+  for (const SceneLoss& loss : work.losses)
+    if (options.strict && loss.refused) throw Error(ExitCode::bad_input, loss.scene, kRefusedForLosses);
   make_folder(options.folder + "/cache");
   StudyJournal journal(options.folder + "/journal.jsonl");
 

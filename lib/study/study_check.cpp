@@ -121,7 +121,7 @@ std::vector<SceneLoss> check_against_scenes(const StudyFile& study) {
   std::vector<SceneLoss> out;
   for (const std::string& path : study.scenes) {
     const Scene scene = load_scene(path, scene_options(study.reference));
-    for (const Note& loss : losses(scene)) out.push_back({path, loss.line()});
+    for (const Note& loss : losses(scene)) out.push_back({path, loss.line(), refused({loss})});
     if (scene.light.empty())
       throw Error(
           ExitCode::bad_input, path,

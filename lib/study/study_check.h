@@ -16,6 +16,7 @@ const std::vector<std::string>& given(const StudyFile& study, const std::string&
 /// What a scene says and phos does not model: the line that each of its programs says, too.
 struct SceneLoss {
   std::string scene, line;
+  bool refused = false;  ///< by --strict
 };
 
 /// Before any work: what is lost of the scenes. Throws Error(bad_input) for a scene that cannot be read or
