@@ -26,19 +26,6 @@ constexpr std::uint64_t kProbingItem = kLightItem | std::uint64_t{1} << 56;
 constexpr float kLargestDisc = 0.25f;
 constexpr std::size_t kPathsPerChunk = 64;
 
-/// What comes to a sensor, by channel and luminance (last): along paths from it, by its disc, and both.
-struct Received {
-  Blurred by_paths, by_disc;
-  Moments light, bias;
-
-  void add(double paths, double paths_bias, double disc, double disc_bias) {
-    by_paths.add(paths, paths_bias), by_disc.add(disc, disc_bias);
-    light.add(paths + disc - paths_bias - disc_bias), bias.add(paths_bias + disc_bias);
-  }
-  double mean() const { return by_paths.mean() + by_disc.mean(); }
-  double error() const { return error_with_bias(light, bias); }
-};
-
 struct Part {
   DVec3 lux{0}, bias{0};
   std::uint64_t taken = 0, rejected = 0;
@@ -47,8 +34,9 @@ struct Part {
 struct Sensor {
   SurfacePoint point;
   std::unique_ptr<SensorDisc> disc;
-  double radius_m = 0;  // of the first pass
-  Received channel[3], luminous;
+  double radius_m = 0;  // of the disc that weights are of
+  DiscLight light;
+  Moments bias[3], luminous_bias;  // of merging
   std::uint64_t samples = 0, rejected = 0;
   bool done = false;
 };
@@ -78,8 +66,12 @@ class Measurement {
  private:
   void set_discs(const RayScene& rays);
   void take_pass(std::uint64_t pass);
-  Part sample(std::size_t sensor, double radius_m, const LightPass& light, std::uint64_t pass,
-              std::size_t begin, std::size_t end) const;
+  double eta_of(const Sensor& sensor) const {
+    const double each = static_cast<double>(light_paths_) / static_cast<double>(each_);
+    return sensor.disc ? sensor.disc->eta(sensor.radius_m, each) : 0;
+  }
+  Part sample(std::size_t sensor, const LightPass& light, std::uint64_t pass, std::size_t begin,
+              std::size_t end) const;
 
   LightStarts lamps_;
   LightTracer light_;
@@ -102,14 +94,14 @@ void Measurement::set_discs(const RayScene& rays) {
     Sensor& s = sensors_[i];
     s.disc = std::make_unique<SensorDisc>(rays, s.point, most_m);
     s.radius_m = std::min(static_cast<double>(most_m), fewer * s.disc->balanced_radius_m(probe));
+    s.light = DiscLight(s.disc->areas_m2());
   });
 }
 
-Part Measurement::sample(std::size_t sensor, double radius_m, const LightPass& light, std::uint64_t pass,
-                         std::size_t begin, std::size_t end) const {
+Part Measurement::sample(std::size_t sensor, const LightPass& light, std::uint64_t pass, std::size_t begin,
+                         std::size_t end) const {
   const Sensor& s = sensors_[sensor];
-  const double each = static_cast<double>(light_paths_) / static_cast<double>(each_);
-  const double eta = s.disc ? s.disc->eta(radius_m, each) : 0;
+  const double eta = eta_of(s);
   Part part;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint64_t number = pass * static_cast<std::uint64_t>(each_) + i;
@@ -136,16 +128,13 @@ void Measurement::take_pass(std::uint64_t pass) {
   for (std::size_t i = 0; i < sensors_.size(); ++i)
     if (!sensors_[i].done) open.push_back(i);
   std::vector<Part> parts(open.size() * chunks);
-  std::vector<SensorDisc::Light> discs(open.size());
+  std::vector<DiscPass> discs(open.size());
   parallel_for(parts.size(), 1, [&](std::size_t k) {
     const Sensor& s = sensors_[open[k / chunks]];
     const std::size_t chunk = k % chunks, begin = chunk * kPathsPerChunk;
-    parts[k] = sample(open[k / chunks], shrunk * s.radius_m, light, pass, begin,
-                      std::min(each, begin + kPathsPerChunk));
+    parts[k] = sample(open[k / chunks], light, pass, begin, std::min(each, begin + kPathsPerChunk));
     if (chunk == 0 && s.disc)
-      discs[k / chunks] = s.disc->light(light.paths, shrunk * s.radius_m,
-                                        static_cast<double>(light_paths_) / static_cast<double>(each_),
-                                        options_.path.bounces);
+      discs[k / chunks] = s.disc->light(light.paths, eta_of(s), options_.path.bounces);
   });
   for (std::size_t k = 0; k < open.size(); ++k) {
     Sensor& s = sensors_[open[k]];
@@ -157,10 +146,9 @@ void Measurement::take_pass(std::uint64_t pass) {
     s.samples += sum.taken, s.rejected += sum.rejected;
     if (sum.taken == sum.rejected) continue;
     const auto n = static_cast<double>(sum.taken - sum.rejected);
-    const DVec3 lux = sum.lux / n, bias = sum.bias / n, disc(discs[k].lux), disc_bias(discs[k].bias);
-    for (int c = 0; c < 3; ++c) s.channel[c].add(lux[c], bias[c], disc[c], disc_bias[c]);
-    const auto grey = [](const DVec3& c) { return static_cast<double>(luminance(Rgb(c))); };
-    s.luminous.add(grey(lux), grey(bias), grey(disc), grey(disc_bias));
+    s.light.add(sum.lux / n, discs[k]);
+    for (int c = 0; c < 3; ++c) s.bias[c].add(sum.bias[c] / n);
+    s.luminous_bias.add(static_cast<double>(luminance(Rgb(sum.bias / n))));
   }
 }
 
@@ -174,7 +162,9 @@ std::vector<PointIrradiance> Measurement::run() {
     check *= 2;
     bool all = true;
     for (Sensor& s : sensors_) {
-      s.done = s.done || s.luminous.error() <= *options_.relative_error * s.luminous.mean();
+      const DiscLight::Estimate e = s.light.estimate();
+      s.done =
+          s.done || with_bias(e.stderr_lx, s.luminous_bias) <= *options_.relative_error * e.illuminance_lx;
       all = all && s.done;
     }
     if (all) break;
@@ -182,12 +172,13 @@ std::vector<PointIrradiance> Measurement::run() {
   std::vector<PointIrradiance> result;
   for (const Sensor& s : sensors_) {
     PointIrradiance e;
+    const DiscLight::Estimate all = s.light.estimate();
     for (int c = 0; c < 3; ++c) {
-      e.irradiance_lx[c] = static_cast<float>(s.channel[c].mean());
-      e.stderr_lx[c] = static_cast<float>(s.channel[c].error());
+      e.irradiance_lx[c] = static_cast<float>(all.lux[c]);
+      e.stderr_lx[c] = static_cast<float>(with_bias(all.error[c], s.bias[c]));
     }
-    e.illuminance_lx = s.luminous.mean();
-    e.illuminance_stderr_lx = s.luminous.error();
+    e.illuminance_lx = all.illuminance_lx;
+    e.illuminance_stderr_lx = with_bias(all.stderr_lx, s.luminous_bias);
     e.samples = s.samples, e.rejected = s.rejected;
     result.push_back(e);
   }

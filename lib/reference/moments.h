@@ -29,25 +29,11 @@ class Moments {
   double sum_ = 0, squares_ = 0;
 };
 
-/// Standard error of a mean and its estimated bias in one: the bias as far as it is more than its own noise.
-inline double error_with_bias(const Moments& light, const Moments& bias) {
-  const double noise = light.standard_error(), doubt = bias.standard_error();
-  return std::sqrt(noise * noise + std::max(0.0, bias.mean() * bias.mean() - doubt * doubt));
+/// A standard error and an estimated bias in one: the bias as far as it is more than its own noise.
+inline double with_bias(double standard_error, const Moments& bias) {
+  const double doubt = bias.standard_error();
+  return std::sqrt(standard_error * standard_error +
+                   std::max(0.0, bias.mean() * bias.mean() - doubt * doubt));
 }
-
-/// Light that is blurred over a radius, with the estimated bias of that.
-class Blurred {
- public:
-  void add(double light, double bias) { light_.add(light), bias_.add(bias); }
-  /// Less the bias, which is no better known than to a half of the light: beside the edge of bright light it
-  /// is as large as the light itself. Never below 0 for light that is not.
-  double mean() const {
-    const double light = light_.mean(), most = 0.5 * std::fabs(light);
-    return light - std::clamp(bias_.mean(), -most, most);
-  }
-
- private:
-  Moments light_, bias_;
-};
 
 }  // namespace phos

@@ -329,7 +329,8 @@ void Renderer::add_light(Image& image) const {
   const std::span<float> error = image.channel("illuminance_stderr.Y");
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     lux[i] = static_cast<float>(pixels_[i].illuminance.mean());
-    error[i] = static_cast<float>(error_with_bias(pixels_[i].illuminance, pixels_[i].illuminance_bias));
+    error[i] =
+        static_cast<float>(with_bias(pixels_[i].illuminance.standard_error(), pixels_[i].illuminance_bias));
   }
 }
 

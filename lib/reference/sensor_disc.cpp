@@ -12,8 +12,6 @@ namespace {
 constexpr float kFree = 0.9f;
 /// Rounding of a segment's end, and of the sensor's place, in their bounds.
 constexpr float kSlack = 2;
-/// Radii looked at fall by sqrt(2), so many times at most.
-constexpr int kRadii = 40;
 /// Below so many paths their noise is not known.
 constexpr std::size_t kLeastPaths = 32;
 /// Differences between radii up to so many standard deviations are noise.
@@ -65,14 +63,18 @@ bool SensorDisc::cross(const SharpSegment& s, Crossing& crossing) const {
   return crossing.aside_m <= crossing.reach_m;
 }
 
-SensorDisc::Light SensorDisc::light(const LightPaths& paths, double radius_m, double light_paths_each,
-                                    std::int64_t bounces) const {
-  const double eta = this->eta(radius_m, light_paths_each);
-  DVec3 inner(0), whole(0);
+std::array<double, kDiscRadii> SensorDisc::areas_m2() const {
+  std::array<double, kDiscRadii> area{};
+  for (std::size_t i = 0; i < kDiscRadii; ++i) area[i] = area_m2(radius_m(i));
+  return area;
+}
+
+DiscPass SensorDisc::light(const LightPaths& paths, double eta, std::int64_t bounces) const {
+  DiscPass pass;
   for (const SharpSegment& s : paths.segment) {
     Crossing c;
     if (bounces >= 0 && s.scatterings + 1 > bounces) continue;
-    if (!cross(s, c) || c.aside_m > radius_m) continue;
+    if (!cross(s, c)) continue;
     // As instead_of_merging() of a vertex at the sensor.
     SubPathEnd end;
     const double across = s.density * c.cosine;
@@ -80,15 +82,14 @@ SensorDisc::Light SensorDisc::light(const LightPaths& paths, double radius_m, do
     end.before = s.cos_leaving / across * s.behind;
     const double weight = balance(end.instead_of_merging(eta, c.cosine / std::numbers::pi), 0);
     const DVec3 flux = weight * DVec3(s.flux_lm);
-    whole += flux;
-    if (c.aside_m <= std::min(radius_m, c.reach_m) * std::numbers::sqrt2 / 2) inner += flux;
+    for (std::size_t i = 0; i < kDiscRadii && c.aside_m <= radius_m(i); ++i)
+      pass.lux[i] += flux, ++pass.paths[i];
   }
-  Light light;
-  const double all_m2 = area_m2(radius_m) * static_cast<double>(paths.size());
-  if (!(all_m2 > 0)) return light;
-  light.lux = Rgb(inner / (0.5 * all_m2));
-  light.bias = Rgb(whole / all_m2 - inner / (0.5 * all_m2));
-  return light;
+  for (std::size_t i = 0; i < kDiscRadii; ++i) {
+    const double all_m2 = area_m2(radius_m(i)) * static_cast<double>(paths.size());
+    pass.lux[i] = all_m2 > 0 ? pass.lux[i] / all_m2 : DVec3(0);
+  }
+  return pass;
 }
 
 double SensorDisc::balanced_radius_m(const LightPaths& paths) const {
@@ -96,26 +97,24 @@ double SensorDisc::balanced_radius_m(const LightPaths& paths) const {
     double flux = 0, squares = 0;
     std::size_t paths = 0;
   };
-  std::array<Sum, kRadii> within{};
-  std::array<double, kRadii> radius{};
-  for (int j = 0; j < kRadii; ++j) radius[j] = static_cast<double>(most_m_) * std::exp2(-0.5 * j);
+  std::array<Sum, kDiscRadii> within{};
   for (const SharpSegment& s : paths.segment) {
     Crossing c;
     if (!cross(s, c)) continue;
     const double flux = static_cast<double>(luminance(s.flux_lm));
-    for (int j = 0; j < kRadii && c.aside_m <= radius[j]; ++j)
+    for (std::size_t j = 0; j < kDiscRadii && c.aside_m <= radius_m(j); ++j)
       within[j].flux += flux, within[j].squares += flux * flux, ++within[j].paths;
   }
-  int last = 0;
-  while (last + 1 < kRadii && within[last + 1].paths >= kLeastPaths) ++last;
-  const auto lux = [&](int j) { return within[j].flux / area_m2(radius[j]); };
-  for (int j = 0; j < last; ++j) {
+  std::size_t last = 0;
+  while (last + 1 < kDiscRadii && within[last + 1].paths >= kLeastPaths) ++last;
+  const auto lux = [&](std::size_t j) { return within[j].flux / area_m2(radius_m(j)); };
+  for (std::size_t j = 0; j < last; ++j) {
     bool alike = true;
-    for (int k = j + 1; k <= last && alike; ++k)
-      alike = std::fabs(lux(j) - lux(k)) <= kNoise * std::sqrt(within[k].squares) / area_m2(radius[k]);
-    if (alike) return radius[j];
+    for (std::size_t k = j + 1; k <= last && alike; ++k)
+      alike = std::fabs(lux(j) - lux(k)) <= kNoise * std::sqrt(within[k].squares) / area_m2(radius_m(k));
+    if (alike) return radius_m(j);
   }
-  return radius[last];
+  return radius_m(last);
 }
 
 }  // namespace phos

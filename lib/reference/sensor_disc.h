@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "reference/disc_light.h"
 #include "reference/light_path.h"
 
 namespace phos {
@@ -30,16 +32,16 @@ class SensorDisc {
   /// False where the segment does not cross what most_m() holds.
   bool cross(const SharpSegment& segment, Crossing& crossing) const;
 
-  struct Light {
-    Rgb lux{0};   ///< over the half of the area within radius_m / sqrt(2)
-    Rgb bias{0};  ///< of the whole, less that of the half: an estimate of the bias of the latter
-  };
-  /// What `paths` bring to it, weighted against what eye paths find (BidirectionalTracer::irradiance() with
-  /// this eta() and as many light paths for each of the sensor's).
-  Light light(const LightPaths& paths, double radius_m, double light_paths_each, std::int64_t bounces) const;
-  double eta(double radius_m, double light_paths_each) const {
-    return 0.5 * light_paths_each * area_m2(radius_m);
+  double radius_m(std::size_t i) const {
+    return static_cast<double>(most_m_) * std::exp2(-0.5 * static_cast<double>(i));
   }
+  std::array<double, kDiscRadii> areas_m2() const;
+
+  /// What `paths` bring to the discs of all radii, weighted against what eye paths find
+  /// (BidirectionalTracer::irradiance() with the same `eta`): a weight for each path, whatever the radius.
+  DiscPass light(const LightPaths& paths, double eta, std::int64_t bounces) const;
+  /// Of the weights, for discs of a radius and so many light paths for each of the sensor's.
+  double eta(double radius_m, double light_paths_each) const { return light_paths_each * area_m2(radius_m); }
 
   /// The largest radius at which the light of `paths` is still that of any smaller one, to within the noise
   /// of these (Lepski's rule): where noise and bias are alike. most_m() where next to no path comes.
