@@ -24,6 +24,7 @@ enum class Stage : std::uint32_t {
   edge_light = 10,
   near_light = 11,
   mirror_image = 12,
+  through_portal = 13,
   test = 1000,
 };
 

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint64_t kLastTick = std::numeric_limits<std::uint64_t>::max();
 constexpr int kFluxBits = 46;
+/// Share of the environment's paths that are not aimed at portals.
+constexpr float kStray = 0.1f;
 
 std::uint64_t reversed_bits(std::uint64_t v) {
   v = (v & 0x5555555555555555u) << 1 | (v >> 1 & 0x5555555555555555u);
@@ -88,6 +90,13 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
   random.start_bounce(0);
   rotation_ = static_cast<std::uint64_t>(random.bits()) << 32;
   rotation_ |= random.bits();
+}
+
+double Emitter::aimed_lm() const {
+  const std::int32_t sky = luminaires_.environment();
+  if (!portals_ || sky < 0) return 0;
+  return portals_->flux_lm() / (1 - static_cast<double>(kStray)) *
+         static_cast<double>(scale_[static_cast<std::size_t>(sky)]);
 }
 
 std::size_t Emitter::light_of(std::uint64_t path) const {
@@ -191,7 +200,6 @@ EmittedPhoton Emitter::from_spot(const Light& light, RandomStream& random) const
 /// by another way. Each carries its light over the density with which both together draw its line (balance
 /// heuristic; Veach 1997, 9.2.2), so that those on their way through a portal carry about alike.
 EmittedPhoton Emitter::aimed(RandomStream& random) const {
-  constexpr float kStray = 0.1f;
   const Environment& light = *scene_->environment;
   const bool stray = random.uniform() < kStray;
   const float u_piece = random.uniform();
@@ -214,8 +222,10 @@ EmittedPhoton Emitter::aimed(RandomStream& random) const {
   photon.from_infinity = true;
   const double disc_m2 = std::numbers::pi * static_cast<double>(radius_m) * static_cast<double>(radius_m);
   const bool within = glm::dot(disc, disc) <= radius_m * radius_m;
+  const double by_aim = portals_->density(middle, direction);
+  photon.astray = !(by_aim > 0);
   const double density = static_cast<double>(kStray) * (within ? light.flux_density(towards) / disc_m2 : 0) +
-                         static_cast<double>(1 - kStray) * portals_->density(middle, direction);
+                         static_cast<double>(1 - kStray) * by_aim;
   if (density > 0) photon.flux_lm = Rgb(DVec3(light.luminance(towards)) / density);
   return photon;
 }

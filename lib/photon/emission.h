@@ -18,6 +18,7 @@ struct EmittedPhoton {
   Vec3 source_normal{
       0, 0, 1};  ///< geometric, on the side it left; the flight direction where the light has no surface
   bool from_infinity = false;  ///< directional light or environment
+  bool astray = false;         ///< not aimed at the scene's portals, and its line crosses none of them
 };
 
 /// Emits path 0 .. paths-1 of a run. What a path starts with depends on its number and the seed alone.
@@ -43,6 +44,8 @@ class Emitter {
   /// 1 / (share of a light x all paths): what the flux of a photon that stands for a light's whole is
   /// multiplied by.
   float scale(std::size_t light) const { return scale_[light]; }
+  /// About the luminous flux of a photon that is aimed at the portals, lm; 0: there are none.
+  double aimed_lm() const;
 
   /// Exponent of FluxSum units for this run: total flux is 2^46 units, which leaves room for 2^16 bounces.
   int flux_exponent() const { return flux_exponent_; }

@@ -14,6 +14,7 @@
 #include "photon/caustic_aim.h"
 #include "photon/emission.h"
 #include "photon/photon_file.h"
+#include "photon/portal_split.h"
 #include "scene/bsdf.h"
 #include "scene/mirror_images.h"
 #include "scene/passage.h"
@@ -68,6 +69,11 @@ struct Flight {
   bool in_glass = false;  // in solid glass
   Vec3 stretch_from{0};   // where the ray began, or the pane that it has passed last
   enum class Keep : std::uint8_t { all, others, caustics } keep = Keep::all;  // photons that are stored
+  // Light that is not aimed at portals: what is scattered through them goes by children of it (PortalSplit).
+  // A child is one up to the portal.
+  enum class Astray : std::uint8_t { no, parent, child } astray = Astray::no;
+  float portal_m = kInfinity;  // along the ray, of one astray
+  std::uint64_t number = 0;    // of the path
   bool aimed_class = false;    // the first event was on what paths are aimed at
   std::uint32_t aimed_at = 0;  // triangle
 
@@ -116,7 +122,10 @@ class PathTracer {
         aimed_paths_(aimed_paths),
         seed_(seed),
         log_(log),
-        units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {}
+        units_per_lm_(std::ldexp(1.0, -emitter.flux_exponent())) {
+    const std::vector<Portal>& portals = rays.scene().portal;
+    if (emitter.aimed_lm() > 0) split_.emplace(portals, emitter.aimed_lm());
+  }
 
   /// The aimed paths that go with a path: all of them are dealt out in order.
   void trace_aimed(std::uint64_t path, Part& part) const {
@@ -143,6 +152,8 @@ class PathTracer {
     flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(path), start.ray.direction);
     part.emitted += flight.units;
     if (aim_) flight.keep = Flight::Keep::others;
+    flight.number = path;
+    if (split_ && start.astray) flight.astray = Flight::Astray::parent;
     while (largest(flight.flux_lm) > 0 && step(flight, random, part)) {
     }
   }
@@ -190,14 +201,23 @@ class PathTracer {
       const float u_lobe = random.uniform();
       const Vec2 u = random.uniform2();
       SurfacePoint point;
-      if (!way.next(point)) {
+      const bool met = way.next(point);
+      if (flight.astray != Flight::Astray::no && (met ? point.distance_m : kInfinity) > flight.portal_m) {
+        if (flight.astray == Flight::Astray::parent) return drop(flight, part);
+        flight.astray = Flight::Astray::no;
+      }
+      const bool before_portal = flight.astray == Flight::Astray::child;
+      if (!met && before_portal) return drop(flight, part);
+      if (!met) {
         note_flight(part.photons.flights, flight, kInfinity);
         part.escaped += flight.units;
         ++part.escaped_paths;
         return false;
       }
       const Bsdf bsdf = way.bsdf(point);
-      if (bsdf.takes_light()) {
+      if (before_portal) {
+        // What is not through yet, the parent tells of.
+      } else if (bsdf.takes_light()) {
         if (flight.tells()) {
           store(part.photons, flight, point);
           part.stored += flight.units;
@@ -208,7 +228,7 @@ class PathTracer {
       flight.stretch_from = point.position;
       part.absorbed += flight.units;
       const After after = scatter(bsdf, point, u_lobe, u, flight, random, part);
-      if (after == After::ended) return false;
+      if (after == After::ended || (before_portal && after != After::passed)) return false;
       flight.units = units(flight.flux_lm);
       part.absorbed -= flight.units;
       if (after == After::scattered) return true;
@@ -233,6 +253,7 @@ class PathTracer {
     }
     ++flight.events;
     const Vec3 wo = -flight.ray.direction;
+    if (flight.astray == Flight::Astray::parent) send_through_portals(bsdf, point, wo, flight, part);
     BsdfSample sample;
     if (!bsdf.sample(wo, u_lobe, u, sample, TransportMode::flux)) return After::ended;
     const Rgb flux = sample.weight * flight.flux_lm;
@@ -255,6 +276,10 @@ class PathTracer {
     flight.source_normal = glm::dot(sample.direction, point.geometric_normal) >= 0 ? point.geometric_normal
                                                                                    : -point.geometric_normal;
     flight.from_infinity = false;
+    // What mirrors and glass send on has no children.
+    if (flight.astray == Flight::Astray::parent)
+      flight.portal_m =
+          sample.specular ? kInfinity : split_->first_crossing_m(point.position, sample.direction);
     flight.specular_only = flight.specular_only && sample.specular;
     if (flight.mirrored) {
       const bool reflected = sample.specular && !sample.transmitted;
@@ -268,10 +293,57 @@ class PathTracer {
     return After::scattered;
   }
 
+  /// A flight that is told of by others.
+  static bool drop(const Flight& flight, Part& part) {
+    part.absorbed += flight.units;
+    return false;
+  }
+
+  /// The children of a flight astray that has met a surface.
+  void send_through_portals(const Bsdf& bsdf, const SurfacePoint& point, const Vec3& wo, const Flight& parent,
+                            Part& part) const {
+    RandomStream random(seed_, Stage::through_portal, parent.number);
+    random.start_bounce(parent.events);
+    std::vector<PortalSplit::Child> children;
+    split_->children(point, bsdf, wo, parent.flux_lm, random, children);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      Flight child = parent;
+      child.flux_lm *= children[i].weight;
+      if (!is_finite(child.flux_lm)) {
+        ++part.non_finite;
+        continue;
+      }
+      child.units = units(child.flux_lm);
+      child.ray = Ray{point.leave(children[i].direction), children[i].direction};
+      child.source_normal = glm::dot(children[i].direction, point.geometric_normal) >= 0
+                                ? point.geometric_normal
+                                : -point.geometric_normal;
+      child.from_infinity = child.specular_only = child.mirrored = child.in_glass = false;
+      child.chain = MirrorPlanes::kNone;
+      ++child.bounce;
+      child.astray = Flight::Astray::child;
+      child.portal_m = split_->first_crossing_m(point.position, children[i].direction);
+      // Of the light that the surface took.
+      part.absorbed -= child.units;
+      RandomStream own(seed_, Stage::through_portal, mixed(parent.number, parent.events, i));
+      while (largest(child.flux_lm) > 0 && step(child, own, part)) {
+      }
+    }
+  }
+
+  /// Numbers a child's random stream (Steele et al. 2014, SplitMix64).
+  static std::uint64_t mixed(std::uint64_t path, std::uint32_t event, std::size_t child) {
+    std::uint64_t z = path + 0x9e3779b97f4a7c15u * ((std::uint64_t{event} << 32 | child) + 1);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (z ^ (z >> 31)) | std::uint64_t{1} << 63;  // apart from those of parents
+  }
+
   const RayScene& rays_;
   const Emitter& emitter_;
   const MirrorPlanes& mirrors_;
   const CausticAim* aim_;
+  std::optional<PortalSplit> split_;
   std::uint64_t paths_, aimed_paths_;
   std::uint64_t seed_;
   bool log_;

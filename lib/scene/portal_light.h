@@ -2,12 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "core/spherical_triangle.h"
 #include "scene/environment.h"
+#include "scene/portal_piece.h"
 #include "scene/portal_sight.h"
 
 namespace phos {
@@ -34,30 +33,21 @@ class PortalLight {
   float promise_lx(const Vec3& from) const;
 
  private:
-  struct Piece {
-    Portal portal;
-    Vec3 normal{0};
-    Vec3 middle{0};
-    float area_m2 = 0;
-    float near2_m2 = 0;  // square of the distance from the middle within which it is near
-  };
   struct Chances {
     float sun = 0, stray = 1;
     float portals = 0;               // sum of the promises of the pieces, lx
     std::span<const float> promise;  // of each piece; good until the thread asks again
   };
   Chances chances(const Vec3& from) const;
-  float promise_lx(const Piece& piece, const Vec3& from) const;
+  float promise_lx(const PortalPiece& piece, const Vec3& from) const;
   static std::size_t choose(const Chances& c, float u, float& rest);
-  static std::optional<SphericalPatch> near(const Piece& piece, const Vec3& from);
-  static double density_through(const Piece& piece, const Vec3& from, const Vec3& direction);
   Environment::Sample sample_of(const Vec3& from, const Vec3& direction, const Chances& c,
-                                const Piece* certain) const;
-  float density(const Vec3& from, const Vec3& direction, const Chances& c, const Piece* certain) const;
+                                const PortalPiece* certain) const;
+  float density(const Vec3& from, const Vec3& direction, const Chances& c, const PortalPiece* certain) const;
 
   const Environment* light_;
   std::shared_ptr<const PortalSight> sight_;
-  std::vector<Piece> piece_;
+  std::vector<PortalPiece> piece_;
   float least_cd_m2_ = 0;  // a piece is not taken for darker
   float stray_ = 0;
 };

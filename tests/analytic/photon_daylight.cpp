@@ -126,6 +126,45 @@ TEST(Portals, AgreeWithPhotonsThatAreNotAimed) {
   }
 }
 
+struct CeilingLight {
+  double lm = 0, squares = 0, most = 0;
+  std::size_t photons = 0;
+};
+
+CeilingLight ceiling_light(Scene scene, const std::string& portals, std::int64_t paths) {
+  const RayScene rays(scene);
+  if (!portals.empty()) scene.portal = find_portals(rays, portals);
+  PhotonOptions options;
+  options.paths = paths;
+  PhotonTotals totals;
+  Counters counters;
+  const Photons photons = trace_photons(rays, options, 1, totals, counters);
+  CeilingLight c;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    if (decode_octahedral(photons.normal[i]).y > -0.5f || photons.position[i].y < 1) continue;
+    const auto lm = static_cast<double>(photons.flux[i].x);
+    c.lm += lm, c.squares += lm * lm, c.most = std::max(c.most, lm), ++c.photons;
+  }
+  return c;
+}
+
+/// Light that the ground reflects comes in by photons of like flux too, though paths that are not aimed carry
+/// thousands of times as much: the ceiling of a black room gets no other.
+TEST(Portals, LightFromTheGroundIsEven) {
+  for (const bool pane : {false, true}) {
+    Scene scene = room_with_window(0, pane);
+    if (pane) scene.material[1].ior = 1.5f;
+    begin_instance(scene, "ground", add_lambert(scene, "ground", 0.5f));
+    add_quad(scene, {-40, -0.01f, -40}, {0, 0, 80}, {80, 0, 0});
+    surround(scene, sky_of("overcast", "", 10000));
+    const CeilingLight plain = ceiling_light(scene, "", 8000000),
+                       aimed = ceiling_light(scene, "auto", 200000);
+    EXPECT_NEAR(aimed.lm / plain.lm, 1, 4 * std::sqrt(plain.squares) / plain.lm + 0.04) << pane;
+    EXPECT_GT(aimed.photons, 1000u);
+    EXPECT_LT(aimed.most, 20 * aimed.lm / static_cast<double>(aimed.photons)) << "none outshines the rest";
+  }
+}
+
 /// Smaller or larger by a million, the same lux.
 TEST(Portals, HoldAtEverySize) {
   const Environment sky = sky_of("clear", "180,40");

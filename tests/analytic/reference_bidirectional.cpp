@@ -163,7 +163,7 @@ TEST(BidirectionalAnalytic, PictureShowsWhatSensorsMeasure) {
     scene.camera[0].ymag_m = 0.2f;
     const Lit lit(scene);
     ReferenceOptions options;
-    options.width = 12, options.height = 8, options.samples = perspective ? 64 : 16;
+    options.width = 12, options.height = 8, options.samples = 128;
     options.method = ReferenceMethod::bidirectional;
     options.illuminance = true;
     const Image image = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
@@ -248,7 +248,7 @@ TEST(BidirectionalAnalytic, PictureIsThatOfPathTracing) {
   const Scene scene = test::cornell();
   const Lit lit(scene);
   ReferenceOptions options;
-  options.width = options.height = 16, options.samples = 256;
+  options.width = options.height = 16, options.samples = 128;
   const Image path = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
   options.method = ReferenceMethod::bidirectional;
   const Image both = render_reference(lit.rays, lit.luminaires, scene.camera[0], options).image;
