@@ -99,6 +99,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   GatherSource source;
   source.indirect = tree.get();
   source.holds_direct = caches.holds_direct();
+  source.lacks_images = !source.holds_direct;
   std::optional<CausticLight> where_rays_land;
   if (caustics) source.caustics = &where_rays_land.emplace(rays, caustics, kGatherCaustics);
   if (tree) {

@@ -2,6 +2,7 @@
 // what gathered rays and gloss show of lamps' images, against the doubled room.
 #include <gtest/gtest.h>
 
+#include "cache/sensors.h"
 #include "cache/shading.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
@@ -62,6 +63,33 @@ TEST_P(Images, LightWhatGatheredRaysFind) {
     const Trial without = mirrored.trial(p, {0, 1, 0}, options, {.indirect = &dark}, 1, 200);
     EXPECT_LT(without.mean, 0.95 * truth.mean) << "a source that has the images, and says 0";
   }
+}
+
+/// Sensors in mid-air get records of rays that read the caches, which here are dark.
+TEST_P(Images, LightWhatSensorsInMidAirSee) {
+  const auto read = [](const Scene& scene) {
+    IrradianceCache cache;
+    cache.quantity = "indirect", cache.accuracy = 0.2;
+    IrradianceRecord dark;
+    dark.position = {0.05f, 0, 0.05f}, dark.normal = {0, 1, 0};
+    dark.distance_m = dark.radius_m = 0.01f;
+    cache.records.push_back(dark);
+    SensorCaches caches({}, nullptr);
+    caches.add(cache, "dark");
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    Sensors sensors;
+    for (const float x : {0.7f, 1.5f}) sensors.points.push_back({{x, 1, 1}, {0, 1, 0}});
+    SensorOptions options;
+    options.rays = 16384;
+    SensorReport report;
+    std::vector<Reading> readings = read_light(sensors, rays, lights, caches, options, report);
+    EXPECT_EQ(report.uncovered, 2u);
+    return readings;
+  };
+  const std::vector<Reading> mirrored = read(room(GetParam(), false)), truth = read(room(GetParam(), true));
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_NEAR(mirrored[i].indirect_lx, truth[i].indirect_lx, 0.015f * truth[i].indirect_lx) << i;
 }
 
 /// Glossy walls: what their lobes show of the image, whether rays look for it or radiance records know the
