@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
-#include "core/sequence_error.h"
+#include "scene/environment.h"
 #include "scene/mirror_images.h"
 
 namespace phos {
@@ -24,6 +24,12 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
 }
 
 namespace {
+
+/// Half of an environment's samples go to its sun (Environment::sun_chance()): Sobol' points give it just
+/// half, where R2 would give it a few too many or too few.
+bool by_halves(const Scene& scene, const Light& light) {
+  return light.kind == Light::Kind::environment && scene.environment && scene.environment->sun();
+}
 
 /// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
 void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
@@ -64,7 +70,9 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     const int n = lights[i].extended() ? std::max(samples, 1) : 1;
     // Drawn for every light, so that one light's samples do not depend on what another's do.
     const float shift = random.uniform();
-    const Vec2 shift2 = random.uniform2();
+    const std::uint32_t bits[2] = {random.bits(), random.bits()};
+    const Vec2 shift2 = Vec2(bits[0] >> 8, bits[1] >> 8) * 0x1p-24f;
+    const bool halves = by_halves(rays.scene(), lights[i]);
     const bool area = lights[i].kind == Light::Kind::area;
     Luminaires::View view(lights, i, receiver.position);
     const std::size_t first = out.size();
@@ -72,14 +80,16 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     for (int k = 0; k < n; ++k) {
       Illumination light;
       const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
-      if (!view.illuminate(std::min(u_triangle, kBelowOne), r2_point(k, shift2), light)) continue;
+      const Vec2 u = halves ? sobol_point(k, bits[0], bits[1]) : r2_point(k, shift2);
+      if (!view.illuminate(std::min(u_triangle, kBelowOne), u, light)) continue;
       const float cosine = glm::dot(receiver.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
       const Rgb irradiance =
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
       if (!(max_component(irradiance) > 0)) continue;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
-                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1});
+                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1,
+                     halves ? PointOrder::Kind::sobol : PointOrder::Kind::r2});
       way.push_back(shadow_ray(receiver, light));
     }
     share.resize(way.size());
@@ -102,13 +112,14 @@ LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires&
     // The samples of one light, or image, follow each other; those that are dark or hidden are zeros.
     const std::uint32_t light = lamps[i].light;
     const std::int32_t mirrors = lamps[i].mirrors;
+    const PointOrder::Kind points = lamps[i].points;
     const bool extended = lights[light].extended();
     part.assign(extended ? static_cast<std::size_t>(std::max(samples, 1)) : 1, DVec3(0));
     for (; i < lamps.size() && lamps[i].light == light && lamps[i].mirrors == mirrors; ++i) {
       part[lamps[i].number] = DVec3(lamps[i].irradiance);
       sum.irradiance += part[lamps[i].number];
     }
-    if (extended) sum.variance += sequence_variance(part, lights.by_u_alone(light));
+    if (extended) sum.variance += sequence_variance(part, lights.by_u_alone(light), {points, 0});
   }
   return sum;
 }

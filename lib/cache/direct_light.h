@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "core/sequence_error.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -19,6 +20,7 @@ struct LampSample {
   std::uint32_t light = 0;
   std::uint32_t number = 0;   ///< of this sample among the light's, from 0
   std::int32_t mirrors = -1;  ///< chain of flat mirrors that the light came over (MirrorPlanes); -1: none
+  PointOrder::Kind points = PointOrder::Kind::r2;  ///< that the light's samples are
 };
 
 /// The point at p that faces n (unit), lifted off surfaces by the rounding of positions in this scene.

@@ -37,18 +37,19 @@ void classify(const Scene& scene, double colour, MaterialSummary& s) {
   const Material& m = *s.material;
   const double texture = luminance(Rgb(mean_texel(scene, m.base_colour))) * colour;
   const double kd = luminance(m.kd) * texture, ks = luminance(m.ks);
+  const double through = m.diffuse_transmission * mean_texel(scene, m.diffuse_transmission_map).w;
   switch (m.model) {
     case Model::metallic_roughness:
-      s.reflectance = reflectance_of(scene, m, kd);
-      s.diffuse =
-          kd > 0 && m.metallic < 1 && !(m.transmission == 1 && m.metallic == 0 && !m.transmission_map.used());
+      s.reflectance = reflectance_of(scene, m, (1 - (1 - m.metallic) * through) * kd);
+      s.diffuse = (kd > 0 || through > 0) && m.metallic < 1 &&
+                  !(m.transmission == 1 && m.metallic == 0 && !m.transmission_map.used());
       s.specular = m.transmission > 0 || (m.roughness == 0 && m.anisotropy == 0);
       s.glossy = !(m.roughness == 0 && m.anisotropy == 0) &&
                  (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
       break;
     case Model::lambert:
       s.reflectance = kd;
-      s.diffuse = kd > 0;
+      s.diffuse = kd > 0 || through > 0;
       break;
     case Model::phong:
     case Model::ward:
@@ -173,6 +174,10 @@ Json describe_material(const Scene& scene, const MaterialSummary& s) {
   if (passes_straight(scene, m)) {  // at normal incidence
     const auto index = static_cast<std::uint32_t>(&m - scene.material.data());
     j["transmittance"] = numbers(Bsdf(scene, index).pane(Vec3(0, 0, 1)).transmittance());
+  }
+  if (m.diffuse_transmission > 0) {
+    const auto index = static_cast<std::uint32_t>(&m - scene.material.data());
+    j["diffuse_transmittance"] = numbers(Bsdf(scene, index).diffuse_transmittance());
   }
   Json textures = Json::Array{};
   constexpr const char* kNames[] = {"base colour",

@@ -75,13 +75,17 @@ std::string light_line(const Json& l) {
   return line;
 }
 
-/// Luminance of what passes straight along the normal.
+/// Luminance of what passes: straight along the normal, or scattered.
 std::string passes(const Json& m) {
-  const Json* share = m.find("transmittance");
-  if (!share) return "";
-  const Json::Array& c = share->as_array();
-  const auto of = [&](std::size_t i) { return static_cast<float>(c[i].as_number()); };
-  return text(", passes ", figure(Json(static_cast<double>(luminance(Rgb(of(0), of(1), of(2)))))));
+  std::string all;
+  for (const auto& [key, how] : {std::pair{"transmittance", ""}, {"diffuse_transmittance", " scattered"}}) {
+    const Json* share = m.find(key);
+    if (!share) continue;
+    const Json::Array& c = share->as_array();
+    const auto of = [&](std::size_t i) { return static_cast<float>(c[i].as_number()); };
+    all += text(", passes ", figure(Json(static_cast<double>(luminance(Rgb(of(0), of(1), of(2)))))), how);
+  }
+  return all;
 }
 
 std::string material_line(const Json& m) {

@@ -76,7 +76,9 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
                                const std::string& photons, const std::string& points,
                                const std::string& add_to, const std::string& out) {
   Words words = of_scene(task, scene);
-  add(words, {photons, "--at", points, "--place", "given"});
+  add(words, {photons});
+  // Photons tell nothing in free air: records of them lie on surfaces, and phos-sense makes those in the air.
+  if (!task.by_photons) add(words, {"--at", points, "--place", "given"});
   if (add_to.empty())
     add(words, estimated(task, knobs));  // else they are those of the file
   else

@@ -18,7 +18,7 @@ TEST(TwoRooms, NoSensorIsSaidToBeInsideOfASolid) {
     }
   }
   const auto grid = run_tool({"sense", scenes + "/two-rooms.glb", "--sky", "overcast", "--direct-only",
-                             "--grid", "1", "--height", "0.8"});
+                              "--grid", "1", "--height", "0.8"});
   EXPECT_EQ(grid.code, 0) << grid.err;
   EXPECT_EQ(grid.err.find("inside of solids"), std::string::npos) << grid.err;
 }

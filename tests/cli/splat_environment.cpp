@@ -133,6 +133,6 @@ TEST(EnvironmentTools, SceneTellsOfIt) {
   black.set_rgb("", std::vector<Rgb>(32, Rgb(0)));
   write_exr(f + "/black.exr", black);
   const auto dark = run_tool({"scene", scene, "--environment", f + "/black.exr"});
-  EXPECT_NE(dark.out.find("light \"environment\" has no intensity"), std::string::npos) << dark.out;
+  EXPECT_NE(dark.out.find("light \"environment\": has no intensity"), std::string::npos) << dark.out;
   expect_refused("photons", {scene, "--environment", f + "/black.exr", "-o", f + "/out"}, 3, "no light");
 }

@@ -215,10 +215,10 @@ TEST(StudyRuns, GoesOnWhereItWasInterrupted) {
 }
 
 TEST(StudyRuns, AFailingSettingLeavesTheRest) {
-  const std::string folder =
-      toy_study("failing", "",
-                "[reference]\nsamples = 4\n[photons]\nphotons = 2000\n"
-                "[irradiance]\nat = [\"points.csv\", \"broken.csv\"]\n[splat]\npixel_samples = 1\n");
+  const std::string folder = toy_study("failing", "",
+                                       "[reference]\nsamples = 4\n[photons]\nphotons = 2000\n"
+                                       "[irradiance]\nestimate = \"gather\"\nat = [\"points.csv\", "
+                                       "\"broken.csv\"]\n[splat]\npixel_samples = 1\n");
   spill(folder + "/broken.csv", "x,y,z\nhere\n");
   const auto run = study(folder);
   EXPECT_EQ(run.code, 1);

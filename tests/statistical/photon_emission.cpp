@@ -94,7 +94,7 @@ TEST(Emission, LampsWithoutAVisibleTexelAreTold) {
     EXPECT_TRUE(scene.light.empty());
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0].line(),
-              "light \"light\" is cut out wholly by its alpha, or black: it is ignored");
+              "light \"light\": is cut out wholly by its alpha, or black: it is ignored");
   }
 }
 

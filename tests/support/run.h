@@ -111,6 +111,17 @@ inline Run run_and_interrupt(const std::vector<std::string>& arguments, std::chr
 }
 
 /// One line of message: no newline but the last.
+/// Of what a program says on standard error: all but its warnings.
+inline std::string without_warnings(const std::string& said) {
+  std::string rest;
+  for (std::size_t at = 0; at < said.size();) {
+    const std::size_t end = std::min(said.find('\n', at), said.size() - 1) + 1;
+    const std::string line = said.substr(at, end - at);
+    if (line.find(": warning: ") == std::string::npos) rest += line;
+    at = end;
+  }
+  return rest;
+}
 inline bool is_one_line(const std::string& s) { return !s.empty() && s.find('\n') == s.size() - 1; }
 
 }  // namespace phos::test
