@@ -17,17 +17,19 @@ class FarRecords {
   explicit FarRecords(const RecordTree& records) : records_(records) {}
   /// weight 0: nothing there either.
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
-  /// The irradiance of interpolate() alone, as RecordTree::irradiance().
-  Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
+  /// The irradiance of interpolate() alone, as RecordTree::irradiance(). Along their planes alone records
+  /// reach farther with `widen` so: no surface is lit by another one that faces the same way.
+  Rgb irradiance(const Vec3& p, const Vec3& n, float& weight,
+                 RecordTree::Widen widen = RecordTree::Widen::all_around) const;
 
  private:
   /// The tree of factor i.
-  const RecordTree& wide(std::size_t i) const;
+  const RecordTree& wide(std::size_t i, RecordTree::Widen widen) const;
 
   static constexpr std::array<double, 2> kFactors{2, 4};
   const RecordTree& records_;
-  mutable std::array<std::once_flag, kFactors.size()> once_;
-  mutable std::array<std::optional<RecordTree>, kFactors.size()> wide_;
+  mutable std::array<std::once_flag, 2 * kFactors.size()> once_;  // all around, then along planes
+  mutable std::array<std::optional<RecordTree>, 2 * kFactors.size()> wide_;
 };
 
 }  // namespace phos

@@ -202,7 +202,9 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
     const Rgb cached = source.indirect->irradiance(point.position, point.smooth_normal, weight);
     if (weight > 0) return cached;
     if (source.far) {
-      const Rgb beyond = source.far->irradiance(point.position, point.smooth_normal, weight);
+      // Photons know whether there is light at all off the planes of records.
+      const auto widen = source.fallback ? RecordTree::Widen::along_plane : RecordTree::Widen::all_around;
+      const Rgb beyond = source.far->irradiance(point.position, point.smooth_normal, weight, widen);
       ++worker.beyond_reach;
       if (weight > 0) return beyond;
     }

@@ -2,6 +2,8 @@
 // that its zone of influence touches, so that a query walks one path from the root.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "cache/irradiance_cache.h"
 #include "cache/record_index.h"
@@ -30,6 +32,7 @@ struct Cell {
 
 struct RecordTree::Impl {
   float accuracy;
+  float off_plane = std::numeric_limits<float>::infinity();  // farthest place from a record's plane, radii
   const RayScene* leak_test;
   DVec3 lo;
   double side_m;
@@ -91,6 +94,7 @@ struct RecordTree::Impl {
   float weight_of(const Entry& e, const Vec3& p, const Vec3& n) const {
     float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
     if (!(w > kLeastWeight)) return 0;
+    if (std::fabs(glm::dot(p - e.position, e.normal)) > off_plane * e.radius_m) return 0;
     const IrradianceRecord& r = records[e.record];
     if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
     if (!(w > kLeastWeight) || record_apart(r, p, n)) return 0;
@@ -130,9 +134,10 @@ RecordTree::RecordTree(const Bounds& bounds, double accuracy, const RayScene* le
 }
 RecordTree::~RecordTree() = default;
 
-RecordTree RecordTree::widened(double factor) const {
+RecordTree RecordTree::widened(double factor, Widen widen) const {
   RecordTree wide(Bounds(), factor * static_cast<double>(impl_->accuracy), impl_->leak_test);
   wide.impl_->lo = impl_->lo, wide.impl_->side_m = impl_->side_m;
+  if (widen == Widen::along_plane) wide.impl_->off_plane = impl_->accuracy;
   for (const IrradianceRecord& r : impl_->records) wide.insert(r);
   return wide;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/shading.h"
+#include "cache/two_level.h"
 #include "support/gathered.h"
 #include "support/opal.h"
 #include "support/records.h"
@@ -34,6 +35,19 @@ TEST(Opal, GatheredRaysInAFurnace) {
                 4 * t.stderr_of_mean + 0.002 * OpalFurnace::kIrradiance_lx)
         << c.position.y << ' ' << c.normal.y;
   }
+}
+
+/// The lit floor below does not shine on the sheet's upper side, which gets nothing but the lamp's light:
+/// what the floor sends up goes through and is gone.
+TEST(Opal, TheFloorDoesNotLightTheOtherSide) {
+  const OpalUnderALamp opal(0, 0.9f);
+  const Lit lit = light_up(opal.scene, 400'000, 1);
+  Gathered gathered(opal.scene);
+  const RecordOptions options = gather_options(opal.scene, Quantity::indirect, -1, 512);
+  const CoarseLevel coarse(*lit.rays, lit.photons, options, 1);
+  const double truth = OpalUnderALamp::floor_lx(0);
+  const Trial t = gathered.trial({0, 0, 0}, {0, 1, 0}, options, coarse.source(), truth, 30);
+  EXPECT_NEAR(t.mean, truth, 4 * t.stderr_of_mean + 0.01 * truth);
 }
 
 TEST(Opal, PhotonsPass) {

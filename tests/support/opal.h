@@ -19,8 +19,8 @@ struct OpalUnderALamp {
   static constexpr float kHeight = 1.5f, kIntensity_cd = 1000, kKt = 0.5f;
   Scene scene;
 
-  explicit OpalUnderALamp(float kd = 0) {
-    begin_instance(scene, "floor", add_lambert(scene, "black", 0));
+  explicit OpalUnderALamp(float kd = 0, float floor_albedo = 0) {
+    begin_instance(scene, "floor", add_lambert(scene, "floor", floor_albedo));
     add_quad(scene, {-20, 0, -20}, {0, 0, 40}, {40, 0, 0});
     begin_instance(scene, "sheet", add_opal(scene, kd, kKt));
     add_quad(scene, {-1, kHeight, -1}, {0, 0, 2}, {2, 0, 0});
