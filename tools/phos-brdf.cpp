@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
             "order up to --max-order does are marked to be traced. Lambert parts, mirrors and smooth glass "
             "need no table; a scene without gloss gives an empty file. The file feeds phos-radiance and "
             "phos-splat.",
-            1);
+            2);
   std::string scene_path, bases_path;
   SceneOptions scene_options;
   BrdfTableOptions brdf;

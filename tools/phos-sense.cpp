@@ -39,11 +39,12 @@ struct Inputs {
 
 void check_usage(const Options& options, const Inputs& inputs, const SensorOptions& sense, bool exact) {
   if (exact && sense.direct_only)
-    throw Error(ExitCode::usage, "exact", "computes all light; leave out --direct-only");
+    throw Error(ExitCode::usage, "--exact", "computes all light; leave out --direct-only");
   if ((exact || sense.direct_only) && !inputs.caches.empty())
-    throw Error(ExitCode::usage, exact ? "exact" : "direct-only", "reads no cache; leave the caches out");
+    throw Error(ExitCode::usage, exact ? "--exact" : "--direct-only", "reads no cache; leave the caches out");
   for (const char* name : {"samples", "error", "method"})
-    if (!exact && options.given(name)) throw Error(ExitCode::usage, name, "belongs to --exact; leave it out");
+    if (!exact && options.given(name))
+      throw Error(ExitCode::usage, text("--", name), "belongs to --exact; leave it out");
   if ((exact || sense.direct_only) && sense.light_samples == 0)
     throw Error(ExitCode::usage, "--light-samples", "of 0 leaves direct light to a cache; give 1 or more");
   if (inputs.caches.empty() && !exact && !sense.direct_only) {
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
             "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout. With --bands all these "
             "are of "
             "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
-            7, Tool::Output::optional);
+            8, Tool::Output::optional);
   tool.takes_strict();
   tool.output_has_no_key();
   Inputs inputs;

@@ -23,7 +23,7 @@ constexpr const char* kBeyondReach = "gathered places beyond the reach of record
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
-// Tells random streams of the light on the other side of a sheet from those of this side.
+// A sheet's other side has random streams of its own: this bit numbers them.
 constexpr std::uint32_t kOtherSide = 1u << 16;
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;

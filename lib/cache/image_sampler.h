@@ -1,4 +1,4 @@
-// Light by way of flat mirrors where rays land: samples of one image of a lamp each.
+// Samples of the images that lamps have in flat mirrors, for places that gathered rays find.
 #pragma once
 
 #include <vector>

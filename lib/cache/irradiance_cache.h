@@ -241,8 +241,8 @@ class RecordTree {
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// Adds the records valid at p, n; finish() is the caller's.
   void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;
-  /// The same records, each of which reaches `factor` times as far: in every direction, or along its tangent
-  /// plane alone, from which places are not farther than they may be here.
+  /// A tree of the same records. Each reaches `factor` times as far, in every direction (all_around) or along
+  /// its tangent plane only (along_plane): then a place may be no farther off that plane than in this tree.
   enum class Widen { all_around, along_plane };
   RecordTree widened(double factor, Widen widen = Widen::all_around) const;
   /// The same cells as columns.

@@ -91,7 +91,7 @@ class Shading {
 
   /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each, of the environment
   /// its sun's alone. With `gloss_by_rays`, the glossy lobes' share of area lights and sun is left to
-  /// gloss(), whose rays find them in mirrors; radiance records hold none of it.
+  /// gloss(), whose rays find them in mirrors; radiance records do not hold it.
   DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
                        RandomStream& sequence) const;
 
@@ -110,7 +110,7 @@ class Shading {
   struct Through {
     Rgb indirect{0};  ///< of the caches
     Rgb indirect_stderr{0};
-    DirectLight direct;   ///< but for `illuminance`, which is that of the other side
+    DirectLight direct;   ///< through the sheet; `illuminance` is on its other side
     bool missed = false;  ///< no record reaches the other side
   };
   Through through(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sampling.h"
-
 namespace phos {
 namespace {
 

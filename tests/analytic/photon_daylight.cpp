@@ -13,20 +13,26 @@
 namespace phos::test {
 namespace {
 
-struct Light {
-  double lx = 0, error_lx = 0;
-  std::size_t photons = 0;
-};
-
-/// On the floor's upper side.
-Light floor_light(Scene scene, const std::string& portals, std::int64_t paths, std::uint64_t seed = 1) {
+/// Aimed at portals, if any are named.
+Photons photons_of(Scene scene, const std::string& portals, std::int64_t paths, std::uint64_t seed = 1) {
   const RayScene rays(scene);
   if (!portals.empty()) scene.portal = find_portals(rays, portals);
   PhotonOptions options;
   options.paths = paths;
   PhotonTotals totals;
   Counters counters;
-  const Photons photons = trace_photons(rays, options, seed, totals, counters);
+  return trace_photons(rays, options, seed, totals, counters);
+}
+
+struct Light {
+  double lx = 0, error_lx = 0;
+  std::size_t photons = 0;
+};
+
+/// On the floor's upper side.
+Light floor_light(const Scene& scene, const std::string& portals, std::int64_t paths,
+                  std::uint64_t seed = 1) {
+  const Photons photons = photons_of(scene, portals, paths, seed);
   // Bounces of a path count one by one: nearly independent.
   double sum = 0, squares = 0;
   Light light;
@@ -132,13 +138,7 @@ struct CeilingLight {
 };
 
 CeilingLight ceiling_light(Scene scene, const std::string& portals, std::int64_t paths) {
-  const RayScene rays(scene);
-  if (!portals.empty()) scene.portal = find_portals(rays, portals);
-  PhotonOptions options;
-  options.paths = paths;
-  PhotonTotals totals;
-  Counters counters;
-  const Photons photons = trace_photons(rays, options, 1, totals, counters);
+  const Photons photons = photons_of(std::move(scene), portals, paths);
   CeilingLight c;
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (decode_octahedral(photons.normal[i]).y > -0.5f || photons.position[i].y < 1) continue;
