@@ -30,7 +30,7 @@ view=(--width "$width")
 # 1. Plan, caches, picture and lux: carried out, measured, corrected. Code 1: the error was not met, and the report says so.
 status=0
 phos-plan "$scene" --error "$error" --quantity both "${view[@]}" --grid "$grid" --workplane "$workplane" --margin "$margin" \
-  --pilot "$pilot" --run -o "$folder" || status=$?
+  --pilot-seconds "$pilot" --run -o "$folder" || status=$?
 ((status <= 1)) || exit "$status"
 # 2. Uniformity of the workplane, from the same cache.
 phos-sense "$scene" "$folder/light.irradiance" --points "$folder/sensors.csv" --summary "$folder/lux.json" --quiet -o "$folder/lux.csv"

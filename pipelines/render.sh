@@ -1,27 +1,32 @@
 #!/usr/bin/env bash
-# Renders one picture, end to end, keeping every intermediate file for reuse:
-#   pipelines/render.sh SCENE FOLDER [--photons N] [--accuracy A] [--width W] [--camera NAME] [--rounds N] [--samples N]
-# Needs the programs on PATH, or else in build/release/bin. Writes FOLDER/scene.photons, .irradiance, .exr, .png and -lux.png.
+# Renders one picture, end to end, with the settings that the scene requires, and keeps every intermediate file for reuse:
+#   pipelines/render.sh SCENE FOLDER [--quality draft|good|final] [--width W] [--camera NAME] [options of the scene, e.g. --sky clear]
+#                       [--photons N] [--accuracy A] [--rays N] [--samples N] [--rounds N]
+# Quality is the error of the picture over its mean, about: 10, 5 (good, which is usual) or 2 %. The options of the second line override
+# what follows from it. Needs the programs on PATH, or else in build/release/bin. Writes FOLDER/scene.photons, .irradiance (records where
+# the camera looks), .view.irradiance (and of what they missed), .exr, .png and -lux.png.
 set -euo pipefail
 
-usage() { sed -n '2,4s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+usage() { sed -n '2,7s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
-photons=2000000 accuracy=0.2 width=1000 camera='' rounds=3 samples=4
+quality=good width=1000 camera='' photons='' accuracy='' rays='' samples='' rounds=3
+light=()
 while (($# > 0)); do
-  [[ $# -ge 2 ]] || usage
+  [[ $# -ge 2 && $1 == --* ]] || usage
   case $1 in
-    --photons) photons=$2 ;;
-    --accuracy) accuracy=$2 ;;
-    --width) width=$2 ;;
-    --camera) camera=$2 ;;
-    --rounds) rounds=$2 ;;
-    --samples) samples=$2 ;;
-    *) usage ;;
+    --quality | --width | --camera | --photons | --accuracy | --rays | --samples | --rounds) declare "${1#--}=$2" ;;
+    *) light+=("$1" "$2") ;;
   esac
   shift 2
 done
+case $quality in
+  draft) error=10% ;;
+  good) error=5% ;;
+  final) error=2% ;;
+  *) echo "render.sh: --quality $quality: give draft, good or final" >&2; exit 2 ;;
+esac
 [[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
 
 source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
@@ -29,26 +34,39 @@ name=$(basename "${scene%.*}")
 mkdir -p "$folder"
 file=$folder/$name
 view=(--width "$width")
-[[ -n $camera ]] && view+=(--camera "$camera")
+[[ -z $camera ]] || view+=(--camera "$camera")
 
-# 1. Light: photons from the lamps, and a tree over them.
-phos-photons "$scene" --photons "$photons" --reuse -o "$file.photons"
-# 2. Cache: irradiance records where the photons are.
-phos-irradiance "$scene" "$file.photons" --accuracy "$accuracy" --reuse -o "$file.irradiance"
-# 3. Fill what this camera sees and no record covers, until nothing is missing.
+# 1. What the scene requires, and the settings that are usual for the error; no pilot is run.
+plan=$(phos-plan "$scene" --error "$error" --pilot-seconds 0 "${view[@]}" "${light[@]}" --json --quiet)
+setting() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" <<<"$plan" | head -1; }
+[[ $plan != *'"--portals"'* || " ${light[*]} " == *' --portals '* ]] || light+=(--portals auto)
+photons=${photons:-$(printf %.0f "$(setting photons)")} accuracy=${accuracy:-$(setting accuracy)} samples=${samples:-$(setting pixel_samples)}
+estimate=(--estimate hull)
+[[ $plan != *'"gather"'* ]] || estimate=(--estimate gather --rays "${rays:-$(setting rays)}")
+direct=(--direct interleaved --light-samples "$(setting light_rays)")
+gloss=$(setting gloss_rays)
+[[ -z $gloss ]] || direct+=(--gloss-samples "$gloss")
+edges=$(($(setting edge_samples) > samples ? $(setting edge_samples) - samples : 0))
+
+# 2. Light: photons from the lamps, and a tree over them.
+phos-photons "$scene" "${light[@]}" --photons "$photons" --reuse -o "$file.photons"
+# 3. Cache: irradiance records where the camera looks.
+phos-irradiance "$scene" "$file.photons" "${light[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" --reuse \
+  -o "$file.irradiance"
+# 4. Fill what the picture sees and no record covers, until nothing is missing.
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do
-  phos-splat "$scene" "$file.view.irradiance" "${view[@]}" --pixel-samples "$samples" --direct none --gloss-samples 1 \
-    --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
+  phos-splat "$scene" "$file.view.irradiance" "${light[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
+    --direct none --gloss-samples 1 --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
   missing=$(($(wc -l <"$file.misses.csv") - 1))
   echo "round $round: $missing visible points without a record"
   ((missing > 0)) || break
-  phos-irradiance "$scene" "$file.photons" --accuracy "$accuracy" --at "$file.misses.csv" \
-    --add-to "$file.view.irradiance" -o "$file.view.irradiance"
+  phos-irradiance "$scene" "$file.photons" "${light[@]}" --at "$file.misses.csv" --add-to "$file.view.irradiance" -o "$file.view.irradiance"
 done
 rm -f "$file.pass.exr" "$file.misses.csv"
-# 4. Picture.
-phos-splat "$scene" "$file.view.irradiance" "${view[@]}" --pixel-samples "$samples" -o "$file.exr"
+# 5. Picture.
+phos-splat "$scene" "$file.view.irradiance" "${light[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
+  "${direct[@]}" -o "$file.exr"
 phos-picture "$file.exr" -o "$file.png"
 phos-picture "$file.exr" --layer illuminance.Y --false-colour -o "$file-lux.png"
 echo "picture:  $file.exr"

@@ -3,6 +3,7 @@
 #include "cache/placement.h"
 #include "cache/points_on_surfaces.h"
 #include "cache/record_ways.h"
+#include "cache/typical_distance.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
       "otherwise made from the photons; and a radiance cache, for rays that land on gloss, whose records "
       "hold "
       "irradiance too, so that the surfaces which they cover get none of their own.",
-      16);
+      17);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -83,7 +84,7 @@ int main(int argc, char** argv) {
       "at", at,
       "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes. Photons "
       "land on surfaces: --estimate hull and kernel put a point that is off a surface by up to a "
-      "thousandth of the scene's diagonal on it, leave out one in free air with a warning, and end "
+      "tenth of the default --min-radius on it, leave out one in free air with a warning, and end "
       "with code 3 where all are; gathered rays serve any point");
   options.file("add-to", add_to,
                "irradiance file whose records are kept; options left out are taken from it; the "
@@ -112,7 +113,6 @@ int main(int argc, char** argv) {
     const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     IrradianceCache cache;
     if (!add_to.empty()) cache = open_earlier(add_to, files, scene, allow_mismatch, options, records);
-    records.resolve(scene.bounds.diagonal_m());
     cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
     cache.quantity = name_of(records.paths);
@@ -125,9 +125,12 @@ int main(int argc, char** argv) {
     PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points, tool.seed()};
     resolve(placement, scene, source, records.accuracy);
     const RayScene rays(scene, {isa});
+    const TypicalDistance typical = typical_distance(rays, placement, source);
+    tool.stat("typical_distance_m", typical.least_m);
+    records.resolve(typical);
     if (!at.empty() && of_photons_alone(records))
-      source.points = points = require_surfaces(tool, rays, points, at, "records of photons",
-                                                "let rays gather: --estimate gather");
+      source.points = points = require_surfaces(tool, rays, points, kOnSurface * typical.least_m, at,
+                                                "records of photons", "let rays gather: --estimate gather");
     const std::vector<LightWay> missed = tell_missed_ways(tool, rays, records);
     const auto provenance = [&] {
       Provenance own = tool.provenance("irradiance", scene.hash, scene.parts);

@@ -11,6 +11,7 @@
 #include "study/plan_options.h"
 #include "study/plan_run.h"
 #include "study/plan_text.h"
+#include "study/plan_usual.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
     task.diagonal_m = scene.bounds.diagonal_m();
     task.by_photons = by_photons(plan.records, needs.ways, task, needs);
     if (task.image) resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
+    add_portals(task, scene, needs);
     if (needs.animated && !options.given("frame") && !options.given("time"))
       tool.say(
           text("the scene is animated: this plan is for its start (see --frame); for all of it use "
@@ -63,11 +65,11 @@ int main(int argc, char** argv) {
                needs.frames - 1));
 
     PilotOptions piloted;
-    piloted.seconds = pilot_seconds(plan, goal), piloted.seed = tool.seed(),
+    piloted.seconds = plan.pilot_s, piloted.seed = tool.seed(),
     piloted.error = goal.error.value_or(plan.usual_error);
+    if (!plan.run) piloted.most_seconds = std::max(3 * plan.pilot_s, 20.0);
     piloted.common = {"--threads", std::to_string(thread_count())};
     if (tool.verbose()) piloted.say = [&](const std::string& line) { tool.say(line); };
-    tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
     const auto piloting = [&](const PlanTask& way) {
       const auto timer = tool.time("pilot");
       Pilot pilot = run_pilot(way, piloted);
@@ -75,9 +77,24 @@ int main(int argc, char** argv) {
           text("pilot: took ", duration(pilot.seconds), way.cached_direct ? ", with --direct cached" : ""));
       return pilot;
     };
-    const auto [way, pilot, chosen] =
-        plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
-    tool.say(prediction_line(chosen.chosen));
+    const auto usual = [&](const std::string& why) {
+      PlanTask traced = task;
+      traced.cached_direct = plan.direct == PlanDirect::cached;
+      return PlannedWay{
+          traced, {}, usual_plan(traced, goal, plan.usual_error, count_lamps(scene).lamps, why)};
+    };
+    const auto [way, pilot, chosen] = [&] {
+      if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
+      tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
+      try {
+        return plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
+      } catch (const PilotTooLong& late) {
+        return usual(text("the pilot was given up after ", duration(late.seconds),
+                          ": the settings are those usual for the error; with more --pilot-seconds one "
+                          "is foretold"));
+      }
+    }();
+    if (chosen.predicted) tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
     if (!plan.run && !pilot.doubts.empty()) tool.set_exit(ExitCode::numerical);
     if (!plan.run)

@@ -6,6 +6,7 @@
 #include "cache/radiance_placement.h"
 #include "cache/radiance_report.h"
 #include "cache/record_ways.h"
+#include "cache/typical_distance.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
@@ -39,7 +40,7 @@ int main(int argc, char** argv) {
             "only or read a cache; its .brdf file (else lobes are projected here); and caches for rays to "
             "read where they land: irradiance, in place of the coarse cache that is otherwise made from the "
             "photons, and radiance, for gloss.",
-            14);
+            15);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -61,7 +62,7 @@ int main(int argc, char** argv) {
   options.file(
       "at", at,
       "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --gloss-misses writes. A "
-      "point off a surface by up to a thousandth of the scene's diagonal is put on it; one in free "
+      "point off a surface by up to a tenth of the default --min-radius is put on it; one in free "
       "air is left out with a warning, and where all are, the end is code 3");
   options.file("add-to", add_to,
                "radiance file whose records are kept; options left out are taken from it; the "
@@ -97,7 +98,6 @@ int main(int argc, char** argv) {
       cache = read_radiance(earlier);
       require_same_orders(cache, tables, add_to);
     }
-    radiance.records.resolve(scene.bounds.diagonal_m());
     cache.accuracy = radiance.records.accuracy;
     cache.scene_hash = scene.hash;
     const IrradianceCache earlier = irradiance_of(cache);
@@ -108,16 +108,19 @@ int main(int argc, char** argv) {
     if (!at.empty()) points = read_points(at, scene.origin_m);
     PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points, tool.seed()};
     resolve(placement, scene, source, radiance.records.accuracy);
+    const RayScene rays(scene, {isa});
+    const TypicalDistance typical = typical_distance(rays, placement, source);
+    tool.stat("typical_distance_m", typical.least_m);
+    radiance.records.resolve(typical);
     std::vector<LightWay> missed;
     tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
     if (tables.orders().empty()) {
       tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
                     ": the file is empty"));
     } else {
-      const RayScene rays(scene, {isa});
       if (!at.empty())
-        source.points = points =
-            require_surfaces(tool, rays, points, at, "radiance records", "let phos-sense read light there");
+        source.points = points = require_surfaces(tool, rays, points, kOnSurface * typical.least_m, at,
+                                                  "radiance records", "let phos-sense read light there");
       missed = tell_missed_ways(tool, rays, radiance.records);
       const ChosenRadianceEstimators estimators = [&] {
         const auto timer = tool.time("coarse records");

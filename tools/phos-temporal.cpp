@@ -1,5 +1,6 @@
 // phos-temporal: an animated scene -> records that live through its frames.
 #include "cache/gloss_report.h"
+#include "cache/typical_distance.h"
 #include "file/tool.h"
 #include "scene/load.h"
 #include "splat/irradiance_inputs.h"
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
             "lobes are projected here); and for irradiance records the radiance film of the same frames, "
             "whose surfaces then "
             "get none of their own.",
-            15);
+            16);
   std::vector<std::string> paths;
   std::string frames, isa;
   SceneOptions scene_options;
@@ -92,11 +93,12 @@ int main(int argc, char** argv) {
     const std::shared_ptr<const FrameScene> first = scenes.at(range.first);
     tell_losses(tool, first->scene);
     job.light.radiance = radiance_options(records, options);
-    records.resolve(first->scene.bounds.diagonal_m());
-    job.light.radiance.records.resolve(first->scene.bounds.diagonal_m());
     job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
     resolve_film_places(job.placement, first->scene,
                         (job.of_radiance ? job.light.radiance.records : records).accuracy);
+    const TypicalDistance typical = typical_distance(first->rays, job.placement, {});
+    records.resolve(typical);
+    job.light.radiance.records.resolve(typical);
     job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
     if (!files.radiance.empty()) require_same_film(Container::open(files.radiance, "radiance"), job.survey);
     if (job.of_radiance || job.covered_by_radiance)

@@ -39,8 +39,8 @@ Settled settle(const RayScene& rays, float within_m, SurfaceSample& sample) {
 
 }  // namespace
 
-PointsOnSurfaces put_on_surfaces(const RayScene& rays, std::span<const SurfaceSample> points) {
-  const float within_m = kOnSurface * rays.scene().bounds.diagonal_m();
+PointsOnSurfaces put_on_surfaces(const RayScene& rays, std::span<const SurfaceSample> points,
+                                 float within_m) {
   std::vector<SurfaceSample> settled(points.begin(), points.end());
   std::vector<Settled> place(points.size());
   parallel_for(points.size(), 256, [&](std::size_t i) { place[i] = settle(rays, within_m, settled[i]); });
@@ -53,14 +53,14 @@ PointsOnSurfaces put_on_surfaces(const RayScene& rays, std::span<const SurfaceSa
 }
 
 std::vector<SurfaceSample> require_surfaces(Tool& tool, const RayScene& rays,
-                                            std::span<const SurfaceSample> points, const std::string& path,
-                                            const std::string& records, const std::string& instead) {
-  PointsOnSurfaces found = put_on_surfaces(rays, points);
+                                            std::span<const SurfaceSample> points, float within_m,
+                                            const std::string& path, const std::string& records,
+                                            const std::string& instead) {
+  PointsOnSurfaces found = put_on_surfaces(rays, points, within_m);
   tool.stat("points_in_air", found.in_air);
   if (found.in_air == 0) return std::move(found.points);
   const std::string why =
-      text("no surface below within ", shortest(kOnSurface * rays.scene().bounds.diagonal_m()), " m, which ",
-           records, " need");
+      text("no surface below within ", shortest(within_m), " m, which ", records, " need");
   if (found.points.empty())
     throw Error(ExitCode::bad_input, path,
                 text("none of its ", points.size(), " points has a record: there is ", why,

@@ -45,17 +45,18 @@ bool of_photons_alone(const RecordOptions& records) {
   return records.estimate == Estimate::hull || records.estimate == Estimate::kernel;
 }
 
-void RecordOptions::resolve(float diagonal_m) {
-  const double size = diagonal_m > 0 && std::isfinite(diagonal_m) ? static_cast<double>(diagonal_m) : 1;
-  if (!min_radius_m) min_radius_m = std::min(size / 100, max_radius_m.value_or(HUGE_VAL));
+void RecordOptions::resolve(TypicalDistance typical) {
+  const auto known = [](float m) { return m > 0 && std::isfinite(m) ? static_cast<double>(m) : 0.25; };
+  const double least = known(typical.least_m), most = known(typical.most_m);
+  if (!min_radius_m) min_radius_m = std::min(least / 25, max_radius_m.value_or(HUGE_VAL));
   if (!max_radius_m)
-    max_radius_m = std::max(size / (footprint == Footprint::adaptive ? 8 : 4), *min_radius_m);
+    max_radius_m = std::max(most / (footprint == Footprint::adaptive ? 2 : 1), *min_radius_m);
   if (*min_radius_m > *max_radius_m) {
     throw Error(
         ExitCode::usage, "--min-radius",
         text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
   }
-  source_max_radius_m = std::min(*max_radius_m, std::max(size / 16, *min_radius_m));
+  source_max_radius_m = std::min(*max_radius_m, std::max(most / 4, *min_radius_m));
   if (gather_bounces == 0) {
     throw Error(ExitCode::usage, "--gather-bounces",
                 "0 leaves no indirect light; give 1 for surfaces lit by lamps alone, or -1 for all");
@@ -85,12 +86,15 @@ void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "error allowed in interpolation: a record serves points within A times its radius",
                  {1e-3, 1, false});
-  options.number("min-radius", r.min_radius_m, "METRES", "smallest radius (default: scene diagonal / 100)",
-                 kPositive);
+  options.number(
+      "min-radius", r.min_radius_m, "METRES",
+      "smallest radius (default: a 25th of the typical distance, in the middle of what is lit or seen, to "
+      "what surrounds a place)",
+      kPositive);
   options.number(
       "max-radius", r.max_radius_m, "METRES",
-      "largest radius (default: scene diagonal / 4; of adaptive footprints / 8); coarse records that "
-      "rays read reach scene diagonal / 16 at most",
+      "largest radius (default: the typical distance; of adaptive footprints half of it); coarse records "
+      "that rays read reach a quarter of it at most",
       kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
                            "ray: a record serves a point only if the two can see each other");

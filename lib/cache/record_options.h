@@ -49,10 +49,17 @@ enum class RasterBorder {
   stretch,   ///< border pixels stand for what lies beyond them (thesis 4.4.1)
 };
 
+/// How far surroundings are where light and cameras are at work (cache/typical_distance.h), m.
+struct TypicalDistance {
+  float least_m, most_m;  ///< of several ways to say where that is
+  TypicalDistance(float least, float most) : least_m(least), most_m(most) {}
+  TypicalDistance(float only) : least_m(only), most_m(only) {}
+};
+
 struct RecordOptions {
   Estimate estimate = Estimate::hull;
   double accuracy = 0.2;                             ///< a: zone of influence = a x radius
-  std::optional<double> min_radius_m, max_radius_m;  ///< empty: resolve() sets them from the scene's size
+  std::optional<double> min_radius_m, max_radius_m;  ///< empty: resolve() sets them
   Quantity paths = Quantity::indirect;
   GradientMode gradients = GradientMode::automatic;
   RadiusRule radius = RadiusRule::harmonic;  ///< of gather and raster
@@ -73,7 +80,8 @@ struct RecordOptions {
       -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
   GatherFrom gather_from = GatherFrom::cache;
   double source_accuracy = 0.4;               ///< a of the coarse cache
-  std::optional<double> source_max_radius_m;  ///< resolve() sets it: max_radius_m, at most diagonal/16
+  std::optional<double> source_max_radius_m;  ///< resolve() sets it: max_radius_m, at most a quarter
+                                              ///< of the typical distance
   std::int64_t source_photons = 100;          ///< that a zone of the coarse cache should hold at least
   std::int64_t light_samples = 64;            ///< with paths = all: shadow rays to each area light
   std::int64_t raster_side = 64;              ///< pixels of the plane, each way
@@ -86,12 +94,13 @@ struct RecordOptions {
   /// of indirect light. No option: false only for records that gathered rays read where they land.
   bool images_apart = true;
 
-  /// Fills in absent radii: diagonal/100 and diagonal/4 (1/100 m and 1/4 m for a scene of no size; footprints
-  /// that follow surroundings do not know what comes into sight beside them: diagonal/8),
+  /// Fills in absent radii: from a 25th of the least typical distance (1/4 m unless it is positive and
+  /// finite) to all of the most (footprints that follow surroundings do not know what comes into sight beside
+  /// them: half),
   /// the estimator's own gradients, and the rule of the radius that a footprint stands for. Throws
   /// Error(usage) if the smaller radius exceeds the larger, or if the estimator has no such gradients or
   /// footprint.
-  void resolve(float diagonal_m);
+  void resolve(TypicalDistance typical);
 };
 
 /// All but those of --estimate raster.

@@ -11,6 +11,7 @@
 #include "cache/placement.h"
 #include "cache/radiance_cache.h"
 #include "cache/two_level.h"
+#include "cache/typical_distance.h"
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
@@ -94,7 +95,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   resolved.rays = options.rays;
   resolved.leak_test = options.leak_test;
   resolved.caustics_apart = caustics != nullptr;
-  resolved.resolve(rays.scene().bounds.diagonal_m());
+  resolved.resolve(typical_distance_m(rays, open));
   const std::unique_ptr<RecordTree> tree = caches.tree(rays.scene());
   GatherSource source;
   source.indirect = tree.get();

@@ -57,7 +57,8 @@ struct Pilot {
 };
 
 struct PilotOptions {
-  double seconds = 10;  ///< it may take, about
+  double seconds = 10;                   ///< it may take, about
+  std::optional<double> most_seconds{};  ///< it is given up once it took so long: PilotTooLong is thrown
   double error =
       0.02;  ///< that will be asked for; the references are made to tell half of it, time permitting
   std::uint64_t seed = 0;
@@ -65,6 +66,10 @@ struct PilotOptions {
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
 };
 
+/// A pilot took longer than PilotOptions::most_seconds.
+struct PilotTooLong {
+  double seconds;
+};
 /// Runs the pipeline twice each at four settings of photons and records and, with the last of them, six of
 /// the picture's samples (eight with gloss), at a size of at most kPilotPixels and for at most
 /// kPilotSensors sensors; counts records, and times two pictures (drawn small too, to see what finer pixels

@@ -66,6 +66,8 @@ std::string PilotRuns::name(const char* kind, std::size_t which) const {
 
 CommandRun PilotRuns::require(const Command& command) const {
   CommandRun run = runner_.require(command);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  if (seconds > options_.most_seconds.value_or(HUGE_VAL)) throw PilotTooLong{seconds};
   options_.say(text(shell_line(command), ": ", duration(run.wall_s)));
   return run;
 }

@@ -1,6 +1,7 @@
 // The runs of a pilot: files in a folder that goes with it, times, and what two of a kind tell.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
@@ -69,6 +70,7 @@ class PilotRuns {
   const PlanTask task_;
   PlanTask small_;
   PilotOptions options_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   CommandRunner runner_;
   ScratchFolder folder_;
   std::map<std::string, std::vector<Observation>> times_;

@@ -246,7 +246,7 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
     if (wide)
       plan.warnings.push_back(text("the pilot cannot be sure of ", percent(*goal.error),
                                    ": the prediction reaches up to ", percent(plan.chosen.error_high()),
-                                   "; phos-plan --run measures and corrects, a longer --pilot narrows it"));
+                                   "; phos-plan --run measures and corrects, longer --pilot-seconds narrows it"));
     if (goal.seconds && plan.chosen.seconds.value > *goal.seconds) {
       const Prediction other = within(task, pilot, front, *goal.seconds);
       throw Error(
@@ -264,7 +264,7 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
       plan.warnings.push_back(text("the pilot's references of the ", name, " tell no error below ",
                                    percent(*resolution), " from none, and ", percent(asked),
                                    goal.error ? " is asked for" : " is predicted",
-                                   "; a longer --pilot makes better ones"));
+                                   "; longer --pilot-seconds makes better ones"));
   for (const std::string& doubt : pilot.doubts) plan.warnings.push_back("no error is promised: " + doubt);
   for (const double other : kOtherErrors)
     plan.others.emplace_back(other, cheapest(task, pilot, front, other));

@@ -33,6 +33,7 @@ struct Prediction {
 };
 
 struct Plan {
+  bool predicted = true;  ///< false: settings alone, of no pilot
   Prediction chosen;
   std::vector<std::pair<double, std::optional<Prediction>>>
       others;  ///< the cheapest for other errors; none: out of reach

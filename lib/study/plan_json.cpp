@@ -21,7 +21,7 @@ Json json_of(const Prediction& p, const PlanTask& task) {
     if (task.gloss) settings[name_of(Knob::gloss_rays)] = p.knobs[at(Knob::gloss_rays)];
   }
   if (task.lux) settings[name_of(Knob::sensor_rays)] = p.knobs[at(Knob::sensor_rays)];
-  out["seconds"] = json_of(p.seconds);
+  if (p.seconds.value > 0) out["seconds"] = json_of(p.seconds);
   if (p.image) out["image_error"] = json_of(*p.image);
   if (p.lux) out["lux_error"] = json_of(*p.lux);
   return out;
@@ -51,10 +51,10 @@ Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, con
   Json warnings = Json::Array{};
   for (const std::string& w : plan.warnings) warnings.push_back(w);
   out["warnings"] = warnings;
-  out["promised"] = pilot.doubts.empty();
+  out["promised"] = plan.predicted && pilot.doubts.empty();
   Json& ran = out["pilot"];
   ran["seconds"] = pilot.seconds;
-  ran["time"] = pilot.time.to_json(plan.chosen.knobs);
+  if (plan.predicted) ran["time"] = pilot.time.to_json(plan.chosen.knobs);
   if (pilot.image_error) ran["image_error2"] = pilot.image_error->to_json(plan.chosen.knobs);
   if (pilot.lux_error) ran["lux_error2"] = pilot.lux_error->to_json(plan.chosen.knobs);
   if (pilot.image_resolution) ran["image_resolution"] = *pilot.image_resolution;

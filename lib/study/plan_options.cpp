@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "file/folder.h"
+#include "scene/find_portals.h"
+#include "scene/rays.h"
 
 namespace phos {
 
@@ -48,11 +50,12 @@ void declare_options(Options& options, PlanOptions& p) {
       {{"auto", PlanRecords::automatic}, {"gather", PlanRecords::gather}, {"hull", PlanRecords::hull}},
       "records by rays that read a coarse cache, or of the photons about them; auto: of photons where lamps "
       "light surfaces by mirrors, curved glass or sharp gloss so that rays would not find it");
-  options.number("pilot", p.pilot_s, "S",
-                 "time for the pilot, about: half of it goes into references, and what they cannot tell is "
-                 "not known; 0: 10, "
-                 "and up to 60 for an error below 6 %",
-                 kNotNegative);
+  options.number(
+      "pilot-seconds", p.pilot_s, "S",
+      "time for the pilot, about: half of it goes into references, and what they cannot tell is not known. "
+      "Without --run, a pilot that takes more than three times as long, and 20 s, is given up, and the plan "
+      "has the settings that are usual for the error. 0: no pilot, those settings at once",
+      kNotNegative);
   options.flag("sh", p.script, "print a shell script (this is usual)");
   options.flag("json", p.json, "print JSON");
   options.file("output,o", p.output, "where the plan goes (else stdout); with --run, the folder of all files",
@@ -83,13 +86,6 @@ double read_error(const std::string& word) {
   return value;
 }
 
-double pilot_seconds(const PlanOptions& p, const PlanGoal& goal) {
-  // s: the noise of references falls slowly, and nobody waits for ever.
-  constexpr double kUsual = 10, kOfError = 0.6, kMost = 60;
-  if (p.pilot_s > 0) return p.pilot_s;
-  return goal.error ? std::clamp(kOfError / *goal.error, kUsual, kMost) : kUsual;
-}
-
 PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   PlanGoal goal;
   if (options.given("error")) goal.error = read_error(p.error);
@@ -103,6 +99,9 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   if (p.run && (p.json || p.script))
     throw Error(ExitCode::usage, "--run",
                 "writes plan.sh and plan.json into its folder; leave out --sh and --json");
+  if (p.run && !(p.pilot_s > 0))
+    throw Error(ExitCode::usage, "--pilot-seconds",
+                "0 leaves nothing to correct a run by; leave out --run, or give some seconds");
   for (const char* name : {"reference-seconds", "rounds"})
     if (!p.run && options.given(name))
       throw Error(ExitCode::usage, text("--", name), "belongs to --run; leave it out");
@@ -159,6 +158,16 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
   if (grid.margin_m > 0) add(task.grid, "--margin", shortest(grid.margin_m));
   if (grid.up != Axis::y) add(task.grid, "--up", grid.up == Axis::x ? "x" : "z");
   return task;
+}
+
+void add_portals(PlanTask& task, const Scene& scene, Needs& needs) {
+  constexpr const char* kPortals = "portals";
+  if (!scene.environment || !scene.portal.empty()) return;
+  const std::size_t found = portals_about_rooms(RayScene(scene)).size();
+  if (found == 0)
+    return needs.unwanted.push_back({kPortals, "the light from outside comes by no opening of a room"});
+  needs.wanted.push_back({kPortals, text("light from outside comes by ", found, " openings of rooms")});
+  task.scene_words.insert(task.scene_words.end(), {"--portals", "auto"});
 }
 
 }  // namespace phos

@@ -20,7 +20,7 @@ struct PlanOptions {
   std::int64_t width = 0, height = 0;
   PlanDirect direct = PlanDirect::automatic;
   PlanRecords records = PlanRecords::automatic;
-  double pilot_s = 0, reference_s = 0;
+  double pilot_s = 10, reference_s = 0;
   std::int64_t rounds = 5;
   bool script = false, json = false, run = false;
   double usual_error = 0.05;  ///< that the pilot looks for where seconds are asked for
@@ -31,13 +31,14 @@ void declare_options(Options& options, PlanOptions& plan);
 /// %.
 double read_error(const std::string& word);
 
-/// That the pilot may take.
-double pilot_seconds(const PlanOptions& plan, const PlanGoal& goal);
-
 /// Throw Error(usage) for a goal that is none, and for what does not go together.
 PlanGoal goal_of(const Options& options, const PlanOptions& plan);
 /// Without the size of the picture, which is the scene's to say.
 PlanTask task_of(const Options& options, const PlanOptions& plan, const std::string& scene,
                  const SceneOptions& scene_options);
+
+/// Has every stage look for openings (--portals auto) where sky, sun or map shine into rooms and no portals
+/// are given; says so in `needs`.
+void add_portals(PlanTask& task, const Scene& scene, Needs& needs);
 
 }  // namespace phos

@@ -135,9 +135,11 @@ std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& p
   std::string out = "#!/usr/bin/env bash\n";
   out += comment(text("Asked for: ", goal_line(task, goal)), "  ");
   const bool promised = pilot.doubts.empty();
-  out += comment(text(promised ? "Predicted: " : "Not promised, only guessed: ", prediction_line(plan.chosen),
-                      promised ? ", 9 of 10 times" : "", ", with as many threads on this machine"),
-                 "  ");
+  if (plan.predicted)
+    out +=
+        comment(text(promised ? "Predicted: " : "Not promised, only guessed: ", prediction_line(plan.chosen),
+                     promised ? ", 9 of 10 times" : "", ", with as many threads on this machine"),
+                "  ");
   if (!measured.empty()) out += comment("Measured: " + measured, "  ");
   if (pilot.image_error)
     out += comment("  the image's error comes from " + largest_parts(*pilot.image_error, plan.chosen.knobs),
@@ -150,8 +152,7 @@ std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& p
   for (const Requirement& r : needs.wanted) out += comment(text("  ", r.what, ": ", r.why), "    ");
   out += "# and not\n";
   for (const Requirement& r : needs.unwanted) out += comment(text("  ", r.what, ": ", r.why), "    ");
-  out += "#\n# Time for other errors\n";
-  out += alternatives(plan);
+  if (plan.predicted) out += "#\n# Time for other errors\n" + alternatives(plan);
   out += "#\n";
   out += comment("Usage: give a folder for the files; phos programs must be on PATH");
   out += text("set -euo pipefail\nout=${1:-plan}\nscene=", shell_word(task.scene), "\nmkdir -p \"$out\"\n");

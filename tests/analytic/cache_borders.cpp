@@ -19,7 +19,7 @@ RecordOptions fixed_zones(const Scene& scene) {
   options.accuracy = 0.2, options.max_radius_m = static_cast<double>(kZone_m) / options.accuracy;
   options.min_radius_m = *options.max_radius_m / 10;
   options.min_photons = 1, options.max_photons = 10'000'000;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

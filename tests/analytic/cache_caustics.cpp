@@ -61,7 +61,7 @@ TEST(Caustics, AreNotInRecordsBesidesThem) {
   for (const bool apart : {false, true}) {
     RecordOptions options;
     options.caustics_apart = apart;
-    options.resolve(of.box.scene.bounds.diagonal_m());
+    options.resolve(of.box.scene.bounds.diagonal_m() / 4);
     const RecordMaker hull(of.lit.photons, *of.lit.rays, options, 1);
     options.estimate = Estimate::gather;
     const GatherEstimator gather(*of.lit.rays, lights, {}, options, 1);
@@ -98,7 +98,7 @@ TEST(Caustics, LampsSeenByMirrorsCountOnce) {
   const CausticLight light(*lit.rays, std::make_shared<CausticMap>(caustics_of(lit.photons)), kPhotons);
   RecordOptions options;
   options.estimate = Estimate::gather, options.rays = 4096, options.gather_bounces = 1;
-  options.resolve(box.scene.bounds.diagonal_m());
+  options.resolve(box.scene.bounds.diagonal_m() / 4);
   const GatherEstimator all(*lit.rays, lights, {}, options, 1);
   options.caustics_apart = true;
   const GatherEstimator none(*lit.rays, lights, {}, options, 1);

@@ -34,7 +34,7 @@ Closure closure(int runs, const std::function<double(std::uint64_t seed)>& absor
 double by_hull(const Scene& room, const Scene& transport, std::uint64_t seed) {
   const test::Lit lit = test::light_up(transport, kPaths, seed);
   RecordOptions options;
-  options.resolve(room.bounds.diagonal_m());
+  options.resolve(room.bounds.diagonal_m() / 4);
   const RecordMaker irradiance(lit.photons, *lit.rays, options, seed);
   const RadianceDensityEstimator radiance(lit.photons, *lit.rays, options, kOrder, RadianceGradient::none,
                                           seed);

@@ -133,7 +133,7 @@ TEST(Furnace, AllBouncesFromPhotons) {
   const test::AnalyticScene s = test::furnace(0.5f);
   const test::Lit lit = test::light_up(s.scene, 100000);
   RecordOptions coarse;
-  coarse.resolve(s.scene.bounds.diagonal_m());
+  coarse.resolve(s.scene.bounds.diagonal_m() / 4);
   const RecordMaker photons(lit.photons, *lit.rays, coarse, 1);
   IrradianceCache cache;
   cache.accuracy = coarse.accuracy;

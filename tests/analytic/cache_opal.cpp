@@ -54,7 +54,7 @@ TEST(Opal, PhotonsPass) {
   const OpalUnderALamp opal;
   const Lit lit = light_up(opal.scene, 2'000'000, 1);
   RecordOptions options;
-  options.resolve(opal.scene.bounds.diagonal_m());
+  options.resolve(opal.scene.bounds.diagonal_m() / 4);
   options.max_radius_m = 0.2;
   const RecordMaker maker(lit.photons, *lit.rays, options, 1);
   for (const float x : {0.f, 0.5f}) {

@@ -43,7 +43,7 @@ struct Placed {
 Placed place_everywhere(const RayScene& rays, double min_radius_m) {
   RecordOptions options;
   options.min_radius_m = min_radius_m;
-  options.resolve(rays.scene().bounds.diagonal_m());
+  options.resolve(rays.scene().bounds.diagonal_m() / 4);
   Placed placed;
   placed.cache.accuracy = options.accuracy;
   Counters counters;

@@ -110,7 +110,7 @@ TEST(PhotonProjector, GradientsEqualFiniteDifferences) {
 
 RecordOptions resolved(const Scene& scene) {
   RecordOptions options;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

@@ -36,7 +36,7 @@ struct Ground {
     options.estimate = Estimate::gather;
     options.gather_bounces = 1;
     options.rays = kRays;
-    options.resolve(scene.bounds.diagonal_m());
+    options.resolve(scene.bounds.diagonal_m() / 4);
     return options;
   }
 

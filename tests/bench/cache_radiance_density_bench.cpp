@@ -15,7 +15,7 @@ struct Ground {
   std::vector<RecordSite> sites;
   Ground() {
     options.min_photons = options.max_photons = 1000;
-    options.resolve(lit.scene->bounds.diagonal_m());
+    options.resolve(lit.scene->bounds.diagonal_m() / 4);
     for (std::uint64_t i = 0; sites.size() < 16; ++i) {
       RandomStream random(1, Stage::test, i);
       SurfacePoint point;

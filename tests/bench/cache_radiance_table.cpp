@@ -32,7 +32,7 @@ struct Ground {
   GlossTables tables{scene, {}, GlossBy::automatic, {}, counters};
   RadianceOptions options = [&] {
     RadianceOptions o;
-    o.records.resolve(scene.bounds.diagonal_m());
+    o.records.resolve(scene.bounds.diagonal_m() / 4);
     return o;
   }();
   CoarseLevel coarse{rays, lit.photons, options.records, 1};

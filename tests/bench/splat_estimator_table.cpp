@@ -133,7 +133,7 @@ RecordOptions options_of(const Method& method, const test::AnalyticScene& s) {
   options.paths = Quantity::all;
   // In open scenes nothing that reflects sees anything lit.
   options.gather_bounces = s.mean_irradiance_lx > 0 ? -1 : 1;
-  options.resolve(s.scene.bounds.diagonal_m());
+  options.resolve(s.scene.bounds.diagonal_m() / 4);
   return options;
 }
 

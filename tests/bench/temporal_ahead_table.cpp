@@ -91,7 +91,7 @@ void measure(const std::string& name, std::int64_t count, double share, std::int
   const std::int64_t frames = load_scene(path).frames;
   RecordOptions options;
   options.estimate = Estimate::gather, options.rays = kRays, options.gather_bounces = bounces;
-  options.resolve(load_scene(path).bounds.diagonal_m());
+  options.resolve(load_scene(path).bounds.diagonal_m() / 4);
   RecordOptions many = options;
   many.rays = kManyRays;
   for (std::int64_t k = 0; k < kFrames; ++k) {

@@ -20,7 +20,7 @@ using namespace phos;
 using namespace phos::test;
 
 const std::string kBox = data("cornell-empty.glb");
-const std::vector<std::string> kSmall{"--width", "32", "--height", "32", "--pilot", "0.5"};
+const std::vector<std::string> kSmall{"--width", "32", "--height", "32", "--pilot-seconds", "0.5"};
 
 std::vector<std::string> plan_of(std::vector<std::string> more, const std::string& scene = kBox) {
   std::vector<std::string> words{"plan", scene};
@@ -206,7 +206,7 @@ TEST(PlanTool, ARunEndsWhereNothingCanBeTold) {
 TEST(PlanTool, LuxOnAWorkplane) {
   const std::string folder = scratch("plan-lux");
   std::vector<std::string> words{"plan",   kBox,   "--error",     "15%", "--quantity", "lux",
-                                 "--grid", "0.15", "--workplane", "0.1", "--pilot",    "0.5"};
+                                 "--grid", "0.15", "--workplane", "0.1", "--pilot-seconds",    "0.5"};
   const auto plan = run_tool(words);
   ASSERT_EQ(plan.code, 0) << plan.err;
   EXPECT_EQ(plan.out.find("phos-splat"), std::string::npos) << plan.out;

@@ -21,7 +21,7 @@ struct Floor {
   IrradianceRecord record(const PhotonMap& map, const Vec3& p, Estimate estimate, const Vec3& n = {0, 1, 0}) {
     RecordOptions options;
     options.estimate = estimate, options.paths = Quantity::all;
-    options.resolve(scene.scene.bounds.diagonal_m());
+    options.resolve(scene.scene.bounds.diagonal_m() / 4);
     const RecordMaker maker(map, rays, options, 1);
     const auto worker = maker.make_worker();
     const IrradianceRecord r = maker.make({p, n, 0}, *worker).record;
@@ -133,7 +133,7 @@ TEST(Degenerate, ZonesSplitByAWall) {
   const double even = 40000 / 64.0;
   RecordOptions options;
   options.paths = Quantity::all;
-  options.resolve(s.scene.bounds.diagonal_m());
+  options.resolve(s.scene.bounds.diagonal_m() / 4);
   const RecordMaker maker(map, rays, options, 1);
   double leak = 0, least = 1;
   for (const float x : {1.f, 0.3f, 0.1f, 0.03f, 0.01f, 1e-3f, 1e-4f, 1e-5f}) {

@@ -69,7 +69,7 @@ class ByHand : public ::testing::Test {
 
   IrradianceCache place(const PhotonMap& map, std::span<const SurfaceSample> points = {}) {
     RecordOptions options;
-    options.resolve(scene_.scene.bounds.diagonal_m());
+    options.resolve(scene_.scene.bounds.diagonal_m() / 4);
     IrradianceCache cache;
     cache.accuracy = options.accuracy;
     points.empty() ? test::place_at_photons(cache, map, rays_, options, {}, 1, counters_)

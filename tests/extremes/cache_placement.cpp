@@ -19,7 +19,7 @@ Placed place_in(const RayScene& rays, PlacementOptions placement, double min_rad
                 const PlacementSource& source = {}) {
   RecordOptions options;
   options.min_radius_m = min_radius_m;
-  options.resolve(rays.scene().bounds.diagonal_m());
+  options.resolve(rays.scene().bounds.diagonal_m() / 4);
   resolve(placement, rays.scene(), source, options.accuracy);
   Placed placed;
   placed.cache.accuracy = options.accuracy;

@@ -24,7 +24,7 @@ class DensityZones : public ::testing::Test {
 
   RadianceRecord record(const PhotonMap& map, const RecordSite& site = {Vec3(0), {0, 1, 0}, 0}) {
     RecordOptions options;
-    options.resolve(scene_.scene.bounds.diagonal_m());
+    options.resolve(scene_.scene.bounds.diagonal_m() / 4);
     const RadianceDensityEstimator estimator(map, rays_, options, kOrder, RadianceGradient::analytic, 1);
     const auto worker = estimator.make_worker();
     const Made made = estimator.make(site, *worker);
@@ -112,7 +112,7 @@ TEST_F(DensityZones, GrazingPhotonsWeighNoMoreThanOthers) {
 RadianceRecord in_box(const Scene& scene, const Vec3& p, const Vec3& n) {
   const test::Lit lit = test::light_up(scene, 20'000);
   RecordOptions options;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   const RadianceDensityEstimator estimator(lit.photons, *lit.rays, options, kOrder,
                                            RadianceGradient::analytic, 1);
   const auto worker = estimator.make_worker();
@@ -160,7 +160,7 @@ TEST(RadianceDensity, LightOfAnyStrength) {
 TEST(RadianceDensity, SameForAnyThreads) {
   const test::Lit lit = test::light_up(test::uniform_box(0.5f).scene, 20'000);
   RecordOptions options;
-  options.resolve(lit.scene->bounds.diagonal_m());
+  options.resolve(lit.scene->bounds.diagonal_m() / 4);
   const RadianceDensityEstimator estimator(lit.photons, *lit.rays, options, 6, RadianceGradient::analytic, 1);
   constexpr std::size_t kSites = 40;
   const auto site = [](std::size_t i) {
@@ -184,7 +184,7 @@ TEST(RadianceDensity, SameForAnyThreads) {
 TEST(RadianceDensity, OrdersOutOfRangeAreRefused) {
   const test::Lit lit = test::light_up(test::uniform_box(0.5f).scene, 100);
   RecordOptions options;
-  options.resolve(lit.scene->bounds.diagonal_m());
+  options.resolve(lit.scene->bounds.diagonal_m() / 4);
   for (const int order : {0, -1, 31}) {
     EXPECT_THROW(RadianceDensityEstimator(lit.photons, *lit.rays, options, order, RadianceGradient::none, 1),
                  Error);

@@ -28,7 +28,7 @@ EstimateOf by_photons(Estimate estimate, std::int64_t paths, Kernel kernel = Ker
     const Lit lit = light_up(s.scene, paths);
     RecordOptions options;
     options.paths = Quantity::all, options.estimate = estimate, options.kernel = kernel;
-    options.resolve(s.scene.bounds.diagonal_m());
+    options.resolve(s.scene.bounds.diagonal_m() / 4);
     return at_checks(s, RecordMaker(lit.photons, *lit.rays, options, 1));
   };
 }

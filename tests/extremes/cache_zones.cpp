@@ -53,7 +53,7 @@ class Zones : public ::testing::TestWithParam<Estimate> {
 
   IrradianceRecord record_of(const PhotonMap& map, const RecordSite& site, RecordOptions options = {}) {
     options.estimate = GetParam();
-    options.resolve(scene_.scene.bounds.diagonal_m());
+    options.resolve(scene_.scene.bounds.diagonal_m() / 4);
     const RecordMaker maker(map, rays_, options, 1);
     const auto worker = maker.make_worker();
     const Made made = maker.make(site, *worker);

@@ -30,8 +30,8 @@ FilmJob job_of(const std::string& path, FrameScenes& scenes, Estimate estimate, 
   RecordOptions& records = job.light.records;
   records.estimate = estimate;
   records.rays = 64, records.accuracy = 0.5;
-  records.resolve(first.bounds.diagonal_m());
-  job.light.radiance.records.resolve(first.bounds.diagonal_m());
+  records.resolve(first.bounds.diagonal_m() / 4);
+  job.light.radiance.records.resolve(first.bounds.diagonal_m() / 4);
   job.options.photons = 5000, job.light.photons.paths = job.options.photons;
   job.options.lives = lives, job.options.max_life = 4, job.options.source_life = 4,
   job.options.temporal_accuracy = 0.02;

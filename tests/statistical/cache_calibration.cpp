@@ -70,7 +70,7 @@ TEST(Gather, StatesTheErrorThatEvenPlacesOnLampsLeave) {
   const Luminaires lights(known.scene);
   RecordOptions options;
   options.estimate = Estimate::gather, options.paths = Quantity::indirect, options.gather_bounces = 1;
-  options.resolve(known.scene.bounds.diagonal_m());
+  options.resolve(known.scene.bounds.diagonal_m() / 4);
   for (const std::int64_t n : {64, 128, 256}) {
     options.rays = n;
     Calibration found;

@@ -24,7 +24,7 @@ class OwnPhoton : public ::testing::TestWithParam<std::int64_t> {
   OwnPhoton() : scene_(test::point_light_over_plane()), rays_(scene_.scene) {
     options_.max_radius_m = 1.4, options_.min_radius_m = 0.1;
     options_.paths = Quantity::indirect;
-    options_.resolve(scene_.scene.bounds.diagonal_m());
+    options_.resolve(scene_.scene.bounds.diagonal_m() / 4);
   }
 
   static Vec3 place(RandomStream& random, float half_m) {

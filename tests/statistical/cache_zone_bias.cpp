@@ -34,7 +34,7 @@ TEST_F(ZoneBias, ThePhotonThatDecidesTheRadiusDoesNotCount) {
   constexpr double kDensity = 100 / (std::numbers::pi * 0.25);
   constexpr float kReach_m = 0.9f;
   options_.near_photons = 32, options_.min_photons = 16, options_.max_photons = 100;
-  options_.resolve(scene_.scene.bounds.diagonal_m());
+  options_.resolve(scene_.scene.bounds.diagonal_m() / 4);
   for (const Estimate estimate : {Estimate::hull, Estimate::kernel}) {
     options_.estimate = estimate;
     double sum = 0, squares = 0;
@@ -59,7 +59,7 @@ TEST_F(ZoneBias, ThePhotonThatDecidesTheRadiusDoesNotCount) {
 /// the light in the middle, to the fourth order of the zone's radius. Without curvature's own curvature it
 /// would be 0.12 to 0.19 % off. Even light tells how much area the photons have.
 TEST_F(ZoneBias, CurvatureIsRightToTheFourthOrder) {
-  options_.resolve(scene_.scene.bounds.diagonal_m());
+  options_.resolve(scene_.scene.bounds.diagonal_m() / 4);
   const Vec3 lamp(0, 2, 0);
   for (const auto& [x_m, radius_m] : {std::pair{0.f, 0.4f}, {1.5f, 0.56f}, {2.5f, 0.8f}, {2.8f, 0.9f}}) {
     const Vec3 p(x_m, 0, 0);
@@ -98,7 +98,7 @@ TEST_F(ZoneBias, EvenLightIsEvenBesideWalls) {
   const Vec3 size = furnace.scene.bounds.hi - furnace.scene.bounds.lo;
   RecordOptions fine;
   fine.estimate = Estimate::gather, fine.paths = Quantity::all;
-  fine.resolve(furnace.scene.bounds.diagonal_m());
+  fine.resolve(furnace.scene.bounds.diagonal_m() / 4);
   const RecordOptions coarse = coarse_options(fine);
   double sum = 0, squares = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
@@ -155,7 +155,7 @@ TEST(NarrowPlaces, AreGatheredRightWhateverZonesOfPhotonsSay) {
   const Luminaires lights(scene);
   RecordOptions options;
   options.estimate = Estimate::gather, options.paths = Quantity::indirect, options.rays = 4096;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   const struct {
     Vec3 place;
     double lx;

@@ -187,7 +187,7 @@ class CalibratedScene {
   RecordOptions of_photons(Quantity quantity) const {
     RecordOptions options;
     options.paths = quantity;
-    options.resolve(known_.scene.bounds.diagonal_m());
+    options.resolve(known_.scene.bounds.diagonal_m() / 4);
     return options;
   }
 
@@ -230,7 +230,7 @@ class CalibratedScene {
     RecordOptions options;
     options.estimate = Estimate::gather, options.paths = paths;
     options.rays = options_.rays;
-    options.resolve(known_.scene.bounds.diagonal_m());
+    options.resolve(known_.scene.bounds.diagonal_m() / 4);
     return options;
   }
 

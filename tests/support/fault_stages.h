@@ -73,7 +73,7 @@ inline std::vector<FaultStage> fault_stages(const std::string& folder) {
                  {"compare", in("picture1.exr"), in("picture2.exr"), "--quiet", "--difference", "OUT"},
                  in("picture2.exr"),
                  "o.png"});
-  all.push_back(stage({"plan", in("box.glb"), "--error", "50%", "--width", "24", "--pilot", "1"},
+  all.push_back(stage({"plan", in("box.glb"), "--error", "50%", "--width", "24", "--pilot-seconds", "1"},
                       in("box.glb"), "plan.sh"));
   all.back().same_bytes = false;
   all.push_back(stage({"study", in("toy.toml")}, in("box.glb"), "study"));

@@ -25,7 +25,7 @@ inline RecordOptions gather_options(const Scene& scene, Quantity paths, std::int
   options.paths = paths;
   options.gather_bounces = bounces;
   options.rays = rays;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

@@ -53,7 +53,7 @@ class CalibratedPicture {
   IrradianceCache records(const Lit& lit, Estimate estimate, std::uint64_t seed) const {
     RecordOptions options;
     options.estimate = estimate, options.paths = Quantity::indirect, options.rays = options_.rays;
-    options.resolve(known_.scene.bounds.diagonal_m());
+    options.resolve(known_.scene.bounds.diagonal_m() / 4);
     IrradianceCache cache;
     cache.accuracy = options.accuracy, cache.quantity = "indirect";
     if (!known_.interreflected) return cache;

@@ -14,7 +14,7 @@ inline RecordOptions raster_options(const Scene& scene, Estimate estimate,
   options.raster_border = border;
   options.gather_bounces = 1;
   options.rays = 8192;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

@@ -32,7 +32,7 @@ inline Lit light_up(const Scene& scene, std::int64_t paths, std::uint64_t seed =
 inline RecordOptions all_light(const Scene& scene) {
   RecordOptions options;
   options.paths = Quantity::all;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

@@ -147,7 +147,7 @@ TEST(RecordOptions, ReachAsFarAsTheirKindMay) {
       RecordOptions options;
       options.estimate = Estimate::gather, options.footprint = footprint;
       options.min_radius_m = least, options.max_radius_m = most;
-      options.resolve(static_cast<float>(size));
+      options.resolve(static_cast<float>(size) / 4);
       return options;
     };
     const RecordOptions circle = resolved(Footprint::circle, {}, {}),
@@ -241,7 +241,7 @@ TEST(Gather, BrightPlacesMayHaveNearerNeighbours) {
   const Luminaires lights(s.scene);
   RecordOptions options;
   options.estimate = Estimate::gather;
-  options.resolve(s.scene.bounds.diagonal_m());
+  options.resolve(s.scene.bounds.diagonal_m() / 4);
   RecordSite site{s.checks[0].position, s.checks[0].normal};
   site.least_radius_m = 3;
   const auto share = [&](float lux, double usual_lx) {

@@ -14,7 +14,7 @@ namespace {
 class Parts : public ::testing::Test {
  protected:
   Parts() : scene_(test::furnace(0.5f).scene), rays_(scene_), estimator_(rays_) {
-    options_.resolve(scene_.bounds.diagonal_m());
+    options_.resolve(scene_.bounds.diagonal_m() / 4);
     folder_ = test::scratch("cache_parts");
     for (std::size_t i = 0; i < 200; ++i) {
       RandomStream random(3, Stage::test, i);

@@ -22,7 +22,7 @@ namespace {
 RecordOptions resolved_for(const Scene& scene) {
   RecordOptions options;
   options.min_radius_m = static_cast<double>(scene.bounds.diagonal_m()) / 20;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

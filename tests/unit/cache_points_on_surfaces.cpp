@@ -27,7 +27,7 @@ TEST(PointsOnSurfaces, StayAreMovedOrAreLeftOut) {
       {{1, 0, 1}, up},         {{1, 3, 1}, -up},
       {{3, 1, 1}, {-1, 0, 0}}, {{3, 1, 1}, up},
       {{0.2f, 90, 0.1f}, up},  {{1, -3, 1}, glm::normalize(Vec3(0.4f, 1, 0))}};
-  const PointsOnSurfaces found = put_on_surfaces(rays, points);
+  const PointsOnSurfaces found = put_on_surfaces(rays, points, 1e-3f * room.scene.bounds.diagonal_m());
   EXPECT_EQ(found.in_air, 4u);
   EXPECT_EQ(found.moved, 2u);
   ASSERT_EQ(found.points.size(), 6u);
@@ -51,7 +51,7 @@ TEST(PointsOnSurfaces, EveryPointOfATracedSurfaceStaysAsItIs) {
     ASSERT_TRUE(trace(rays, ray, point));
     points.push_back({point.position, point.normal});
   }
-  const PointsOnSurfaces found = put_on_surfaces(rays, points);
+  const PointsOnSurfaces found = put_on_surfaces(rays, points, 1e-3f * room.scene.bounds.diagonal_m());
   EXPECT_EQ(found.in_air, 0u);
   EXPECT_EQ(found.moved, 0u);
 }

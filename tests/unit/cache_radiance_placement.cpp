@@ -27,7 +27,7 @@ struct Studio {
   RecordOptions options = [&] {
     RecordOptions o;
     o.min_radius_m = static_cast<double>(parlour.scene.bounds.diagonal_m()) / 20;  // few records
-    o.resolve(parlour.scene.bounds.diagonal_m());
+    o.resolve(parlour.scene.bounds.diagonal_m() / 4);
     return o;
   }();
   std::vector<RadianceRun> runs;

@@ -73,7 +73,7 @@ RecordOptions raster_options(const Scene& scene, std::int64_t side) {
   options.estimate = Estimate::raster;
   options.raster_side = side;
   options.gather_bounces = 1;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   return options;
 }
 

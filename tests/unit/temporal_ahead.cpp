@@ -170,7 +170,7 @@ TEST(Ahead, OfRadianceRecords) {
 TEST(Ahead, OfPhotons) {
   const Room room(Mover::floor);
   RecordOptions options;
-  options.resolve(room.scene[0].bounds.diagonal_m());
+  options.resolve(room.scene[0].bounds.diagonal_m() / 4);
   Counters counters;
   const auto photons_of = [&](const RayScene& rays) {
     PhotonOptions few;

@@ -34,7 +34,7 @@ TEST(FilmPlaces, ZonesThatShrinkLeaveNoHoles) {
   const Scene& first = scenes.at(0)->scene;
   RecordOptions& records = job.light.records;
   records.estimate = Estimate::gather, records.rays = 64, records.gather_bounces = 1;
-  records.resolve(first.bounds.diagonal_m());
+  records.resolve(first.bounds.diagonal_m() / 4);
   job.placement.place = Place::view, job.placement.width = job.placement.height = 24;
   job.placement.min_radius_pixels = 0;
   resolve_film_places(job.placement, first, records.accuracy);
