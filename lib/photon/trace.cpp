@@ -362,52 +362,28 @@ void join(Part& part, PhotonTotals& totals, Counters& counters, std::vector<Ray>
   if (log) log->insert(log->end(), part.rays.begin(), part.rays.end());
 }
 
-/// The same vector of every part behind the end of `all`'s; the parts keep their memory for the next wave.
-template <class T>
-void join_column(std::vector<T> Photons::*column, std::span<Part> parts, Photons& all,
-                 std::size_t expected_rows) {
-  std::vector<T>& joined = all.*column;
-  std::size_t rows = joined.size();
-  for (const Part& part : parts) rows += (part.photons.*column).size();
-  if (rows > joined.capacity()) joined.reserve(std::max(rows, expected_rows));
+/// Puts the parts' photons behind all others; the parts keep their memory for the next wave.
+void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows) {
+  std::vector<std::size_t> first{all.size()};
+  for (const Part& part : parts) first.push_back(first.back() + part.photons.size());
+  for_columns(
+      [&](auto& column) {
+        if (first.back() > column.capacity()) column.reserve(std::max(first.back(), expected_rows));
+        column.resize(first.back());
+      },
+      all);
+  parallel_for(parts.size(), 1, [&](std::size_t i) {
+    for_columns(
+        [&](auto& column, auto& own) {
+          std::copy(own.begin(), own.end(), column.begin() + static_cast<std::ptrdiff_t>(first[i]));
+          own.clear();
+        },
+        all, parts[i].photons);
+  });
   for (Part& part : parts) {
-    std::vector<T>& own = part.photons.*column;
-    joined.insert(joined.end(), own.begin(), own.end());
-    own.clear();
-  }
-}
-
-void join_flights(std::span<Part> parts, Flights& all) {
-  for (Part& part : parts) {
-    append(all, columns_of(part.photons.flights));
+    append(all.flights, columns_of(part.photons.flights));
     part.photons.flights = {};
   }
-}
-
-void join_photons(std::span<Part> parts, Photons& all, std::size_t expected_rows) {
-  const auto join_number = [&](std::size_t column) {
-    switch (column) {
-      case 0:
-        return join_column(&Photons::position, parts, all, expected_rows);
-      case 1:
-        return join_column(&Photons::flux, parts, all, expected_rows);
-      case 2:
-        return join_column(&Photons::direction, parts, all, expected_rows);
-      case 3:
-        return join_column(&Photons::normal, parts, all, expected_rows);
-      case 4:
-        return join_column(&Photons::source_normal, parts, all, expected_rows);
-      case 5:
-        return join_column(&Photons::distance, parts, all, expected_rows);
-      case 6:
-        return join_column(&Photons::path, parts, all, expected_rows);
-      case 7:
-        return join_flights(parts, all.flights);
-      default:
-        return join_column(&Photons::bounce, parts, all, expected_rows);
-    }
-  };
-  parallel_for(9, 1, join_number);
 }
 
 /// How many rows all paths will give, by those that are done, and a little more.
