@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
+
+#include "core/column.h"
 
 namespace phos {
 
@@ -41,16 +44,43 @@ T parallel_reduce(std::size_t n, std::size_t chunk, T total, const Make& make, c
   return total;
 }
 
-/// Sorts by operator<; equal items, which must then be the same, in any order. Holds up to twice the items.
+/// Of two sorted runs: how many of the first are among the least `k` of both.
 template <class T>
-void parallel_sort(std::vector<T>& items, std::size_t chunk) {
-  const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
-  parallel_chunks(items.size(), chunk,
-                  [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end)); });
-  for (std::size_t run = chunk; run < items.size(); run *= 2)
-    parallel_chunks(items.size(), 2 * run, [&](std::size_t begin, std::size_t end) {
-      std::inplace_merge(at(begin), at(std::min(begin + run, end)), at(end));
+std::size_t of_first_run(std::span<const T> first, std::span<const T> second, std::size_t k) {
+  std::size_t least = k > second.size() ? k - second.size() : 0, most = std::min(k, first.size());
+  while (least < most) {
+    const std::size_t middle = (least + most) / 2;
+    if (second[k - middle - 1] < first[middle])
+      most = middle;
+    else
+      least = middle + 1;
+  }
+  return least;
+}
+
+/// Sorts by operator<; equal items, which must then be the same, in any order. Holds twice the items.
+template <class T>
+void parallel_sort(Column<T>& items, std::size_t chunk) {
+  const std::size_t n = items.size();
+  parallel_chunks(n, chunk, [&](std::size_t begin, std::size_t end) {
+    std::sort(items.data() + begin, items.data() + end);
+  });
+  Column<T> merged(n > chunk ? n : 0);
+  for (std::size_t run = chunk; run < n; run *= 2) {
+    // Each chunk of what is merged finds out what of the two runs goes into it.
+    parallel_chunks(n, chunk, [&](std::size_t begin, std::size_t end) {
+      const std::size_t from = begin / (2 * run) * (2 * run), middle = std::min(n, from + run);
+      const std::span<const T> first(items.data() + from, middle - from);
+      const std::span<const T> second(items.data() + middle, std::min(n, middle + run) - middle);
+      const std::size_t a = of_first_run(first, second, begin - from);
+      const std::size_t b = of_first_run(first, second, end - from);
+      std::merge(first.begin() + static_cast<std::ptrdiff_t>(a),
+                 first.begin() + static_cast<std::ptrdiff_t>(b),
+                 second.begin() + static_cast<std::ptrdiff_t>(begin - from - a),
+                 second.begin() + static_cast<std::ptrdiff_t>(end - from - b), merged.data() + begin);
     });
+    items.swap(merged);
+  }
 }
 
 }  // namespace phos

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
 #include "file/layout.h"
@@ -192,10 +193,13 @@ void ContainerWriter::write(const std::string& path, const Provenance& provenanc
   Metadata metadata = to_metadata(provenance);
   std::map<std::string, std::string> checksums;
   Json units(Json::Object{});
+  std::vector<std::pair<const Tensor*, std::string*>> unknown;
   for (const auto& [name, tensor] : tensors_) {
-    checksums[name] = hash_bytes(tensor.bytes).hex();
+    unknown.emplace_back(&tensor, &checksums[name]);
     units[name] = tensor.unit;
   }
+  parallel_for(unknown.size(), 1,
+               [&](std::size_t i) { *unknown[i].second = hash_bytes(unknown[i].first->bytes).hex(); });
   metadata[kUnits] = units.dump();
   checksums[kHeaderChecksum] = header_checksum(metadata, tensors_, checksums);
   Json all(Json::Object{});

@@ -3,15 +3,15 @@
 #include <cstdio>
 #include <flann/flann.hpp>
 #include <limits>
-#include <new>
-#include <utility>
+#include <mutex>
+#include <optional>
 
 #include "core/error.h"
-#include "core/float_traps.h"
-#include "core/interrupt.h"
 #include "core/parallel.h"
+#include "photon/flann_compress.h"
 #include "photon/flann_stream.h"
 #include "photon/kd_tree_check.h"
+#include "photon/tree_build.h"
 
 namespace phos {
 namespace {
@@ -70,31 +70,77 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-/// What FLANN writes to a file, kept in memory. (open_memstream tells nobody of writes that it had no memory
-/// for.)
-struct Written {
-  std::vector<std::byte> bytes;
-  bool all = true;
+flann::IndexHeader header_of(std::size_t points) {
+  flann::IndexHeader header;
+  header.h.data_type = flann::flann_datatype_value<float>::value;
+  header.h.index_type = flann::FLANN_INDEX_KDTREE_SINGLE;
+  header.h.rows = points, header.h.cols = 3;
+  header.h.compression = 1;
+  return header;
+}
 
-  static ssize_t write(void* written, const char* data, std::size_t size) {
-    auto& [bytes, all] = *static_cast<Written*>(written);
-    const auto more = std::as_bytes(std::span(data, size));
-    try {
-      bytes.insert(bytes.end(), more.begin(), more.end());
-    } catch (const std::bad_alloc&) {
-      all = false;
-      return 0;
-    }
-    return static_cast<ssize_t>(size);
+/// What FLANN saves of an index, header too, not compressed; and loads.
+class Contents : public flann::serialization::OutputArchive<Contents> {
+ public:
+  std::vector<std::byte> bytes;
+
+  template <class T>
+  void save(const T& value) {
+    const auto more = std::as_bytes(std::span(&value, 1));
+    bytes.insert(bytes.end(), more.begin(), more.end());
   }
+  template <class T>
+  void save(T* const&) {}
+  void save_binary(const void* data, std::size_t size) {
+    const auto* more = static_cast<const std::byte*>(data);
+    bytes.insert(bytes.end(), more, more + size);
+  }
+};
+
+class ContentsReader : public flann::serialization::InputArchive<ContentsReader> {
+ public:
+  ContentsReader(const flann::IndexHeader& header, std::span<const std::byte> contents)
+      : header_(std::as_bytes(std::span(&header, 1))), contents_(contents) {}
+
+  template <class T>
+  void load(T& value) {
+    std::span<const std::byte>& from = header_.empty() ? contents_ : header_;
+    PHOS_CHECK(sizeof value <= from.size(), "a tree's contents end too early");
+    std::memcpy(&value, from.data(), sizeof value);
+    from = from.subspan(sizeof value);
+  }
+  template <class T>
+  void load(T*&) {}
+  void load_binary(void*, std::size_t) { PHOS_CHECK(false, "a tree holds no points"); }
+
+ private:
+  std::span<const std::byte> header_, contents_;
 };
 
 }  // namespace
 
 struct KdTree::Impl {
-  explicit Impl(std::span<const Vec3> p) : points(p), tree(matrix(p), parameters()) {}
+  explicit Impl(std::span<const Vec3> p) : points(p) {}
+
+  /// FLANN's tree. One that is only built and saved never needs it.
+  Tree& tree() {
+    std::call_once(made, [this] {
+      index.emplace(matrix(points), parameters());
+      if (contents.empty()) return;
+      const flann::IndexHeader header = header_of(points.size());
+      ContentsReader reader(header, contents);
+      index->serialize(reader);
+      contents = {};
+    });
+    return *index;
+  }
+
   std::span<const Vec3> points;
-  Tree tree;
+  Column<std::byte> contents;  // of build_tree(), until FLANN has them
+
+ private:
+  std::once_flag made;
+  std::optional<Tree> index;
 };
 
 bool KdTree::in_range(const Vec3& p) {
@@ -121,9 +167,7 @@ KdTree KdTree::build(std::span<const Vec3> points) {
   if (points.empty()) return result;
   require_fit(points);
   result.impl_ = std::make_unique<Impl>(points);
-  const NoFloatTraps traps;  // FLANN divides by the spread of coincident points
-  const StopAtOnce stop;     // and does not look
-  result.impl_->tree.buildIndex();
+  result.impl_->contents = build_tree(points, kLeafSize);
   return result;
 }
 
@@ -155,7 +199,7 @@ KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> byt
   PHOS_CHECK(file != nullptr, "fmemopen of ", bytes.size(), " bytes");
   result.impl_ = std::make_unique<Impl>(points);
   try {
-    result.impl_->tree.loadIndex(file.get());
+    result.impl_->tree().loadIndex(file.get());
   } catch (const flann::FLANNException& e) {
     refuse(text("cannot be read (", e.what(), ")"));
   }
@@ -164,13 +208,12 @@ KdTree KdTree::load(std::span<const Vec3> points, std::span<const std::byte> byt
 
 std::vector<std::byte> KdTree::save() const {
   if (!impl_) return {};
-  Written written;
-  const File file(fopencookie(&written, "w",
-                              {.read = nullptr, .write = Written::write, .seek = nullptr, .close = nullptr}));
-  if (!file) throw std::bad_alloc();
-  impl_->tree.saveIndex(file.get());
-  if (std::fflush(file.get()) != 0 || !written.all) throw std::bad_alloc();
-  return std::move(written.bytes);
+  const flann::IndexHeader header = header_of(impl_->points.size());
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(&header, 1));
+  if (!impl_->contents.empty()) return compress_tree(bytes, impl_->contents);
+  Contents contents;
+  impl_->tree().serialize(contents);
+  return compress_tree(bytes, std::span(contents.bytes).subspan(sizeof header));
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {
@@ -179,7 +222,7 @@ void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>
   // FLANN keeps what is strictly nearer than the limit; one step up makes it inclusive.
   const float limit = std::nextafter(radius_m * radius_m, std::numeric_limits<float>::infinity());
   Rows result(std::fmax(limit, std::numeric_limits<float>::min()), rows);
-  impl_->tree.findNeighbors(result, &p.x, flann::SearchParams());
+  impl_->tree().findNeighbors(result, &p.x, flann::SearchParams());
 }
 
 void KdTree::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
@@ -187,7 +230,7 @@ void KdTree::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& r
   rows.clear(), distance2_m2.clear();
   if (!impl_ || k == 0 || !in_range(p)) return;
   flann::KNNResultSet2<float> result(std::min(k, impl_->points.size()));
-  impl_->tree.findNeighbors(result, &p.x, flann::SearchParams());
+  impl_->tree().findNeighbors(result, &p.x, flann::SearchParams());
   const std::size_t n = result.size();
   std::vector<std::size_t> index(n);
   rows.resize(n), distance2_m2.resize(n);

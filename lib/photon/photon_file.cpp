@@ -244,8 +244,14 @@ void add_totals(PhotonTotals& totals, const PhotonTotals& other) {
 
 Json bounds_to_json(std::span<const Vec3> position) {
   if (position.empty()) return {};
-  Bounds bounds;
-  for (const Vec3& p : position) bounds.include(p);
+  const auto bounds = parallel_reduce<Bounds>(
+      position.size(), 1 << 16, {},
+      [&](std::size_t begin, std::size_t end) {
+        Bounds part;
+        for (std::size_t i = begin; i < end; ++i) part.include(position[i]);
+        return part;
+      },
+      [](Bounds& all, const Bounds& part) { all.include(part.lo), all.include(part.hi); });
   Json j = Json::Object{};
   j["lo"] = rgb(bounds.lo);
   j["hi"] = rgb(bounds.hi);
@@ -253,10 +259,7 @@ Json bounds_to_json(std::span<const Vec3> position) {
 }
 
 void append(Photons& to, const Photons& from) {
-  const auto join = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
-  join(to.position, from.position), join(to.flux, from.flux), join(to.direction, from.direction);
-  join(to.normal, from.normal), join(to.source_normal, from.source_normal), join(to.distance, from.distance);
-  join(to.path, from.path), join(to.bounce, from.bounce);
+  for_columns([](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); }, to, from);
   append(to.flights, columns_of(from.flights));
 }
 

@@ -16,18 +16,21 @@ namespace {
 
 constexpr std::size_t kRowChunk = 1 << 14;
 
-// One column at a time, so that only one is held twice.
+// One column at a time by way of the same memory, so that only one is held twice.
 template <class T>
-void permute(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
-  std::vector<T> sorted(column.size());
+void permute(std::span<T> column, std::span<const std::uint32_t> order, std::span<std::byte> memory) {
+  const std::span<T> sorted(reinterpret_cast<T*>(memory.data()), column.size());
   parallel_for(order.size(), kRowChunk, [&](std::size_t i) { sorted[i] = column[order[i]]; });
-  column = std::move(sorted);
+  parallel_chunks(order.size(), kRowChunk, [&](std::size_t begin, std::size_t end) {
+    std::copy(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+              sorted.begin() + static_cast<std::ptrdiff_t>(end),
+              column.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
 }
 
-void permute(Photons& p, const std::vector<std::uint32_t>& order) {
-  permute(p.position, order), permute(p.flux, order), permute(p.direction, order), permute(p.normal, order);
-  permute(p.distance, order), permute(p.source_normal, order), permute(p.path, order),
-      permute(p.bounce, order);
+void permute(Photons& p, std::span<const std::uint32_t> order) {
+  Column<std::byte> memory(sizeof(Vec3) * order.size());
+  for_columns([&](auto& column) { permute(std::span(column), order, memory); }, p);
 }
 
 void require_equal_lengths(const Photons& p) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/column.h"
 #include "core/vector.h"
 #include "file/container.h"
 
@@ -38,19 +39,26 @@ struct Flights {
 
 /// Columns, one row per stored photon. Directions and normals are octahedral (core/vector.h).
 struct Photons {
-  std::vector<Vec3> position;            ///< m
-  std::vector<Rgb> flux;                 ///< lm
-  std::vector<std::uint32_t> direction;  ///< towards where it came from
-  std::vector<std::uint32_t> normal;     ///< smooth (SurfacePoint::smooth_normal), on the side it landed on
-  std::vector<float> distance;  ///< m, to the previous surface or light; infinity from a directional light
-  std::vector<std::uint32_t>
+  Column<Vec3> position;            ///< m
+  Column<Rgb> flux;                 ///< lm
+  Column<std::uint32_t> direction;  ///< towards where it came from
+  Column<std::uint32_t> normal;     ///< smooth (SurfacePoint::smooth_normal), on the side it landed on
+  Column<float> distance;  ///< m, to the previous surface or light; infinity from a directional light
+  Column<std::uint32_t>
       source_normal;  ///< geometric, of that surface or area light, on the side it left; the photon's own
                       ///< flight direction where there is none (point, spot, directional)
-  std::vector<std::uint8_t> path;    ///< PhotonPath
-  std::vector<std::uint8_t> bounce;  ///< reflections and transmissions since the light (255: or more)
-  Flights flights{};                 ///< in path order; none without mirrors and glass
+  Column<std::uint8_t> path;    ///< PhotonPath
+  Column<std::uint8_t> bounce;  ///< reflections and transmissions since the light (255: or more)
+  Flights flights{};            ///< in path order; none without mirrors and glass
   std::size_t size() const { return position.size(); }
 };
+
+/// Calls act(column...) with the same column of every argument, for each column of photons in turn.
+template <class Act, class... P>
+void for_columns(const Act& act, P&... photons) {
+  act(photons.position...), act(photons.flux...), act(photons.direction...), act(photons.normal...);
+  act(photons.distance...), act(photons.source_normal...), act(photons.path...), act(photons.bounce...);
+}
 
 /// Read-only columns of flights, wherever they lie.
 struct FlightColumns {

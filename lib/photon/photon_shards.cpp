@@ -43,11 +43,6 @@ std::vector<PhotonShard> open_photon_shards(const std::vector<std::string>& path
   return shards;
 }
 
-template <class T>
-void add(std::vector<T>& to, std::span<const T> from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
 }  // namespace
 
 void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
@@ -78,16 +73,13 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
   std::size_t rows = 0;
   for (const PhotonShard& s : shards) rows += s.columns.position.size();
   Photons& p = merged.photons;
-  p.position.reserve(rows), p.flux.reserve(rows), p.direction.reserve(rows), p.normal.reserve(rows);
-  p.distance.reserve(rows), p.source_normal.reserve(rows), p.path.reserve(rows), p.bounce.reserve(rows);
+  for_columns([&](auto& column) { column.reserve(rows); }, p);
   for (PhotonShard& open : shards) {
     const PhotonShard s = std::move(open);  // its mapping goes once it is copied
     s.shard.file.verify();
     require_sound(s.columns, s.shard.file.path());
     const PhotonColumns& c = s.columns;
-    add(p.position, c.position), add(p.flux, c.flux), add(p.direction, c.direction), add(p.normal, c.normal);
-    add(p.distance, c.distance), add(p.source_normal, c.source_normal), add(p.path, c.path),
-        add(p.bounce, c.bounce);
+    for_columns([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, p, c);
     append(p.flights, c.flights);
     add_totals(merged.totals, s.totals);
     merged.provenance.counters.merge(s.shard.file.provenance().counters);

@@ -38,20 +38,20 @@ Bounds bounds_of(std::span<const Vec3> points) {
 
 }  // namespace
 
-std::vector<std::uint32_t> space_order(std::span<const Vec3> points) {
+Column<std::uint32_t> space_order(std::span<const Vec3> points) {
   const Bounds bounds = bounds_of(points);
   const double side_m = max_component(bounds.size());
   const auto cell = [&](float x_m, float lowest_m) {
     const double part = side_m > 0 ? (double{x_m} - double{lowest_m}) / side_m : 0;
     return spread(static_cast<std::uint64_t>(part * ((1 << kBits) - 1)));
   };
-  std::vector<Row> rows(points.size());
+  Column<Row> rows(points.size());
   parallel_for(rows.size(), kChunk, [&](std::size_t i) {
     const Vec3 &p = points[i], &lo = bounds.lo;
     rows[i] = {cell(p.x, lo.x) << 2 | cell(p.y, lo.y) << 1 | cell(p.z, lo.z), static_cast<std::uint32_t>(i)};
   });
   parallel_sort(rows, kChunk);
-  std::vector<std::uint32_t> order(rows.size());
+  Column<std::uint32_t> order(rows.size());
   parallel_for(order.size(), kChunk, [&](std::size_t i) { order[i] = rows[i].row; });
   return order;
 }

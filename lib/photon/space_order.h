@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/column.h"
 #include "core/vector.h"
 
 namespace phos {
@@ -12,6 +12,6 @@ namespace phos {
 /// Rows of `points` (finite, at most 2^32) along Morton's curve (1966) through cubes of the 2^-21 part of the
 /// longest side of their bounds; points of one cube by row. Does not depend on scale or offset but by
 /// rounding.
-std::vector<std::uint32_t> space_order(std::span<const Vec3> points);
+Column<std::uint32_t> space_order(std::span<const Vec3> points);
 
 }  // namespace phos

@@ -489,14 +489,22 @@ Ray ray_between(const SurfacePoint& from, const Vec3& to, float error_m) {
 void RayScene::ask_ahead(std::span<const Hit> hits, std::size_t turn) const {
   constexpr std::size_t kAhead = 8, kLarge = 4096;  // hits; triangles
   const Scene& scene = impl_->scene;
-  if (scene.triangle.size() < kLarge || turn + 2 * kAhead >= hits.size()) return;
-  const Hit &soon = hits[turn + kAhead], &later = hits[turn + 2 * kAhead];
-  if (std::isfinite(later.distance_m)) {
-    __builtin_prefetch(&impl_->facet[later.triangle]);
-    __builtin_prefetch(&scene.triangle[later.triangle]);
+  if (scene.triangle.size() < kLarge) return;
+  if (turn + 2 * kAhead < hits.size()) {
+    if (const Hit& later = hits[turn + 2 * kAhead]; std::isfinite(later.distance_m)) {
+      __builtin_prefetch(&impl_->facet[later.triangle]);
+      __builtin_prefetch(&scene.triangle[later.triangle]);
+    }
   }
-  if (!std::isfinite(soon.distance_m) || impl_->facet[soon.triangle].flat) return;
-  for (const std::uint32_t v : scene.triangle[soon.triangle].v) __builtin_prefetch(&scene.normal[v]);
+  if (turn + kAhead >= hits.size()) return;
+  const Hit& soon = hits[turn + kAhead];
+  if (!std::isfinite(soon.distance_m)) return;
+  const Facet& facet = impl_->facet[soon.triangle];
+  const bool mapped = impl_->reads[facet.material].uv0;
+  for (const std::uint32_t v : scene.triangle[soon.triangle].v) {
+    if (!facet.flat) __builtin_prefetch(&scene.normal[v]);
+    if (mapped) __builtin_prefetch(&scene.uv0[v]);
+  }
 }
 
 SurfacePoint RayScene::surface(const Ray& ray, const Hit& hit) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +39,7 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   const pid_t pid = fork();
   if (pid == 0) {
 #if !PHOS_ADDRESS_SANITIZER
+    ::malloc_trim(0);  // what was freed before is no room
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;

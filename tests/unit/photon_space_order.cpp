@@ -14,7 +14,7 @@
 namespace phos {
 namespace {
 
-using Rows = std::vector<std::uint32_t>;
+using Rows = Column<std::uint32_t>;
 
 /// More than one chunk of the sort.
 std::vector<Vec3> many(float scale) {

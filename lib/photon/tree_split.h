@@ -1,0 +1,36 @@
+// How FLANN's kd-tree divides the points of a node in two.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/vector.h"
+
+namespace phos {
+
+struct TreePoint {
+  Vec3 position;
+  std::int32_t row;
+};
+
+struct TreeSplit {
+  int axis;
+  float plane;
+  std::size_t first;  ///< of the points before the plane
+};
+
+/// Puts the points (2 or more) before a plane in front of those behind it, in FLANN's order. `box` holds them
+/// all, but need not be tight. The plane halves the widest extent of the points; where that would leave one
+/// side the larger half, points on the plane are dealt so that the halves come as near as they can.
+TreeSplit split_points(std::span<TreePoint> points, const Bounds& box);
+/// The same by all threads.
+TreeSplit split_points_in_parallel(std::span<TreePoint> points, const Bounds& box);
+
+/// About one point or more. Of equal coordinates (-0 and 0) the first counts.
+Bounds tight_box(std::span<const TreePoint> points);
+/// The same by all threads.
+Bounds tight_box_in_parallel(std::span<const TreePoint> points);
+Bounds box_of_both(const Bounds& first, const Bounds& second);
+
+}  // namespace phos
