@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cache/daylight_factor.h"
+#include "cache/direct_reader.h"
 #include "cache/sensor_grid.h"
 #include "cache/sensors.h"
 #include "file/atomic_file.h"
@@ -42,10 +43,12 @@ void check_usage(const Options& options, const Inputs& inputs, const SensorOptio
     throw Error(ExitCode::usage, "--exact", "computes all light; leave out --direct-only");
   if ((exact || sense.direct_only) && !inputs.caches.empty())
     throw Error(ExitCode::usage, exact ? "--exact" : "--direct-only", "reads no cache; leave the caches out");
-  for (const char* name : {"samples", "error", "method"})
+  for (const char* name : {"samples", "method"})
     if (!exact && options.given(name))
       throw Error(ExitCode::usage, text("--", name), "belongs to --exact; leave it out");
-  if ((exact || sense.direct_only) && sense.light_samples == 0)
+  if (!exact && options.given("error") && sense.light_samples)
+    throw Error(ExitCode::usage, "--error", "chooses the number of shadow rays; leave out --light-samples");
+  if ((exact || sense.direct_only) && !sense.sends_rays())
     throw Error(ExitCode::usage, "--light-samples", "of 0 leaves direct light to a cache; give 1 or more");
   if (inputs.caches.empty() && !exact && !sense.direct_only) {
     throw Error(
@@ -101,6 +104,8 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
   summary["records_made"] = report.records_made;
   summary["sensors_inside_solids"] = report.inside;
   summary["sensors_outside"] = report.outside;
+  summary["shadow_rays"] = report.shadow_rays;
+  summary["sensors_above_error"] = report.above_error;
   summary["left_out"] = sensors.left_out;
   if (sensors.level_m) summary["level_m"] = *sensors.level_m;
   for (const auto& [name, value] : summary.as_object()) tool.stat(name, value);
@@ -114,6 +119,10 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
   if (report.uncovered > 0)
     tool.say(text(report.uncovered, " sensors are beyond the caches' records; ", report.records_made,
                   " records were made for them"));
+  if (report.above_error > 0)
+    tool.say(text("direct light of ", report.above_error, " sensors is known less well than --error asks by ",
+                  DirectReader::kMostRays, " rays to a lamp, the most; --light-samples can be more, and ",
+                  "--portals auto finds a sky behind windows with fewer"));
   if (report.inside > 0) tool.warn(text(report.inside, " sensors are inside of solids or behind walls"));
   if (report.outside > 0) tool.warn(text(report.outside, " sensors are outside of the scene's bounds"));
 }
@@ -154,8 +163,12 @@ int main(int argc, char** argv) {
   declare_options(options, sense);
   options.flag("exact", exact, "path tracing at each sensor instead of caches");
   options.integer("samples", exactly.samples, "N", "paths for each sensor with --exact, at most", {2, 1e12});
-  options.number("error", exactly.relative_error, "SHARE",
-                 "with --exact, stop at this standard error relative to the value", kPositive);
+  options.number(
+      "error", exactly.relative_error, "SHARE",
+      "standard error to reach, relative to the illuminance: of direct light, by as many shadow rays as that "
+      "takes, at most 4096 to each lamp (default: 0.01); with --exact of all light, where paths end before "
+      "--samples (default: all of them)",
+      kPositive);
   declare_method(
       options, method,
       "with --exact: path: from the sensor alone, which does not find what comes from small lamps by "
@@ -165,8 +178,7 @@ int main(int argc, char** argv) {
   options.flag(
       "daylight-factor", factors,
       "two more columns: E_lx and its standard error in percent of the illuminance in the open under "
-      "the same sky (--sky overcast, by the norm; no sun, no lamps); a sky seen through a window takes more "
-      "rays: --light-samples is 4096 unless it is given",
+      "the same sky (--sky overcast, by the norm; no sun, no lamps)",
       Recorded::if_given);
   options.file("summary", inputs.summary, "also write mean, least, greatest and uniformity there, as JSON",
                FileUse::written);
@@ -194,7 +206,6 @@ int main(int argc, char** argv) {
     }
     std::optional<double> open_lx;
     if (factors) open_lx = open_sky_lx(scene);
-    if (factors && !options.given("light-samples")) sense.light_samples = 4096;
     if (factors && !is_overcast(scene_options.daylight))
       tool.warn("daylight factors are by the norm of an overcast sky (--sky overcast, cie:1 or cie:3)");
     const RayScene rays(scene, {isa});
@@ -202,6 +213,7 @@ int main(int argc, char** argv) {
     const Sensors sensors = find_sensors(inputs.points, grid, rays);
     if (sensors.points.empty()) tool.warn("there is no sensor: the output is a header alone");
     sense.seed = exactly.seed = tool.seed();
+    sense.error = exactly.relative_error.value_or(sense.error);
     SensorReport report;
     const std::vector<LightWay> ways = sense.direct_only ? std::vector<LightWay>() : light_ways(rays, lights);
     std::vector<Reading> readings;
@@ -210,7 +222,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("read");
       const SensorCaches caches =
           sensor_caches_at(files, scene, sense.leak_test == LeakTest::ray ? &rays : nullptr);
-      if (sense.light_samples == 0 && !caches.holds_direct())
+      if (!sense.sends_rays() && !caches.holds_direct())
         throw Error(ExitCode::usage, "--light-samples",
                     text("of 0 leaves direct light to the cache, and ", inputs.caches[0],
                          " holds indirect light alone; make it with --direct cached"));

@@ -25,27 +25,44 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
 
 namespace {
 
-/// Half of an environment's samples go to its sun (Environment::sun_chance()): Sobol' points give it just
-/// half, where R2 would give it a few too many or too few.
-bool by_halves(const Scene& scene, const Light& light) {
-  return light.kind == Light::Kind::environment && scene.environment && scene.environment->sun();
-}
+/// Points of the square by which a light is sampled.
+class LampPoints {
+ public:
+  LampPoints(const Scene& scene, const Luminaires& lights, std::size_t i, PointOrder::Kind wanted,
+             RandomStream& random)
+      : bits_{random.bits(), random.bits()},
+        shift_(Vec2(bits_[0] >> 8, bits_[1] >> 8) * 0x1p-24f),
+        kind_(points_of(scene, lights, i, wanted)) {}
+  Vec2 operator[](int k) const {
+    return kind_ == PointOrder::Kind::sobol ? sobol_point(k, bits_[0], bits_[1]) : r2_point(k, shift_);
+  }
+  PointOrder::Kind kind() const { return kind_; }
+
+ private:
+  std::uint32_t bits_[2];
+  Vec2 shift_;
+  PointOrder::Kind kind_;
+};
+
+/// Of one light, where so many are asked for.
+int count(const Light& light, int samples) { return light.extended() ? samples : std::min(samples, 1); }
 
 /// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
-void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
-                   RandomStream& random, std::vector<LampSample>& out) {
+void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
+                   std::span<const int> samples, PointOrder::Kind kind, RandomStream& random,
+                   std::vector<LampSample>& out) {
   const MirrorPlanes& mirrors = lights.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
       if (!has_images(rays.scene(), lights[i])) continue;
-      const int n = lights[i].extended() ? std::max(samples, 1) : 1;
+      const int n = count(lights[i], samples[i]);
       const float shift = random.uniform();
-      const Vec2 shift2 = random.uniform2();
+      const LampPoints points(rays.scene(), lights, i, kind, random);
       for (int k = 0; k < n; ++k) {
         Illumination light;
         const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
         if (!illuminate_by_mirrors(rays, lights, mirrors, chain, i, receiver, std::min(u_triangle, kBelowOne),
-                                   r2_point(k, shift2), light))
+                                   points[k], light))
           continue;
         const float cosine = glm::dot(receiver.normal, light.direction);
         if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
@@ -53,26 +70,48 @@ void sample_images(const RayScene& rays, const Luminaires& lights, const Surface
         const bool area = lights[i].kind == Light::Kind::area;
         out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction,
                        light.value * (cosine / density), static_cast<std::uint32_t>(i),
-                       static_cast<std::uint32_t>(k), static_cast<std::int32_t>(chain)});
+                       static_cast<std::uint32_t>(k), static_cast<std::int32_t>(chain), points.kind()});
       }
     }
   }
+}
+
+/// The variance of the first samples, all of one light or of one image of it; they are added to the sum and
+/// taken off.
+void add_group(std::span<const LampSample>& lamps, int samples, const Luminaires& lights,
+               std::vector<DVec3>& part, LampSum& sum) {
+  const LampSample first = lamps[0];
+  const bool extended = lights[first.light].extended();
+  // Those that are dark or hidden are zeros.
+  part.assign(extended ? static_cast<std::size_t>(std::max(samples, 1)) : 1, DVec3(0));
+  std::size_t i = 0;
+  for (; i < lamps.size() && lamps[i].light == first.light && lamps[i].mirrors == first.mirrors; ++i) {
+    part[lamps[i].number] = DVec3(lamps[i].irradiance);
+    sum.irradiance += part[lamps[i].number];
+  }
+  if (extended) sum.variance += sequence_variance(part, lights.by_u_alone(first.light), {first.points, 0});
+  lamps = lamps.subspan(i);
 }
 
 }  // namespace
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out) {
+  const std::vector<int> of_each(lights.size(), std::max(samples, 1));
+  sample_lamps(rays, lights, receiver, of_each, PointOrder::Kind::r2, random, out);
+}
+
+void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
+                  std::span<const int> samples, PointOrder::Kind kind, RandomStream& random,
+                  std::vector<LampSample>& out) {
   out.clear();
   std::vector<Ray> way;
   std::vector<Rgb> share;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const int n = lights[i].extended() ? std::max(samples, 1) : 1;
+    const int n = count(lights[i], samples[i]);
     // Drawn for every light, so that one light's samples do not depend on what another's do.
     const float shift = random.uniform();
-    const std::uint32_t bits[2] = {random.bits(), random.bits()};
-    const Vec2 shift2 = Vec2(bits[0] >> 8, bits[1] >> 8) * 0x1p-24f;
-    const bool halves = by_halves(rays.scene(), lights[i]);
+    const LampPoints points(rays.scene(), lights, i, kind, random);
     const bool area = lights[i].kind == Light::Kind::area;
     Luminaires::View view(lights, i, receiver.position);
     const std::size_t first = out.size();
@@ -80,16 +119,14 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     for (int k = 0; k < n; ++k) {
       Illumination light;
       const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
-      const Vec2 u = halves ? sobol_point(k, bits[0], bits[1]) : r2_point(k, shift2);
-      if (!view.illuminate(std::min(u_triangle, kBelowOne), u, light)) continue;
+      if (!view.illuminate(std::min(u_triangle, kBelowOne), points[k], light)) continue;
       const float cosine = glm::dot(receiver.normal, light.direction);
       if (!(cosine > 0) || !(glm::dot(receiver.geometric_normal, light.direction) > 0)) continue;
       const Rgb irradiance =
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
       if (!(max_component(irradiance) > 0)) continue;
       out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
-                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1,
-                     halves ? PointOrder::Kind::sobol : PointOrder::Kind::r2});
+                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1, points.kind()});
       way.push_back(shadow_ray(receiver, light));
     }
     share.resize(way.size());
@@ -102,26 +139,34 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     }
     out.resize(kept);
   }
-  if (!lights.mirrors().empty()) sample_images(rays, lights, receiver, samples, random, out);
+  if (!lights.mirrors().empty()) sample_images(rays, lights, receiver, samples, kind, random, out);
+}
+
+PointOrder::Kind points_of(const Scene& scene, const Luminaires& lights, std::size_t i,
+                           PointOrder::Kind wanted) {
+  // Half of an environment's samples go to its sun (Environment::sun_chance()): Sobol' points give it just
+  // half, where R2 would give it a few too many or too few.
+  if (lights[i].kind == Light::Kind::environment)
+    return scene.environment && scene.environment->sun() ? PointOrder::Kind::sobol : PointOrder::Kind::r2;
+  return lights[i].kind == Light::Kind::area && lights.by_u_alone(i) ? wanted : PointOrder::Kind::r2;
 }
 
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights) {
   LampSum sum;
   std::vector<DVec3> part;
-  for (std::size_t i = 0; i < lamps.size();) {
-    // The samples of one light, or image, follow each other; those that are dark or hidden are zeros.
-    const std::uint32_t light = lamps[i].light;
-    const std::int32_t mirrors = lamps[i].mirrors;
-    const PointOrder::Kind points = lamps[i].points;
-    const bool extended = lights[light].extended();
-    part.assign(extended ? static_cast<std::size_t>(std::max(samples, 1)) : 1, DVec3(0));
-    for (; i < lamps.size() && lamps[i].light == light && lamps[i].mirrors == mirrors; ++i) {
-      part[lamps[i].number] = DVec3(lamps[i].irradiance);
-      sum.irradiance += part[lamps[i].number];
-    }
-    if (extended) sum.variance += sequence_variance(part, lights.by_u_alone(light), {points, 0});
-  }
+  while (!lamps.empty()) add_group(lamps, samples, lights, part, sum);
   return sum;
+}
+
+std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const int> samples,
+                             const Luminaires& lights) {
+  std::vector<LampSum> sums(lights.size());
+  std::vector<DVec3> part;
+  while (!lamps.empty()) {
+    const std::size_t light = lamps[0].light;
+    add_group(lamps, samples[light], lights, part, sums[light]);
+  }
+  return sums;
 }
 
 DVec3 light_of(std::span<const LampSample> lamps) {

@@ -31,6 +31,17 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 /// images that lamps have in flat mirrors. Replaces `out`.
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
+/// The same with samples[i] of light i if it has an extent; none of a light where that is 0. `points`: of
+/// which area lights that numbers in the square alone choose (Luminaires::by_u_alone()) are sampled. Sobol'
+/// points in sets of 4^k err less than as many of R2 (256 on a rectangle that is near: a third), and their
+/// stated error is the true one or more from 64 on, the one of R2 only from 96 on.
+void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
+                  std::span<const int> samples, PointOrder::Kind points, RandomStream& random,
+                  std::vector<LampSample>& out);
+
+/// Points by which light i is sampled where `wanted` are: those, or what its kind takes.
+PointOrder::Kind points_of(const Scene& scene, const Luminaires& lights, std::size_t i,
+                           PointOrder::Kind wanted);
 
 /// Sum of such samples of one point, and its variance by channel (sequence_variance): that of the samples of
 /// lights of an extent.
@@ -38,6 +49,9 @@ struct LampSum {
   DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
 };
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights);
+/// The same of each light, of samples[i]; its images in mirrors included.
+std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const int> samples,
+                             const Luminaires& lights);
 
 /// Their irradiance alone, lx.
 DVec3 light_of(std::span<const LampSample> lamps);

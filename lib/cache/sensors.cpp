@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "cache/caustic_light.h"
-#include "cache/direct_light.h"
+#include "cache/direct_reader.h"
 #include "cache/gather.h"
 #include "cache/inside_solid.h"
 #include "cache/placement.h"
@@ -13,16 +14,13 @@
 #include "cache/two_level.h"
 #include "cache/typical_distance.h"
 #include "core/error.h"
-#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "scene/bands.h"
 
 namespace phos {
 namespace {
 
 constexpr std::size_t kChunk = 256;
-constexpr std::size_t kLines = 4096;
 
 bool beyond(const Bounds& bounds, const Vec3& p) {
   return bounds.empty() || glm::any(glm::lessThan(p, bounds.lo)) || glm::any(glm::greaterThan(p, bounds.hi));
@@ -33,40 +31,49 @@ struct Direct {
   Rgb components_lx{0};
 };
 
-/// At sensor i.
-Direct direct_at(const SurfacePoint& at, std::size_t i, std::int64_t samples, const RayScene& rays,
-                 const Luminaires& lights, std::uint64_t seed) {
-  RandomStream random(seed, Stage::direct_light, i);
-  const DirectIrradiance e = direct_irradiance(rays, lights, at, static_cast<int>(samples), random);
-  return {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
-}
+/// How direct light is read at each sensor.
+struct DirectAt {
+  bool wanted = true;
+  double known_lx = 0;        // as in DirectTarget
+  bool holds_direct = false;  // as there
+};
 
-/// Direct light at every sensor (if rays are to be sent), and where sensors are.
+/// Direct light at every sensor that wants it, and where sensors are.
 std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
-                                const SensorOptions& options, SensorReport& report) {
+                                const SensorOptions& options, const std::function<DirectAt(std::size_t)>& how,
+                                SensorReport& report) {
   const std::size_t n = sensors.points.size();
+  const DirectReader reader(rays, lights);
   std::vector<Direct> direct(n);
   Progress progress("direct light", n, "sensors");
-  struct Lost {
-    std::uint64_t inside = 0, outside = 0;
-  };
-  const Lost lost = parallel_reduce<Lost>(
+  const SensorReport sum = parallel_reduce<SensorReport>(
       n, kChunk, {},
       [&](std::size_t begin, std::size_t end) {
-        Lost part;
+        SensorReport part;
         for (std::size_t i = begin; i < end; ++i) {
           const auto& [p, normal] = sensors.points[i];
           const SurfacePoint at = receiver(rays.scene(), p, normal);
-          if (options.light_samples > 0)
-            direct[i] = direct_at(at, i, options.light_samples, rays, lights, options.seed);
           part.inside += inside_solid(rays, at);
           part.outside += beyond(rays.scene().bounds, p);
+          const DirectAt wish = how(i);
+          if (!wish.wanted) continue;
+          const auto samples = static_cast<int>(options.light_samples.value_or(0));
+          const DirectReading e =
+              samples > 0 ? reader.read(at, samples, options.seed, i)
+                          : reader.read(at, DirectTarget{options.error, wish.known_lx, wish.holds_direct},
+                                        options.seed, i);
+          direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
+          part.shadow_rays += e.rays, part.above_error += !e.met;
         }
         progress.advance(end - begin);
         return part;
       },
-      [](Lost& sum, const Lost& part) { sum.inside += part.inside, sum.outside += part.outside; });
-  report.inside = lost.inside, report.outside = lost.outside;
+      [](SensorReport& all, const SensorReport& part) {
+        all.inside += part.inside, all.outside += part.outside;
+        all.shadow_rays += part.shadow_rays, all.above_error += part.above_error;
+      });
+  report.inside = sum.inside, report.outside = sum.outside;
+  report.shadow_rays = sum.shadow_rays, report.above_error = sum.above_error;
   return direct;
 }
 
@@ -154,21 +161,13 @@ void add_caustics(const Sensors& sensors, const RayScene& rays,
   });
 }
 
-/// A name as CSV has it.
-std::string quoted(const std::string& name) {
-  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
-  std::string out = "\"";
-  for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 }  // namespace
 
 void declare_options(Options& options, SensorOptions& s) {
   options.integer(
       "light-samples", s.light_samples, "N",
-      "shadow rays to each area light; 0, for caches that hold all light: none, and direct_lx and "
-      "indirect_lx stay empty",
+      "shadow rays to each area light in place of as many as --error takes; 0, for caches that hold all "
+      "light: none, and direct_lx and indirect_lx stay empty",
       {0, 1e6});
   options.choice<LeakTest>(
       "leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
@@ -239,126 +238,85 @@ std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
   return tree;
 }
 
-std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
-                                const SensorCaches& caches, const SensorOptions& options,
-                                SensorReport& report) {
+namespace {
+
+/// Light besides the direct, or all of it (`whole`), at a sensor.
+struct Cached {
+  Rgb light{0};
+  float stderr_lx = 0;
+  bool whole = false;
+};
+
+/// Of the caches, and of records made where they have none.
+std::vector<Cached> read_cached(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
+                                const SensorCaches& caches, const std::shared_ptr<const CausticMap>& caustics,
+                                const SensorOptions& options, SensorReport& report) {
   const std::size_t n = sensors.points.size();
-  PHOS_CHECK(options.light_samples > 0 || caches.holds_direct(),
-             "no light but of caches that lack direct light");
-  const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
-  std::vector<Reading> readings(n);
-  if (options.direct_only) {
-    for (std::size_t i = 0; i < n; ++i) readings[i] = together(direct[i], Rgb(0), 0);
-    return readings;
-  }
-  std::vector<std::uint8_t> covered(n);
+  std::vector<Cached> cached(n);
+  if (options.direct_only) return cached;
+  report.covered.assign(n, 0);
   parallel_for(n, kChunk, [&](std::size_t i) {
     const auto& [p, normal] = sensors.points[i];
     const Interpolated e = caches.interpolate(p, normal);
-    covered[i] = e.weight > 0;
-    const float error = luminance(e.stderr_lx);
-    readings[i] = caches.holds_direct() ? apart(luminance(e.irradiance), e.irradiance, error,
-                                                options.light_samples > 0 ? &direct[i] : nullptr)
-                                        : together(direct[i], e.irradiance, error);
+    report.covered[i] = e.weight > 0;
+    cached[i] = {e.irradiance, luminance(e.stderr_lx), caches.holds_direct()};
   });
   std::vector<std::size_t> uncovered;
   std::vector<SurfaceSample> open;
   for (std::size_t i = 0; i < n; ++i)
-    if (!covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
-  report.uncovered = open.size(), report.covered = std::move(covered);
+    if (!report.covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
+  report.uncovered = open.size();
+  if (open.empty()) return cached;
+  const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, caustics, options, report);
+  for (std::size_t k = 0; k < uncovered.size(); ++k)
+    cached[uncovered[k]] = {fresh[k].components_lx, fresh[k].stderr_lx, false};
+  return cached;
+}
+
+}  // namespace
+
+std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
+                                const SensorCaches& caches, const SensorOptions& options,
+                                SensorReport& report) {
+  const std::size_t n = sensors.points.size();
+  PHOS_CHECK(options.sends_rays() || caches.holds_direct(), "no light but of caches that lack direct light");
   std::shared_ptr<const CausticMap> caustics;
   if (caches.caustics()) caustics = std::make_shared<CausticMap>(*caches.caustics());
-  if (open.empty()) {
-    add_caustics(sensors, rays, caustics, readings);
-    return readings;
+  const std::vector<Cached> cached = read_cached(sensors, rays, lights, caches, caustics, options, report);
+  const std::vector<Direct> direct = read_direct(
+      sensors, rays, lights, options,
+      [&](std::size_t i) {
+        const auto known_lx = static_cast<double>(luminance(cached[i].light));
+        return DirectAt{options.sends_rays() || !cached[i].whole, known_lx, cached[i].whole};
+      },
+      report);
+  std::vector<Reading> readings(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& [light, stderr_lx, whole] = cached[i];
+    readings[i] = whole
+                      ? apart(luminance(light), light, stderr_lx, options.sends_rays() ? &direct[i] : nullptr)
+                      : together(direct[i], light, stderr_lx);
   }
-  const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, caustics, options, report);
-  parallel_for(uncovered.size(), kChunk, [&](std::size_t k) {
-    const std::size_t i = uncovered[k];
-    const auto& [p, normal] = sensors.points[i];
-    const Direct own = options.light_samples > 0
-                           ? direct[i]
-                           : direct_at(receiver(rays.scene(), p, normal), i, SensorOptions().light_samples,
-                                       rays, lights, options.seed);
-    readings[i] = together(own, fresh[k].components_lx, fresh[k].stderr_lx);
-  });
-  add_caustics(sensors, rays, caustics, readings);
+  if (!options.direct_only) add_caustics(sensors, rays, caustics, readings);
   return readings;
 }
 
 std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
                                         const Luminaires& lights, std::span<const Whole> whole,
                                         const SensorOptions& options, SensorReport& report) {
-  const std::vector<Direct> direct = read_direct(sensors, rays, lights, options, report);
-  PHOS_CHECK(whole.size() == direct.size(), whole.size(), " estimates for ", direct.size(), " sensors");
+  PHOS_CHECK(whole.size() == sensors.points.size(), whole.size(), " estimates for ", sensors.points.size(),
+             " sensors");
+  const std::vector<Direct> direct = read_direct(
+      sensors, rays, lights, options,
+      [&](std::size_t i) {
+        return DirectAt{true, whole[i].illuminance_lx, true};
+      },
+      report);
   std::vector<Reading> readings(direct.size());
   for (std::size_t i = 0; i < direct.size(); ++i)
     readings[i] = apart(static_cast<float>(whole[i].illuminance_lx), whole[i].components_lx,
                         static_cast<float>(whole[i].stderr_lx), &direct[i]);
   return readings;
-}
-
-std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
-                                    std::optional<double> open_lx, const BandTriplet& bands) {
-  const std::size_t n = readings.size();
-  std::vector<std::string> pieces(1 + (n + kLines - 1) / kLines);
-  pieces[0] = "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx";
-  if (open_lx) pieces[0] += ",daylight_factor_percent,daylight_factor_stderr_percent";
-  const int filled = std::clamp(bands.number - 3 * (bands.triplet - 1), 0, 3) * (bands.number > 0);
-  for (int c = 0; c < filled; ++c)
-    pieces[0] += text(",band_", 3 * (bands.triplet - 1) + c + 1, "_of_", bands.number, "_lx");
-  pieces[0] += '\n';
-  parallel_chunks(n, kLines, [&](std::size_t begin, std::size_t end) {
-    std::string& out = pieces[1 + begin / kLines];
-    out.reserve((end - begin) * 112);
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [p, normal] = sensors.points[i];
-      const Reading& r = readings[i];
-      out += sensors.ids.empty() ? std::to_string(i) : quoted(sensors.ids[i]);
-      for (int c = 0; c < 3; ++c) out += ',', out += world_text(sensors.origin_m[c], p[c]);
-      for (const float v :
-           {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})
-        out += ',', out += std::isnan(v) ? std::string() : shortest(v);
-      if (open_lx)
-        for (const float lx : {r.illuminance_lx, r.stderr_lx}) {
-          const auto percent = static_cast<float>(100 * static_cast<double>(lx) / *open_lx);
-          out += ',', out += std::isnan(lx) ? std::string() : shortest(percent);
-        }
-      for (int c = 0; c < filled; ++c)
-        out += ',', out += shortest(kLuminanceWeight[c] * static_cast<double>(r.components_lx[c]));
-      out += '\n';
-    }
-  });
-  return pieces;
-}
-
-Json summarise(std::span<const Reading> readings) {
-  Json summary;
-  summary["number"] = readings.size();
-  if (readings.empty()) return summary;
-  double sum = 0, least = static_cast<double>(kInfinity), most = 0;
-  for (const Reading& r : readings) {
-    const auto e = static_cast<double>(r.illuminance_lx);
-    sum += e, least = std::min(least, e), most = std::max(most, e);
-  }
-  const double mean = sum / static_cast<double>(readings.size());
-  summary["mean_lx"] = static_cast<float>(mean);
-  summary["min_lx"] = static_cast<float>(least);
-  summary["max_lx"] = static_cast<float>(most);
-  if (mean > 0) summary["U0"] = static_cast<float>(least / mean);
-  if (most > 0) summary["Ud"] = static_cast<float>(least / most);
-  return summary;
-}
-
-std::string summary_line(const Json& summary) {
-  std::string line;
-  const auto add = [&](const char* key, const char* before, const char* after) {
-    if (const Json* value = summary.find(key)) line += before + value->dump() + after;
-  };
-  add("number", "", " sensors"), add("level_m", " at the level of ", " m");
-  add("mean_lx", ": mean ", " lx"), add("min_lx", ", min ", " lx"), add("max_lx", ", max ", " lx");
-  add("U0", ", U0 ", ""), add("Ud", ", Ud ", "");
-  return line;
 }
 
 }  // namespace phos

@@ -40,13 +40,17 @@ struct Reading {
 
 struct SensorOptions {
   /// Shadow rays to each area light. 0: none; caches that hold all light tell the whole, but not its parts.
-  std::int64_t light_samples = 64;
+  /// Not given: as many as error takes (DirectReader).
+  std::optional<std::int64_t> light_samples;
+  double error = 0.01;  ///< standard error of direct light over the illuminance of all light
   LeakTest leak_test = LeakTest::ray;
   bool direct_only = false;
   // Records made where the caches have none.
   std::int64_t rays = 1024;
   double accuracy = 0.15;
   std::uint64_t seed = 0;
+
+  bool sends_rays() const { return light_samples.value_or(1) > 0; }
 };
 
 void declare_options(Options& options, SensorOptions& sensors);
@@ -57,6 +61,8 @@ struct SensorReport {
   std::uint64_t records_made = 0;  ///< for those
   std::uint64_t inside = 0;        ///< sensors inside of solids: rays from there mostly meet back faces
   std::uint64_t outside = 0;       ///< sensors beyond the scene's bounds
+  std::uint64_t shadow_rays = 0;   ///< of direct light
+  std::uint64_t above_error = 0;   ///< sensors whose direct light is less well known than asked for
   Counters counters;               ///< numerical events of the new records
   std::vector<std::uint8_t>
       covered;  ///< of each sensor: by a record of the caches; empty where none is asked
@@ -100,7 +106,7 @@ class SensorCaches {
 
 /// Reads every sensor. Caustic light, where the caches have it as photons, is estimated at each sensor
 /// (CausticLight) and is part of the indirect light. Same numbers for any number of threads. Without shadow
-/// rays caches must hold all light; sensors that they do not cover get 64 rays to each area light.
+/// rays caches must hold all light; sensors that they do not cover get as many as options.error takes.
 std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
                                 const SensorCaches& caches, const SensorOptions& options,
                                 SensorReport& report);

@@ -276,6 +276,16 @@ void Options::integer(const std::string& name, std::int64_t& value, const std::s
   });
 }
 
+void Options::integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
+                      const std::string& help, Range range, Recorded recorded) {
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded);
+  d.default_text = value ? std::to_string(*value) : "";
+  d.value = [&value] { return value ? Json(*value) : Json(); };
+  impl_->add(d, [&value, range, n = d.name](const std::string& s) {
+    value = parse_number<std::int64_t>(n, s, range);
+  });
+}
+
 void Options::text(const std::string& name, std::string& value, const std::string& unit,
                    const std::string& help, Recorded recorded) {
   Declaration& d = impl_->declare(name, unit, help, recorded);

@@ -62,6 +62,8 @@ class Options {
               const std::string& help, Range = {}, Recorded = Recorded::yes);
   void integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
                Range = {}, Recorded = Recorded::yes);
+  void integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
+               const std::string& help, Range = {}, Recorded = Recorded::yes);
   void text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
             Recorded = Recorded::yes);
   /// May be given several times, or once with commas (split_at_commas()).

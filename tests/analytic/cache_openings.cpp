@@ -2,7 +2,7 @@
 // other openings.
 #include <gtest/gtest.h>
 
-#include "cache/direct_light.h"
+#include "cache/direct_reader.h"
 #include "scene/find_portals.h"
 #include "support/daylight.h"
 
@@ -113,6 +113,35 @@ TEST(Openings, InARoofAreSeenAsCie171Says) {
     expect_seen(scene, kH, 0.01 * h * kOpen_lx, 0.01, what + " H");
     expect_seen(scene, kN, 0.01 * n * kOpen_lx, 0.01, what + " N");
   }
+}
+
+/// The same by as many rays as 1 % takes: that error is met, and two of it hold the truth.
+TEST(Openings, AreReadToTheErrorAskedFor) {
+  const Environment sky = sky_of("cie:5", "180,60", kOpen_lx, 0);
+  Scene scene = room_under({1.5f, 2.5f, 1.5f, 2.5f});
+  surround(scene, sky);
+  scene.portal = find_portals(RayScene(scene), "auto");
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const DirectReader reader(rays, lights);
+  const std::pair<Point, double> golden[] = {
+      {kA, 1.04013797}, {kC, 2.58859697}, {kH, 2.52277001}, {kN, 1.95518978}};
+  double met = 0, within = 0, n = 0, mean = 0;
+  for (const auto& [p, percent] : golden) {
+    const SurfacePoint at = receiver(scene, Vec3(p.position), Vec3(p.normal));
+    const double truth_lx = 0.01 * percent * kOpen_lx;
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+      const DirectReading e = reader.read(at, {0.01, 0, false}, seed, 7);
+      const auto lx = static_cast<double>(luminance(e.irradiance)),
+                 error_lx = static_cast<double>(luminance(e.stderr_lx));
+      met += error_lx <= 0.01 * lx, within += std::fabs(lx - truth_lx) <= 2 * error_lx, n += 1;
+      mean += lx / truth_lx;
+      EXPECT_LT(e.rays, 5000u);
+    }
+  }
+  EXPECT_GE(met / n, 0.9);
+  EXPECT_GE(within / n, 0.93);
+  EXPECT_NEAR(mean / n, 1, 0.003);
 }
 
 /// A slot, an opening in a corner, one of a hand's size: found whole, and with little about them, also on a

@@ -48,7 +48,7 @@ TEST(SenseTool, HelpAndVersion) {
   const auto help = run_tool({"sense", "--help"});
   EXPECT_EQ(help.code, 0);
   for (const char* word : {"--points", "--grid", "--mesh", "--height", "--margin", "--up", "--exact",
-                           "--leak-test", "--light-samples", "--summary", "130"})
+                           "--leak-test", "--light-samples", "--error", "--summary", "130"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(run_tool({"sense", "--version"}).code, 0);
 }
@@ -72,6 +72,35 @@ TEST(SenseTool, RefusesBadCommandLines) {
                  "samples");
   expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "0.1", "--light-samples", "0"},
                  2, "light-samples");
+  expect_refused(
+      "sense",
+      {kBox, "--direct-only", "--grid", "0.1", "--height", "0.1", "--light-samples", "64", "--error", "0.01"},
+      2, "--light-samples");
+  expect_refused("sense", {kBox, "--direct-only", "--grid", "0.1", "--height", "0.1", "--error", "0"}, 2,
+                 "error");
+}
+
+/// Shadow rays follow from the error asked for; sensors that miss it are counted.
+TEST(SenseTool, DirectLightIsReadToAnError) {
+  const std::string folder = scratch("sense-error");
+  double rays[2] = {0, 0};
+  for (const int fine : {0, 1}) {
+    const std::string error = fine ? "0.001" : "0.01";
+    const auto run = run_tool({"sense", kBox, "--direct-only", "--grid", "0.05", "--height", "0.1", "--error",
+                               error, "--summary", folder + "/s.json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string summary = slurp(folder + "/s.json");
+    const auto number = [&](const std::string& key) {
+      return std::strtod(summary.c_str() + summary.find(key) + key.size() + 2, nullptr);
+    };
+    rays[fine] = number("shadow_rays");
+    double above = 0;
+    for (const std::vector<double>& row : rows_of(run.out)) above += row[8] > std::stod(error) * row[7];
+    EXPECT_NEAR(above, number("sensors_above_error"), 1);
+    EXPECT_LE(above, 0.2 * static_cast<double>(rows_of(run.out).size())) << error;
+    EXPECT_EQ(run.err.find("--error asks") != std::string::npos, number("sensors_above_error") > 0);
+  }
+  EXPECT_GT(rays[1], 3 * rays[0]);
 }
 
 TEST(SenseTool, RefusesBadInput) {

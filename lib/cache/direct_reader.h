@@ -1,0 +1,52 @@
+// Direct light at a point, by as many shadow rays as a stated error takes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cache/direct_light.h"
+
+namespace phos {
+
+/// How well direct light is to be known.
+struct DirectTarget {
+  double relative_error = 0.01;  ///< standard error over the illuminance of all light there
+  /// That illuminance, lx, as far as it is known otherwise: the direct light comes on top of it, or is a
+  /// part.
+  double known_lx = 0;
+  bool holds_direct = false;
+};
+
+struct DirectReading {
+  Rgb irradiance{0};  ///< lx
+  Rgb stderr_lx{0};
+  std::uint64_t rays = 0;  ///< sent, the pilot's included
+  bool met = true;         ///< the stated error is at most the one asked for
+};
+
+/// Reads direct light. Const, usable from any thread; holds references.
+class DirectReader {
+ public:
+  DirectReader(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {}
+
+  /// By `samples` shadow rays to each lamp of an extent (direct_irradiance()); `item` is of the random
+  /// numbers.
+  DirectReading read(const SurfacePoint& at, int samples, std::uint64_t seed, std::uint64_t item) const;
+
+  /// By as many rays as the target takes: their number follows from a pilot of other random numbers whose
+  /// rays are thrown away, so that the estimate is unbiased and its error its own (FORMULAS-placement T4). At
+  /// most kMostRays to each lamp: the target may then be missed.
+  DirectReading read(const SurfacePoint& at, const DirectTarget& target, std::uint64_t seed,
+                     std::uint64_t item) const;
+
+  static constexpr int kMostRays = 4096;
+
+ private:
+  struct Pilot;
+  Pilot send_pilot(const SurfacePoint& at, std::uint64_t seed, std::uint64_t item) const;
+
+  const RayScene& rays_;
+  const Luminaires& lights_;
+};
+
+}  // namespace phos
