@@ -122,6 +122,8 @@ void Growth::accept(const Made& made) {
 void Growth::shrink(std::size_t i, float radius_m) {
   if (!(radius_m < tree_.records()[i].radius_m)) return;
   tree_.shrink(i, radius_m);
+  if (shrunk_in_.size() <= i) shrunk_in_.resize(i + 1, 0);
+  shrunk_in_[i] = pass_;
   if (as_read_) as_read_->shrink(i, radius_m);
 }
 

@@ -73,6 +73,10 @@ class Growth {
     return tree_.covered(site.position, site.normal, record);
   }
   void accept(const Made& made);
+  /// From now on it is this pass, numbered from 1 on.
+  void begin_pass(int number) { pass_ = number; }
+  /// The last pass in or after which a record (by its place in tree()) has lost reach; 0: none.
+  int shrunk_in(std::size_t record) const { return record < shrunk_in_.size() ? shrunk_in_[record] : 0; }
   /// Adaptive caching (Krivanek et al. 2006), of footprints that ask for it: a new record that foretells
   /// another's light wrongly, where it would be read, comes to reach less far: not there, but at least half
   /// as far as before. Wrong is by more than twice the stated errors of both and a share of the light, the
@@ -90,6 +94,8 @@ class Growth {
   std::optional<RecordTree> as_read_;  // of those that are: each with the reach at which it is read
   float reading_accuracy_;
   std::size_t kept_;
+  int pass_ = 1;
+  std::vector<int> shrunk_in_;  // of records that have
 };
 
 }  // namespace phos

@@ -7,9 +7,16 @@
 
 namespace phos {
 void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
-                          GatheredPhotons& gathered) const {
+                          const NearPhotons& near_photons, GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
-  photons_.in_sphere(place.p, radius_m * (1 + kSlab * kSlab), gathered.rows);
+  const float sphere_m = radius_m * (1 + kSlab * kSlab);
+  if (sphere_m < near_photons.complete_m) {
+    const auto& distance2 = near_photons.distance2;
+    const auto end = std::upper_bound(distance2.begin(), distance2.end(), sphere_m * sphere_m);
+    gathered.rows.assign(near_photons.rows.begin(), near_photons.rows.begin() + (end - distance2.begin()));
+  } else {
+    photons_.in_sphere(place.p, sphere_m, gathered.rows);
+  }
   const std::size_t found = gathered.rows.size();
   zone.resize(found), gathered.height_m.resize(found), gathered.codes.resize(found);
   std::size_t near = 0;

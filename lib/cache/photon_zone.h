@@ -40,6 +40,21 @@ struct GatheredPhotons {
   std::vector<std::uint32_t> rows, codes;
 };
 
+/// The nearest photons of a place, and the memory to find them.
+struct NearPhotons {
+  std::vector<float> radii;        ///< m from the place, sorted
+  std::uint32_t last = kNoPhoton;  ///< row of the last of them
+  std::vector<Vec3> directions;
+  std::vector<float> weights, distances;
+  std::vector<std::uint32_t> rows;  ///< of all photons looked at, nearest first
+  std::vector<float> distance2;     ///< of these, m2
+  float complete_m = 0;             ///< they are all that lie nearer than this
+  void clear() {
+    radii.clear(), directions.clear(), weights.clear(), distances.clear();
+    last = kNoPhoton;
+  }
+};
+
 /// Rows of photons that a zone does not count.
 struct LeftOut {
   std::uint32_t own = kNoPhoton;      ///< that the place sits on
@@ -53,7 +68,8 @@ class ZoneGatherer : public TangentSurface {
       : TangentSurface(rays), photons_(photons), counted_(counted), nearest_m_(nearest_m) {}
 
   /// Photons strictly within radius_m of the place on this surface, from this side, without `left_out`.
-  void gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
+  /// `near`, of the same place, spares the search where it holds them all.
+  void gather(const ZonePlace& place, float radius_m, const LeftOut& left_out, const NearPhotons& near,
               GatheredPhotons& gathered) const;
 
   /// Adds the photon that the place sits on, `share` of its flux. False: it came from below, and is not

@@ -35,6 +35,38 @@ class Walk {
   int level_ = 0;
 };
 
+/// Of each place the record that covered it when it was looked at last, so that later passes look again only
+/// where that one has lost reach. Places with several sites, and what is beyond a number of places, are not
+/// remembered.
+class CoveredPlaces {
+ public:
+  explicit CoveredPlaces(std::size_t places) : by_(places <= kMost ? places : 0, kUnknown) {}
+
+  /// Has it been found covered, by a record that has not shrunk since? `sites` are then those of the place.
+  bool still(std::size_t place, int pass, const Growth& growth, std::uint64_t& sites) const {
+    if (place >= by_.size() || by_[place] == kUnknown) return false;
+    sites = by_[place] == kEmpty ? 0 : 1;
+    return by_[place] == kEmpty || growth.shrunk_in(by_[place]) < pass - 1;
+  }
+  /// Found now: `record` covers the only one of its sites, if `covered`.
+  void note(std::size_t place, std::size_t sites, bool covered, std::size_t record) {
+    if (place >= by_.size()) return;
+    by_[place] = sites == 0 ? kEmpty : sites == 1 && covered ? static_cast<std::uint32_t>(record) : kUnknown;
+  }
+
+ private:
+  static constexpr std::size_t kMost = std::size_t{1} << 24;
+  static constexpr std::uint32_t kUnknown = ~0u, kEmpty = kUnknown - 1;
+  std::vector<std::uint32_t> by_;
+};
+
+/// One pass over places.
+struct Looking {
+  int pass;  ///< numbered from 1 on
+  Growth& growth;
+  CoveredPlaces& places;
+};
+
 struct OpenSite {
   std::size_t place;
   RecordSite site;
@@ -42,18 +74,25 @@ struct OpenSite {
 
 /// use(place, site) for the sites of number [from, to) of a walk that are not covered.
 template <class Use>
-std::uint64_t each_open(const Candidates& candidates, const Growth& growth, const Walk& walk,
+std::uint64_t each_open(const Candidates& candidates, const Looking& looking, const Walk& walk,
                         std::size_t from, std::size_t to, const Use& use) {
   std::vector<RecordSite> sites;
   std::size_t record = static_cast<std::size_t>(-1);
   std::uint64_t all = 0;
   for (std::size_t j = from; j < to; ++j) {
     const std::size_t place = walk.place(j);
+    std::uint64_t known = 0;
+    if (looking.places.still(place, looking.pass, looking.growth, known)) {
+      all += known;
+      continue;
+    }
     sites.clear();
     candidates.sites(place, sites);
     all += sites.size();
+    bool covered = true;
     for (const RecordSite& site : sites)
-      if (!growth.covered(site, record)) use(place, site);
+      if (!looking.growth.covered(site, record)) covered = false, use(place, site);
+    looking.places.note(place, sites.size(), covered, record);
   }
   return all;
 }
@@ -63,7 +102,7 @@ struct Cover {
 };
 
 /// The sites of places [begin, begin + count) that are not covered, in order; `cover` counts them too.
-std::vector<RecordSite> open_sites(const Candidates& candidates, const Growth& growth, std::size_t begin,
+std::vector<RecordSite> open_sites(const Candidates& candidates, const Looking& looking, std::size_t begin,
                                    std::size_t count, Cover& cover) {
   struct Found {
     std::uint64_t sites = 0;
@@ -75,7 +114,7 @@ std::vector<RecordSite> open_sites(const Candidates& candidates, const Growth& g
       [&](std::size_t from, std::size_t to) {
         Found part;
         part.sites =
-            each_open(candidates, growth, walk, from, to, [&](std::size_t place, const RecordSite& site) {
+            each_open(candidates, looking, walk, from, to, [&](std::size_t place, const RecordSite& site) {
               part.open.push_back({place, site});
             });
         return part;
@@ -105,13 +144,16 @@ struct Pass {
   std::size_t placed = 0;
 };
 
-Pass run_pass(const Candidates& candidates, int number, Growth& growth, Placer& placer) {
-  Progress progress(number == 1 ? "records" : text("records, pass ", number), candidates.count, "candidates");
+Pass run_pass(const Candidates& candidates, const Looking& looking, Placer& placer) {
+  Growth& growth = looking.growth;
+  growth.begin_pass(looking.pass);
+  const bool first = looking.pass == 1;
+  Progress progress(first ? "records" : text("records, pass ", looking.pass), candidates.count, "candidates");
   Pass pass;
-  std::size_t most = number == 1 ? kLeastBlock : kOpenBlock;
+  std::size_t most = first ? kLeastBlock : kOpenBlock;
   for (std::size_t begin = 0; begin < candidates.count;) {
     const std::size_t block = std::min(candidates.count - begin, block_at(begin, most));
-    const std::vector<RecordSite> open = open_sites(candidates, growth, begin, block, pass.cover);
+    const std::vector<RecordSite> open = open_sites(candidates, looking, begin, block, pass.cover);
     pass.placed += placer.cover(open);
     begin += block;
     most = open.size() * kNextToNone < block ? std::min(4 * std::max(most, block), kMostBlock)
@@ -121,11 +163,11 @@ Pass run_pass(const Candidates& candidates, int number, Growth& growth, Placer& 
   return pass;
 }
 
-Cover cover_of(const Candidates& candidates, const Growth& growth) {
+Cover cover_of(const Candidates& candidates, const Looking& looking) {
   Cover total;
   for (std::size_t begin = 0; begin < candidates.count;) {
     const std::size_t block = std::min(candidates.count - begin, block_at(begin, kMostBlock));
-    open_sites(candidates, growth, begin, block, total);
+    open_sites(candidates, looking, begin, block, total);
     begin += block;
   }
   return total;
@@ -154,14 +196,15 @@ PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator
   Growth growth(cache, rays, resolved);
   ParallelMaker maker(estimator);
   Placer placer(maker, growth);
+  CoveredPlaces places(candidates.count);
   std::optional<Cover> cover;
   for (int number = 1; number <= placement.passes && !cover; ++number) {
     report.passes = static_cast<std::uint64_t>(number);
-    const Pass pass = run_pass(candidates, number, growth, placer);
+    const Pass pass = run_pass(candidates, {number, growth, places}, placer);
     const std::size_t shrunk = number < placement.passes ? growth.compare() : 0;
     if (pass.placed == 0 && shrunk == 0) cover = pass.cover;  // nothing has changed since it began
   }
-  if (!cover) cover = cover_of(candidates, growth);
+  if (!cover) cover = cover_of(candidates, {static_cast<int>(report.passes) + 1, growth, places});
   report.candidates = cover->sites, report.uncovered = cover->open;
   finish_placement(growth, maker, cache, report, counters);
   return report;

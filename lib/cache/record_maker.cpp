@@ -11,8 +11,9 @@ namespace phos {
 namespace {
 
 constexpr const char* kWithoutPhotons = "records without photons";
-// A record reaches at least this part of the zone whose photons it has, as far as its surroundings let it:
-// nearer records would tell the same tale.
+// A record reaches at least this part of the zone whose photons it has, as far as edges let it: nearer
+// records would tell the same tale (FORMULAS-placement Z3). Surroundings nearer than that have had their say:
+// they made the zone small.
 constexpr float kReach = 0.75f;
 constexpr float kRounding = 2e-6f;  // of a coordinate: positions are floats that rays have found
 constexpr std::size_t kLeastClustered =
@@ -35,6 +36,17 @@ constexpr float kBendStep = 0.4226497f;  // 1 - sqrt(1/3): so far a photon is mo
 /// The part of a sum that is believed beyond its own noise, of that variance (as D4); below, none.
 double beyond_noise(double sum, double variance) {
   return sum * sum > 3 * variance ? 1 - 3 * variance / (sum * sum) : 0;
+}
+
+/// Probes of a zone by which its area is known four times as well as its Poisson photons tell their density:
+/// n low-discrepancy probes err by n^-3/4 / 2 (probe_error), m photons by m^-1/2, so that n^3 = 16 m^2. A
+/// hull needs some of them within itself.
+int probes_for(std::size_t photons, std::int64_t most) {
+  const std::int64_t least_probes = photons < static_cast<std::size_t>(DensityOptions().few) ? 32 : 64;
+  const auto m = static_cast<std::int64_t>(std::min<std::size_t>(photons, 1 << 20));
+  std::int64_t n = std::min(least_probes, most);
+  while (n < most && n * n * n < 16 * m * m) ++n;
+  return static_cast<int>(n);
 }
 
 /// More of the mean than this is not taken for curvature: the terms after it are as large.
@@ -73,13 +85,12 @@ RecordMaker::~RecordMaker() = default;
 ZoneEstimate RecordMaker::by_hull(Zone& at, Scratch& s) const {
   ZonePlace& place = at.place;
   const OnSurface probe = [&](const Vec2& offset) { return gatherer_.on_surface(place, offset); };
-  const DensityOptions density{.probes = static_cast<int>(options_.probes),
-                               .dark_photons = kDarkPhotons,
-                               .centre_lit = at.left_out.own != kNoPhoton};
+  DensityOptions density{.dark_photons = kDarkPhotons, .centre_lit = at.left_out.own != kNoPhoton};
   const ZonePhotons& photons = s.gathered.zone;
   bool shrunk = false;
   for (;;) {
     place.parted = false;
+    density.probes = probes_for(photons.size(), options_.probes);
     ZoneEstimate zone =
         zone_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, probe, density, s.density);
     if (place.parted) {
@@ -291,7 +302,7 @@ RecordMaker::Zone RecordMaker::zone_about(const RecordSite& at, Scratch& s) cons
 
 void RecordMaker::gather(Zone& zone, Scratch& s) const {
   gatherer_.limit_slab(zone.place, zone.radius_m);
-  gatherer_.gather(zone.place, zone.radius_m, zone.left_out, s.gathered);
+  gatherer_.gather(zone.place, zone.radius_m, zone.left_out, s.near, s.gathered);
 }
 
 Made RecordMaker::make(const RecordSite& at, Worker& worker) const {
@@ -313,14 +324,14 @@ Made RecordMaker::make_of(const RecordSite& at, Zone about, Scratch& s) const {
   IrradianceRecord record;
   record.position = place.p, record.normal = at.normal;
   record.distance_m = about.distance_m;
-  record.radius_m = std::min(about.distance_m, static_cast<float>(*options_.max_radius_m));
   ZoneEstimate zone = options_.estimate == Estimate::kernel ? by_kernel(about, s) : by_hull(about, s);
-  const float narrow = about.radius_m;
+  const float narrow = about.radius_m, seen = narrow / static_cast<float>(options_.accuracy);
+  record.radius_m =
+      std::max(kReach * seen, std::min(about.distance_m, static_cast<float>(*options_.max_radius_m)));
   s.others = s.gathered.zone.size() > 0;
   count_own(at, place, narrow, static_cast<float>(options_.accuracy) * record.radius_m, zone, s);
   s.frame = place.frame, s.zone = zone, s.moved_m = Vec2(0);
   // It serves no point whose photons it has not seen: their light may be another's.
-  const float seen = narrow / static_cast<float>(options_.accuracy);
   if (s.gathered.zone.size() > 0) record.radius_m = std::min(record.radius_m, seen);
   fill(place, zone, narrow, s, record);
   const float least = std::min(record.radius_m, kReach * seen);

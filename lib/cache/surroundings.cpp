@@ -60,17 +60,19 @@ float Surroundings::by_rays_m(const ZonePlace& place, std::uint64_t item) const 
 /// The thesis' first query: the nearest photons tell how far the surroundings are.
 float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out, float limit_m,
                                  NearPhotons& near) const {
-  near.clear();
+  near.clear(), near.complete_m = 0;
   const auto wanted = static_cast<std::size_t>(options_.near_photons);
   for (std::size_t k = wanted; photons_.size() > 0; k *= 4) {
-    photons_.nearest(place.p, std::min(k, photons_.size()), near.rows, near.distance2);
+    const std::size_t most = std::min(k, photons_.size());
+    photons_.nearest(place.p, most, near.rows, near.distance2, limit_m);
     near.clear();
-    const float reach = std::min(limit_m, near.distance2.empty() ? 0.f : std::sqrt(near.distance2.back()));
+    const bool all = near.rows.size() < most || most == photons_.size();
+    const float reach = near.rows.size() < most ? limit_m : std::sqrt(near.distance2.back());
+    near.complete_m = reach;
     const float slab = slab_m(place, reach);
     for (std::size_t i = 0; i < near.rows.size() && near.radii.size() < wanted; ++i) {
       const std::uint32_t row = near.rows[i];
       const float away = std::sqrt(near.distance2[i]);
-      if (away > limit_m) break;
       if (row == left_out || !is_wanted(photons_, row, Counted(options_)) ||
           std::fabs(glm::dot(photons_.position[row] - place.p, place.frame.z)) > slab)
         continue;
@@ -80,9 +82,7 @@ float Surroundings::by_photons_m(const ZonePlace& place, std::uint32_t left_out,
       near.radii.push_back(away), near.directions.push_back(w), near.last = row;
       near.weights.push_back(luminance(photons_.flux[row])), near.distances.push_back(photons_.distance[row]);
     }
-    const bool exhausted = near.rows.size() >= photons_.size() || k * 4 > kMostNearest ||
-                           (!near.distance2.empty() && std::sqrt(near.distance2.back()) > limit_m);
-    if (exhausted || near.radii.size() >= std::min(wanted, kLeastForDensity)) break;
+    if (all || k * 4 > kMostNearest || near.radii.size() >= std::min(wanted, kLeastForDensity)) break;
   }
   return mean_distance_m(near.directions, near.weights, near.distances);
 }

@@ -8,20 +8,6 @@
 
 namespace phos {
 
-/// The nearest photons of a place, and the memory to find them.
-struct NearPhotons {
-  std::vector<float> radii;        ///< m from the place, sorted
-  std::uint32_t last = kNoPhoton;  ///< row of the last of them
-  std::vector<Vec3> directions;
-  std::vector<float> weights, distances;
-  std::vector<std::uint32_t> rows;
-  std::vector<float> distance2;
-  void clear() {
-    radii.clear(), directions.clear(), weights.clear(), distances.clear();
-    last = kNoPhoton;
-  }
-};
-
 struct ZoneRadius {
   float radius_m;
   /// The row of the photon whose distance decided the radius, if it may lie within. All others are as dense

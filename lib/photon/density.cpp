@@ -39,10 +39,24 @@ bool in_doubt(const Cells& counts, std::size_t photons) {
   return *std::min_element(counts.begin(), counts.end()) < mean - 3 * std::sqrt(mean);
 }
 
-/// The i-th of n probes: a sunflower, equal area each.
+/// Direction of the i-th probe: a sunflower.
+glm::dvec2 sunflower(int i) {
+  static const auto first = [] {
+    std::array<glm::dvec2, 128> directions;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const double t = static_cast<double>(k) * 2.399963229728653;
+      directions[k] = {std::cos(t), std::sin(t)};
+    }
+    return directions;
+  }();
+  if (static_cast<std::size_t>(i) < first.size()) return first[static_cast<std::size_t>(i)];
+  const double t = i * 2.399963229728653;
+  return {std::cos(t), std::sin(t)};
+}
+
+/// The i-th of n probes, equal area each.
 Vec2 probe_offset(int i, int n, float radius_m) {
-  const double r = std::sqrt((i + 0.5) / n), t = i * 2.399963229728653;
-  return Vec2(r * std::cos(t), r * std::sin(t)) * radius_m;
+  return Vec2(std::sqrt((i + 0.5) / n) * sunflower(i)) * radius_m;
 }
 
 /// A few probes, most near the rim, where a border that cuts the zone shows first.

@@ -1,5 +1,7 @@
 #include "photon/kd_tree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <flann/flann.hpp>
 #include <limits>
@@ -53,6 +55,42 @@ class Rows final : public flann::ResultSet<float> {
   float limit_;
   std::vector<std::uint32_t>& rows_;
 };
+
+/// Collects the k nearest of the points nearer than a limit. They are sorted out once many too many have
+/// come.
+class Nearest final : public flann::ResultSet<float> {
+ public:
+  Nearest(std::size_t k, float limit2_m2) : k_(k), limit_(limit2_m2) { found_.reserve(k + kMore); }
+  bool full() const override { return true; }
+  void addPoint(float distance2, std::size_t index) override {
+    if (!(distance2 < limit_)) return;
+    found_.emplace_back(distance2, static_cast<std::uint32_t>(index));
+    if (found_.size() < k_ + kMore) return;
+    const auto last = found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+    std::nth_element(found_.begin(), last, found_.end());
+    found_.resize(k_);
+    limit_ = std::nextafter(found_.back().first, std::numeric_limits<float>::infinity());
+  }
+  float worstDist() const override { return limit_; }
+
+  std::span<const std::pair<float, std::uint32_t>> sorted() {
+    std::sort(found_.begin(), found_.end());
+    if (found_.size() > k_) found_.resize(k_);
+    return found_;
+  }
+
+ private:
+  static constexpr std::size_t kMore = 64;
+  std::size_t k_;
+  float limit_;
+  std::vector<std::pair<float, std::uint32_t>> found_;
+};
+
+/// What FLANN compares strictly, so that a squared distance of radius_m is within: one step up.
+float limit_of(float radius_m) {
+  const float limit = std::nextafter(radius_m * radius_m, std::numeric_limits<float>::infinity());
+  return std::fmax(limit, std::numeric_limits<float>::min());
+}
 
 std::size_t count_out_of_range(std::span<const Vec3> points) {
   return parallel_reduce<std::size_t>(
@@ -219,24 +257,19 @@ std::vector<std::byte> KdTree::save() const {
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {
   rows.clear();
   if (!impl_ || !(radius_m >= 0) || !in_range(p)) return;
-  // FLANN keeps what is strictly nearer than the limit; one step up makes it inclusive.
-  const float limit = std::nextafter(radius_m * radius_m, std::numeric_limits<float>::infinity());
-  Rows result(std::fmax(limit, std::numeric_limits<float>::min()), rows);
+  Rows result(limit_of(radius_m), rows);
   impl_->tree().findNeighbors(result, &p.x, flann::SearchParams());
 }
 
 void KdTree::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
-                     std::vector<float>& distance2_m2) const {
+                     std::vector<float>& distance2_m2, float most_m) const {
   rows.clear(), distance2_m2.clear();
-  if (!impl_ || k == 0 || !in_range(p)) return;
-  flann::KNNResultSet2<float> result(std::min(k, impl_->points.size()));
+  if (!impl_ || k == 0 || !(most_m >= 0) || !in_range(p)) return;
+  Nearest result(std::min(k, impl_->points.size()), limit_of(most_m));
   impl_->tree().findNeighbors(result, &p.x, flann::SearchParams());
-  const std::size_t n = result.size();
-  std::vector<std::size_t> index(n);
-  rows.resize(n), distance2_m2.resize(n);
-  if (n == 0) return;
-  result.copy(index.data(), distance2_m2.data(), n, /*sorted=*/true);
-  for (std::size_t i = 0; i < n; ++i) rows[i] = static_cast<std::uint32_t>(index[i]);
+  for (const auto& [distance2, row] : result.sorted()) {
+    rows.push_back(row), distance2_m2.push_back(distance2);
+  }
 }
 
 }  // namespace phos

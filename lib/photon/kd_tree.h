@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,9 +46,10 @@ class KdTree {
 
   /// Points with |p - point| <= radius_m, unsorted, replacing `rows`; nothing for a negative or NaN radius.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;
-  /// The k nearest (all if there are fewer), nearest first, equal distances by number.
+  /// The k nearest of those with |p - point| <= most_m (all if there are fewer), nearest first, equal
+  /// distances by number.
   void nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
-               std::vector<float>& distance2_m2) const;
+               std::vector<float>& distance2_m2, float most_m = std::numeric_limits<float>::infinity()) const;
 
  private:
   struct Impl;

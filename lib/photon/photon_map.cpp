@@ -107,8 +107,8 @@ void PhotonMap::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32
 }
 
 void PhotonMap::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
-                        std::vector<float>& distance2_m2) const {
-  impl_->tree.nearest(p, k, rows, distance2_m2);
+                        std::vector<float>& distance2_m2, float most_m) const {
+  impl_->tree.nearest(p, k, rows, distance2_m2, most_m);
 }
 
 bool PhotonMap::has_caustics() const {

@@ -132,9 +132,9 @@ class PhotonMap {
 
   /// Rows within radius_m of p (any order that depends only on the map), replacing `rows`.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;
-  /// The k nearest rows and their squared distances (m2), nearest first.
+  /// The k nearest rows within most_m of p and their squared distances (m2), nearest first.
   void nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& rows,
-               std::vector<float>& distance2_m2) const;
+               std::vector<float>& distance2_m2, float most_m = kInfinity) const;
 
   /// The file it came from, or nullptr if built here.
   const Container* container() const;
