@@ -40,6 +40,9 @@ constexpr Limit kTable[] = {
      [](const LayerMetrics& m) { return m.visual ? m.visual->psnr_db : INFINITY; }, nullptr, true},
     {"min-pu-ssim", "X", "PU21 SSIM of layers in cd/m2",
      [](const LayerMetrics& m) { return m.visual ? m.visual->ssim : 1.0; }, nullptr, true},
+    {"max-outliers", "X",
+     "share of pixels whose luminance is off by 20 % and by 5 standard errors of both (layer stderr)",
+     [](const LayerMetrics& m) { return m.outliers.value_or(0); }},
     {"max-flicker", "X",
      "flicker / mean magnitude of the reference, with --flicker; without the references' "
      "noise where there is a second one",

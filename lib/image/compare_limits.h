@@ -22,7 +22,7 @@ class CompareLimits {
   std::string verdict(std::span<const FlickerMetrics> layers) const;
 
  private:
-  static constexpr std::size_t kLimits = 11;
+  static constexpr std::size_t kLimits = 12;
   std::optional<double> values_[kLimits];
 };
 

@@ -84,6 +84,25 @@ Pu21 visual_difference(const Image& image, const Image& reference, const std::st
   return compare_pu21(ya, yb, counts, image.width(), image.height());
 }
 
+std::vector<Rgb> errors_of(const Image& image) {
+  return image.has_layer("stderr") ? image.rgb("stderr") : std::vector<Rgb>(image.pixels(), Rgb(0));
+}
+
+double share_of_outliers(const LayerMetrics& m, const Image& image, const Image& reference,
+                         const std::vector<char>& counts) {
+  constexpr double kOff = 0.2, kStandardErrors = 5;
+  const std::vector<Rgb> a = image.rgb(""), b = reference.rgb(""), ea = errors_of(image),
+                         eb = errors_of(reference);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!counts[i]) continue;
+    const double want = luminance(b[i]), off = std::fabs(luminance(a[i]) - want);
+    const double noise = std::hypot(luminance(ea[i]), luminance(eb[i]));
+    found += off > kOff * std::max(std::fabs(want), m.epsilon) && !(off <= kStandardErrors * noise);
+  }
+  return m.pixels == 0 ? 0 : static_cast<double>(found) / static_cast<double>(m.pixels);
+}
+
 /// The noise of two references is independent, and averages out of the product of their differences.
 void measure_converged(LayerMetrics& m, const Image& image, const Image& reference, const Image& second,
                        const std::string& layer, const std::vector<char>& counts, double magnitude) {
@@ -128,6 +147,7 @@ LayerMetrics measure(const Image& image, const Image& reference, const Image* se
   }
   if (m.unit == "cd/m2" && m.components.size() == 3)
     m.visual = visual_difference(image, reference, layer, counts);
+  if (layer.empty()) m.outliers = share_of_outliers(m, image, reference, counts);
   return m;
 }
 
@@ -257,6 +277,7 @@ Json to_json(const LayerMetrics& m) {
   j["p99"] = m.p99, j["max"] = m.max, j["epsilon"] = m.epsilon;
   if (m.converged_rmse)
     j["converged_rmse"] = *m.converged_rmse, j["relative_converged_rmse"] = *m.relative_converged_rmse;
+  if (m.outliers) j["outliers"] = *m.outliers;
   if (m.visual) j["pu21_psnr_db"] = m.visual->psnr_db, j["pu21_ssim"] = m.visual->ssim;
   return j;
 }
@@ -285,6 +306,9 @@ std::string to_table(const std::vector<LayerMetrics>& metrics) {
     if (m.converged_rmse)
       out += text("  rmse without the references' noise ", number(*m.converged_rmse), ", relative ",
                   number(*m.relative_converged_rmse), "\n");
+    if (m.outliers.value_or(0) > 0)
+      out += text("  ", number(100 * *m.outliers),
+                  " % of the pixels are off by 20 % in luminance and by 5 standard errors\n");
     if (m.ignored > 0) out += text("  ", m.ignored, " pixels left out\n");
     if (m.non_finite > 0) out += text("  ", m.non_finite, " pixels are not finite\n");
   }

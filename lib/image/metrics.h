@@ -33,6 +33,9 @@ struct LayerMetrics {
   double max = 0;                            ///< largest |d|
   double epsilon = 0;          ///< 1 % of mean |reference|: keeps black pixels from ruling relative measures
   std::optional<Pu21> visual;  ///< of layers in cd/m2
+  /// Of beauty: share of pixels whose luminance differs by more than 20 % of the reference's (and of epsilon)
+  /// and by more than 5 standard errors of both, as far as these have a layer `stderr`.
+  std::optional<double> outliers;
   /// rmse and relative_rmse against what the reference converges to, from two references of independent
   /// noise: root of mean (image - reference)(image - second), 0 where that is negative. A pixel that is not
   /// finite in the second counts as equal to it.

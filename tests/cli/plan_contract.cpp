@@ -113,6 +113,24 @@ std::string four_lamps() {
 }
 
 /// Light straight from many lamps goes into the records or not, as is cheaper by measurement.
+TEST(PlanTool, WithoutAPilotGivesUsualSettings) {
+  const std::string folder = scratch("plan-usual");
+  const auto plan =
+      run_tool({"plan", kBox, "--width", "32", "--height", "32", "--error", "10%", "--pilot-seconds", "0"});
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_EQ(plan.out.find("Predicted"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("no pilot was run"), std::string::npos) << plan.out;
+  const auto json = run_tool(
+      {"plan", kBox, "--width", "32", "--height", "32", "--error", "10%", "--pilot-seconds", "0", "--json"});
+  ASSERT_EQ(json.code, 0) << json.err;
+  const Json parsed = parse_json(json.out, "plan");
+  EXPECT_FALSE(parsed.find("promised")->as_bool());
+  EXPECT_GT(parsed.find("plan")->find("settings")->find("photons")->as_number(), 0);
+  expect_refused("plan", {kBox, "--error", "5%", "--pilot-seconds", "0", "--run", "-o", folder + "/run"}, 2,
+                 "--pilot-seconds");
+  std::filesystem::remove_all(folder);
+}
+
 TEST(PlanTool, TriesDirectLightInTheRecords) {
   const std::string cached = "--direct cached --footprint adaptive", scene = four_lamps();
   const auto asked = run_tool(plan_of({"--error", "30%", "--direct", "cached"}, scene));
@@ -205,8 +223,8 @@ TEST(PlanTool, ARunEndsWhereNothingCanBeTold) {
 
 TEST(PlanTool, LuxOnAWorkplane) {
   const std::string folder = scratch("plan-lux");
-  std::vector<std::string> words{"plan",   kBox,   "--error",     "15%", "--quantity", "lux",
-                                 "--grid", "0.15", "--workplane", "0.1", "--pilot-seconds",    "0.5"};
+  std::vector<std::string> words{"plan",   kBox,   "--error",     "15%", "--quantity",      "lux",
+                                 "--grid", "0.15", "--workplane", "0.1", "--pilot-seconds", "0.5"};
   const auto plan = run_tool(words);
   ASSERT_EQ(plan.code, 0) << plan.err;
   EXPECT_EQ(plan.out.find("phos-splat"), std::string::npos) << plan.out;

@@ -211,5 +211,25 @@ TEST(Metrics, DifferenceImageAndTexts) {
   EXPECT_NE(to_table(all).find("1 pixels are not finite"), std::string::npos);
 }
 
+/// Pixels of 100 cd/m2: off by 30 %, by 30 % within their noise, by 10 %, and dark ones off by less than the
+/// mean's hundredth.
+TEST(Metrics, OutliersAreFarOffAndBeyondTheNoise) {
+  Image image(10, 1), reference(10, 1);
+  const float off[10] = {1.3f, 1, 1.3f, 1.1f, 1, 1, 0.6f, 1, 1, 1};
+  for (const char* c : {"R", "G", "B"}) {
+    for (std::size_t i = 0; i < 10; ++i) {
+      reference.channel(c)[i] = i == 9 ? 0.f : 100.f;
+      image.channel(c)[i] = i == 9 ? 0.1f : 100 * off[i];
+    }
+  }
+  const auto outliers = [&] { return *compare_images(image, reference, {}).front().outliers; };
+  EXPECT_NEAR(outliers(), 0.3, 1e-9);  // the first, the third and the seventh
+  for (const char* c : {"stderr.R", "stderr.G", "stderr.B"}) {
+    for (float& v : image.channel(c)) v = 1;
+    image.channel(c)[2] = 10;
+  }
+  EXPECT_NEAR(outliers(), 0.2, 1e-9);
+}
+
 }  // namespace
 }  // namespace phos
