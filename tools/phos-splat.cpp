@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "file/container.h"
 #include "file/tool.h"
 #include "image/image.h"
@@ -35,11 +36,17 @@ void tell_of_files(const Tool& tool, const std::vector<Container>& files, const 
 }
 
 void require_finite(const Image& image) {
-  for (const auto& [name, values] : image.channels())
-    for (const float v : values)
-      if (!std::isfinite(v))
-        throw Error(ExitCode::numerical, "",
-                    "channel " + name + " has a non-finite value; please report this scene");
+  std::vector<std::pair<const std::string*, std::span<const float>>> channels;
+  for (const auto& [name, values] : image.channels()) channels.emplace_back(&name, values);
+  std::vector<std::uint8_t> finite(channels.size());
+  parallel_for(channels.size(), 1, [&](std::size_t c) {
+    const auto [name, values] = channels[c];
+    finite[c] = std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+  });
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    if (finite[c] == 0)
+      throw Error(ExitCode::numerical, "",
+                  "channel " + *channels[c].first + " has a non-finite value; please report this scene");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 namespace phos {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 15;  // nodes of fewer points are built by one thread each
+constexpr std::size_t kPiece = 1 << 15;   // nodes of fewer points are built by one thread each
+constexpr std::size_t kShared = 1 << 18;  // nodes of more points are split by all threads together
 constexpr std::size_t kCopyChunk = 1 << 16;
 constexpr std::size_t kLeft = 0, kRight = 4, kAxis = 8, kLow = 12, kHigh = 16, kIsLeaf = 20;
 
@@ -61,19 +62,30 @@ class Piece {
   std::vector<std::byte>& saved_;
 };
 
-/// The nodes of more than kPiece points, each split by all threads, breadth first; and the pieces below them.
+TreeSplit split(std::span<TreePoint> all, const Node& node) {
+  const std::span<TreePoint> own = all.subspan(node.begin, node.end - node.begin);
+  return own.size() > kShared ? split_points_in_parallel(own, node.box) : split_points(own, node.box);
+}
+
+/// The nodes of more than kPiece points, level by level, and the pieces below them.
 std::vector<Node> build_top(std::span<TreePoint> all, const Bounds& box) {
   std::vector<Node> nodes;
   nodes.push_back({0, all.size(), box});
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [begin, end] = std::pair(nodes[i].begin, nodes[i].end);
-    if (end - begin <= kPiece) continue;
-    const TreeSplit split = split_points_in_parallel(all.subspan(begin, end - begin), nodes[i].box);
-    Bounds first = nodes[i].box, second = nodes[i].box;
-    first.hi[split.axis] = second.lo[split.axis] = split.plane;
-    nodes[i].axis = split.axis, nodes[i].first = nodes.size(), nodes[i].second = nodes.size() + 1;
-    nodes.push_back({begin, begin + split.first, first});
-    nodes.push_back({begin + split.first, end, second});
+  for (std::size_t level = 0, end = 1; level < end; level = end, end = nodes.size()) {
+    std::vector<TreeSplit> splits(end - level);
+    parallel_for(end - level, 1, [&](std::size_t k) {
+      const Node& node = nodes[level + k];
+      if (node.end - node.begin > kPiece) splits[k] = split(all, node);
+    });
+    for (std::size_t i = level; i < end; ++i) {
+      const auto [axis, plane, before] = splits[i - level];
+      if (nodes[i].end - nodes[i].begin <= kPiece) continue;
+      Node first{nodes[i].begin, nodes[i].begin + before, nodes[i].box};
+      Node second{nodes[i].begin + before, nodes[i].end, nodes[i].box};
+      first.box.hi[axis] = second.box.lo[axis] = plane;
+      nodes[i].axis = axis, nodes[i].first = nodes.size(), nodes[i].second = nodes.size() + 1;
+      nodes.push_back(std::move(first)), nodes.push_back(std::move(second));
+    }
   }
   return nodes;
 }

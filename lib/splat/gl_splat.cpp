@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/parallel.h"
 #include "splat/cpu_splatter.h"
 #include "splat/gl_renderer.h"
 #include "splat/shaders.h"
@@ -13,7 +14,8 @@
 namespace phos {
 namespace {
 
-constexpr std::size_t kBatch = 1 << 15;  // instances per draw: bounds the memory
+constexpr std::size_t kBatch = 2048;  // records per draw
+constexpr std::size_t kWave = 16;     // draws that are made ready at a time: bounds the memory
 
 struct SplatInstance {
   Vec4 rect;
@@ -64,8 +66,8 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   PHOS_CHECK(accuracy > 0 && std::isfinite(accuracy), "accuracy ", accuracy);
   const std::size_t pixels = gbuffer.position.size();
   SplatBuffer buffer;
-  for (std::vector<Vec4>* sums : {&buffer.light, &buffer.error, &buffer.spread})
-    sums->assign(pixels, Vec4(0));
+  std::vector<Vec4>* const sums[] = {&buffer.light, &buffer.error, &buffer.spread};
+  parallel_for(3, 1, [&](std::size_t k) { sums[k]->assign(pixels, Vec4(0)); });
   if (pixels == 0 || records.empty()) return buffer;
 
   impl_->context.make_current();
@@ -79,29 +81,37 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   impl_->bind_for_sum(target, true);
   gl.BindVertexArray(impl_->splat_array.id());
 
-  std::vector<SplatInstance> batch;
-  const auto draw = [&] {
-    gl.NamedBufferData(impl_->splat_instances.id(),
-                       static_cast<GLsizeiptr>(batch.size() * sizeof(SplatInstance)), batch.data(),
-                       GL_STREAM_DRAW);
-    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.size()));
-    batch.clear();
-  };
   const TileGrid grid(gbuffer, kSplatTile);
   const std::vector<PixelRect> bounds =
       record_bounds(records, accuracy, camera, gbuffer.width, gbuffer.height);
-  std::vector<PixelRect> rects;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    if (bounds[i].empty()) continue;
-    grid.cut(records[i], a, bounds[i], rects);
-    if (rects.empty()) continue;
-    const PackedRecord packed = pack_record(records[i]);
-    for (const PixelRect& rect : rects) {
-      batch.push_back({in_viewport(rect, gbuffer.width, gbuffer.height), packed});
+  const auto instances_of = [&](std::size_t begin, std::size_t end, std::vector<SplatInstance>& batch) {
+    std::vector<PixelRect> rects;
+    batch.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (bounds[i].empty()) continue;
+      grid.cut(records[i], a, bounds[i], rects);
+      if (rects.empty()) continue;
+      const PackedRecord packed = pack_record(records[i]);
+      for (const PixelRect& rect : rects)
+        batch.push_back({in_viewport(rect, gbuffer.width, gbuffer.height), packed});
     }
-    if (batch.size() >= kBatch) draw(), throw_if_interrupted();
+  };
+  // All threads make the instances of a wave; one draws them in order.
+  std::vector<std::vector<SplatInstance>> wave(kWave);
+  for (std::size_t first = 0; first < records.size(); first += kWave * kBatch) {
+    const std::size_t count = std::min(kWave * kBatch, records.size() - first);
+    parallel_chunks(count, kBatch, [&](std::size_t begin, std::size_t end) {
+      instances_of(first + begin, first + end, wave[begin / kBatch]);
+    });
+    for (std::size_t k = 0; k * kBatch < count; ++k) {
+      if (wave[k].empty()) continue;
+      gl.NamedBufferData(impl_->splat_instances.id(),
+                         static_cast<GLsizeiptr>(wave[k].size() * sizeof(SplatInstance)), wave[k].data(),
+                         GL_STREAM_DRAW);
+      gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(wave[k].size()));
+    }
+    throw_if_interrupted();
   }
-  if (!batch.empty()) draw();
   impl_->read(target.light, buffer.light);
   impl_->read(target.error, buffer.error);
   impl_->read(target.spread, buffer.spread);
