@@ -45,7 +45,8 @@ TEST(LightCut, IsTheSumOfOpenLampsAndStatesItsError) {
     }
     EXPECT_GT(all.calibration.share(), 0.94) << lamps;
     EXPECT_LT(all.calibration.ratio(), 1) << lamps;
-    EXPECT_GT(all.calibration.ratio(), 0.5) << lamps;  // halves of a node are told as if they were independent
+    EXPECT_GT(all.calibration.ratio(), 0.5)
+        << lamps;  // halves of a node are told as if they were independent
     EXPECT_LT(std::fabs(all.calibration.bias()), 4 / std::sqrt(all.n)) << lamps;
     EXPECT_LT(std::sqrt(all.error2 / all.n), lamps > 1000 ? 0.003 : 0.006) << lamps;
     RecordProperty(std::to_string(lamps), std::to_string(std::sqrt(all.error2 / all.n)));
@@ -88,6 +89,41 @@ TEST(LightCut, OfAllLampsIsExact) {
     EXPECT_EQ(light.variance, DVec3(0));
     EXPECT_TRUE(light.exact);
     EXPECT_EQ(light.rays, 50u);
+  }
+}
+
+/// One lamp of a thousand for one ray: by the hierarchy the noise is less than half of the noise by power,
+/// and the mean is the same.
+TEST(LampSampler, ChoosesOfManyByWhatTheyBring) {
+  const Scene scene = hall_of_lamps(1000, true);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const LampSampler lamps(rays, lights);
+  const std::vector<double> shares = lights.power_shares(0.1);
+  for (const Vec3& p : kPlaces) {
+    const SurfacePoint at = receiver(scene, p, kUp);
+    const double truth = all_lx(rays, lights, at);
+    constexpr int kSamples = 20000;
+    double sum = 0, squares = 0;
+    for (std::uint64_t i = 0; i < kSamples; ++i) {
+      RandomStream random(i, Stage::test, 2);
+      ArrivingLight light;
+      lamps.sample(at, {random.uniform(), random.uniform(), random.uniform()}, light);
+      const double lx =
+          light.certain || !rays.occluded(light.ray) ? static_cast<double>(luminance(light.lux)) : 0;
+      sum += lx / kSamples, squares += lx * lx / kSamples;
+    }
+    const double noise = std::sqrt(squares - sum * sum) / truth;
+    EXPECT_NEAR(sum, truth, 4 * noise * truth / std::sqrt(kSamples)) << p.x;
+    double by_power = 0;  // mean square, exactly
+    std::vector<LampSample> each;
+    RandomStream random(1, Stage::test, 0);
+    sample_lamps(rays, lights, at, 1, random, each);
+    for (const LampSample& lamp : each) {
+      const auto lx = static_cast<double>(luminance(lamp.irradiance));
+      by_power += lx * lx / shares[lamp.light];
+    }
+    EXPECT_LT(noise, 0.5 * std::sqrt(by_power - truth * truth) / truth) << p.x;
   }
 }
 
