@@ -120,9 +120,10 @@ void report_on(Tool& tool, const Inputs& inputs, const Sensors& sensors, std::sp
     tool.say(text(report.uncovered, " sensors are beyond the caches' records; ", report.records_made,
                   " records were made for them"));
   if (report.above_error > 0)
-    tool.say(text("direct light of ", report.above_error, " sensors is known less well than --error asks by ",
-                  DirectReader::kMostRays, " rays to a lamp, the most; --light-samples can be more, and ",
-                  "--portals auto finds a sky behind windows with fewer"));
+    tool.say(
+        text("direct light of ", report.above_error, " sensors is known less well than --error asks: pilots ",
+             "foretell it roughly, and no lamp gets more than ", DirectReader::kMostRays,
+             " rays (--light-samples can be more; --portals auto finds a sky behind windows with fewer)"));
   if (report.inside > 0) tool.warn(text(report.inside, " sensors are inside of solids or behind walls"));
   if (report.outside > 0) tool.warn(text(report.outside, " sensors are outside of the scene's bounds"));
 }

@@ -25,6 +25,9 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
 
 namespace {
 
+/// Lights whose numbers one bounce of a stream holds, and the bounces of more.
+constexpr std::uint32_t kLightsOfABounce = 1 << 16, kManyLightsBounce = 256;
+
 /// Points of the square by which a light is sampled.
 class LampPoints {
  public:
@@ -49,13 +52,13 @@ int count(const Light& light, int samples) { return light.extended() ? samples :
 
 /// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
 void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
-                   std::span<const int> samples, PointOrder::Kind kind, RandomStream& random,
+                   std::span<const LampCount> counts, PointOrder::Kind kind, RandomStream& random,
                    std::vector<LampSample>& out) {
   const MirrorPlanes& mirrors = lights.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
+    for (const auto& [i, samples] : counts) {
       if (!has_images(rays.scene(), lights[i])) continue;
-      const int n = count(lights[i], samples[i]);
+      const int n = count(lights[i], samples);
       const float shift = random.uniform();
       const LampPoints points(rays.scene(), lights, i, kind, random);
       for (int k = 0; k < n; ++k) {
@@ -69,8 +72,8 @@ void sample_images(const RayScene& rays, const Luminaires& lights, const Surface
         const float density = light.density > 0 ? light.density * static_cast<float>(n) : 1.f;
         const bool area = lights[i].kind == Light::Kind::area;
         out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction,
-                       light.value * (cosine / density), static_cast<std::uint32_t>(i),
-                       static_cast<std::uint32_t>(k), static_cast<std::int32_t>(chain), points.kind()});
+                       light.value * (cosine / density), i, static_cast<std::uint32_t>(k),
+                       static_cast<std::int32_t>(chain), points.kind()});
       }
     }
   }
@@ -97,18 +100,21 @@ void add_group(std::span<const LampSample>& lamps, int samples, const Luminaires
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out) {
-  const std::vector<int> of_each(lights.size(), std::max(samples, 1));
+  std::vector<LampCount> of_each;
+  for (std::uint32_t i = 0; i < lights.size(); ++i) of_each.push_back({i, std::max(samples, 1)});
   sample_lamps(rays, lights, receiver, of_each, PointOrder::Kind::r2, random, out);
 }
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
-                  std::span<const int> samples, PointOrder::Kind kind, RandomStream& random,
+                  std::span<const LampCount> counts, PointOrder::Kind kind, RandomStream& random,
                   std::vector<LampSample>& out) {
   out.clear();
   std::vector<Ray> way;
   std::vector<Rgb> share;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const int n = count(lights[i], samples[i]);
+  for (const auto& [i, samples] : counts) {
+    const int n = count(lights[i], samples);
+    // A bounce's numbers are enough for so many.
+    if (i > 0 && i % kLightsOfABounce == 0) random.start_bounce(kManyLightsBounce + i / kLightsOfABounce);
     // Drawn for every light, so that one light's samples do not depend on what another's do.
     const float shift = random.uniform();
     const LampPoints points(rays.scene(), lights, i, kind, random);
@@ -125,8 +131,8 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
       const Rgb irradiance =
           light.value * (cosine / (light.density > 0 ? light.density * static_cast<float>(n) : 1.f));
       if (!(max_component(irradiance) > 0)) continue;
-      out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance,
-                     static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), -1, points.kind()});
+      out.push_back({light.direction, light.distance_m, area ? light.normal : -light.direction, irradiance, i,
+                     static_cast<std::uint32_t>(k), -1, points.kind()});
       way.push_back(shadow_ray(receiver, light));
     }
     share.resize(way.size());
@@ -139,7 +145,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     }
     out.resize(kept);
   }
-  if (!lights.mirrors().empty()) sample_images(rays, lights, receiver, samples, kind, random, out);
+  if (!lights.mirrors().empty()) sample_images(rays, lights, receiver, counts, kind, random, out);
 }
 
 PointOrder::Kind points_of(const Scene& scene, const Luminaires& lights, std::size_t i,
@@ -158,13 +164,15 @@ LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires&
   return sum;
 }
 
-std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const int> samples,
+std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const LampCount> counts,
                              const Luminaires& lights) {
-  std::vector<LampSum> sums(lights.size());
+  std::vector<LampSum> sums(counts.size());
   std::vector<DVec3> part;
+  std::size_t k = 0;
   while (!lamps.empty()) {
-    const std::size_t light = lamps[0].light;
-    add_group(lamps, samples[light], lights, part, sums[light]);
+    // Samples come in the order of counts; the ones of images in it again, mirror by mirror.
+    while (counts[k].light != lamps[0].light) k = (k + 1) % counts.size();
+    add_group(lamps, counts[k].samples, lights, part, sums[k]);
   }
   return sums;
 }

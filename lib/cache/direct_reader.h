@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cache/direct_light.h"
+#include "cache/light_cut.h"
 
 namespace phos {
 
@@ -27,7 +29,7 @@ struct DirectReading {
 /// Reads direct light. Const, usable from any thread; holds references.
 class DirectReader {
  public:
-  DirectReader(const RayScene& rays, const Luminaires& lights) : rays_(rays), lights_(lights) {}
+  DirectReader(const RayScene& rays, const Luminaires& lights);
 
   /// By `samples` shadow rays to each lamp of an extent (direct_irradiance()); `item` is of the random
   /// numbers.
@@ -41,12 +43,20 @@ class DirectReader {
 
   static constexpr int kMostRays = 4096;
 
+  /// Are lamps so many (more than 500 that stand somewhere, and no mirror) that the target is met by a cut
+  /// through their hierarchy (light_by_cut())?
+  bool by_cut() const { return tree_.has_value(); }
+
  private:
   struct Pilot;
+  CutLight read_cut(const SurfacePoint& at, double stderr_lx, const CutLight& pilot,
+                    RandomStream& random) const;
   Pilot send_pilot(const SurfacePoint& at, std::uint64_t seed, std::uint64_t item) const;
 
   const RayScene& rays_;
   const Luminaires& lights_;
+  std::optional<LightTree> tree_;
+  std::vector<std::uint32_t> aimed_;  // lights that are no part of the tree
 };
 
 }  // namespace phos

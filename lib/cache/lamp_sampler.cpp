@@ -15,6 +15,9 @@ namespace {
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
 constexpr double kMinimumShare = 0.1;
 constexpr long kMostSamples = 4;
+/// Where both have light, the hierarchy of lamps and the far ones have no smaller part than this: what the
+/// former promises is rough.
+constexpr double kLeastOfEither = 0.2;
 /// An area light is near from this distance to its centre on, in radii of the sphere about it.
 constexpr float kNear = 1.5f;
 /// Share of rays near a lamp; and where there are too many lamps to tell.
@@ -35,7 +38,13 @@ LampSampler::LampSampler(const RayScene& rays, const Luminaires& lights) : rays_
     area_ = area_ || lights[i].kind == Light::Kind::area;
     panel_.emplace_back(rays.scene(), lights[i]);
   }
-  if (lights.size() > kMostCompared) return;
+  if (lights.size() > kMostCompared) {
+    tree_.emplace(rays.scene(), lights);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      if (!LightTree::holds(lights[i]))
+        far_.push_back(i), far_lamp_.push_back(lamp_of(rays.scene(), lights[i]));
+    return;
+  }
   for (std::size_t i = 0; i < lights.size(); ++i) lamp_.push_back(lamp_of(rays.scene(), lights[i]));
 }
 
@@ -86,6 +95,7 @@ float LampSampler::promises(const SurfacePoint& point, Promises& each) const {
 
 LampSampler::Choice LampSampler::choose(const SurfacePoint& point, float u) const {
   if (share_.size() == 1) return {0, 1, u};
+  if (tree_) return choose_of_many(point, u);
   Promises each;
   const float sum = promises(point, each);
   if (sum > 0 && std::isfinite(sum)) {
@@ -109,9 +119,59 @@ LampSampler::Choice LampSampler::choose(const SurfacePoint& point, float u) cons
 
 float LampSampler::probability(const SurfacePoint& point, std::size_t light) const {
   if (share_.size() == 1) return 1;
+  if (tree_) return probability_of_many(point, light);
   Promises each;
   const float sum = promises(point, each);
   return sum > 0 && std::isfinite(sum) ? each[light] / sum : share_[light];
+}
+
+double LampSampler::tree_share(const SurfacePoint& point, std::vector<double>& far_lx) const {
+  double far = 0;
+  far_lx.clear();
+  for (const Lamp& lamp : far_lamp_) {
+    const double lx = static_cast<double>(promise_lx(lamp, point));
+    far_lx.push_back(std::isfinite(lx) ? std::max(lx, 0.0) : 0), far += far_lx.back();
+  }
+  if (tree_->empty()) return 0;
+  const double near = tree_->importance_lx(LightTree::root(), point);
+  if (!(far > 0)) return 1;
+  if (!(near > 0)) return 0;
+  return std::isfinite(near) ? std::clamp(near / (near + far), kLeastOfEither, 1 - kLeastOfEither)
+                             : 1 - kLeastOfEither;
+}
+
+LampSampler::Choice LampSampler::choose_of_many(const SurfacePoint& point, float u) const {
+  std::vector<double> far_lx;
+  const double tree = tree_share(point, far_lx);
+  const double x = static_cast<double>(u);
+  if (x < tree) {
+    const LightTree::Choice choice = tree_->choose(LightTree::root(), point, x / tree);
+    return {choice.light, static_cast<float>(tree * choice.probability),
+            std::min(static_cast<float>(choice.rest), kBelowOne)};
+  }
+  double sum = 0;
+  for (const double lx : far_lx) sum += lx;
+  double beyond = (x - tree) / (1 - tree) * sum;
+  std::size_t k = 0, last = 0;
+  for (; k < far_.size(); ++k) {
+    if (!(far_lx[k] > 0)) continue;
+    last = k;
+    if (beyond < far_lx[k]) break;
+    beyond -= far_lx[k];
+  }
+  if (!(sum > 0)) return {far_[0], static_cast<float>((1 - tree)), static_cast<float>(x)};  // none lights it
+  const auto rest = k < far_.size() ? static_cast<float>(beyond / far_lx[last]) : kBelowOne;
+  return {far_[last], static_cast<float>((1 - tree) * far_lx[last] / sum), std::min(rest, kBelowOne)};
+}
+
+float LampSampler::probability_of_many(const SurfacePoint& point, std::size_t light) const {
+  std::vector<double> far_lx;
+  const double tree = tree_share(point, far_lx);
+  if (LightTree::holds(lights_[light])) return static_cast<float>(tree * tree_->probability(point, light));
+  double sum = 0, own = 0;
+  for (std::size_t k = 0; k < far_.size(); ++k) sum += far_lx[k], own += far_[k] == light ? far_lx[k] : 0;
+  if (!(sum > 0)) return far_[0] == light ? static_cast<float>(1 - tree) : 0.f;
+  return static_cast<float>((1 - tree) * own / sum);
 }
 
 /// Close to an area light, points on it are a poor choice: their density per sr varies without bound. (Of an

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "cache/light_tree.h"
 #include "scene/lamp_panel.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
@@ -19,8 +21,8 @@ struct ArrivingLight {
 };
 
 /// Chooses one lamp for a point, with a probability about in proportion to the light that it would bring if
-/// nothing stood between; in proportion to power where there are many. A lamp that could light the point is
-/// never left out. Const, usable from any thread; holds references.
+/// nothing stood between: of more than eight that stand somewhere, by their hierarchy (LightTree). A lamp
+/// that could light the point is never left out. Const, usable from any thread; holds references.
 class LampSampler {
  public:
   LampSampler(const RayScene& rays, const Luminaires& lights);
@@ -64,9 +66,17 @@ class LampSampler {
   float ray_share(const SurfacePoint& point) const;
   void by_ray(const SurfacePoint& point, const Vec2& u, float ray_share, ArrivingLight& light) const;
 
+  /// Of many lamps: with which the tree is asked, and not the ones that are far.
+  double tree_share(const SurfacePoint& point, std::vector<double>& far_lx) const;
+  Choice choose_of_many(const SurfacePoint& point, float u) const;
+  float probability_of_many(const SurfacePoint& point, std::size_t light) const;
+
   const RayScene& rays_;
   const Luminaires& lights_;
-  std::vector<Lamp> lamp_;        // empty where there are too many
+  std::vector<Lamp> lamp_;         // empty where there are too many
+  std::optional<LightTree> tree_;  // of those
+  std::vector<std::size_t> far_;   // beside it: directional lights, and the environment
+  std::vector<Lamp> far_lamp_;
   std::vector<LampPanel> panel_;  // per light
   std::vector<float> share_;      // of power
   std::vector<double> cdf_;
