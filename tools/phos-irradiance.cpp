@@ -19,6 +19,15 @@ std::string percent(double part, double whole) {
   return out.str();
 }
 
+/// --placement-error judges gathered records of circles, which reading blends 1.5 times as far as they reach.
+void require_judged(RecordOptions& records, const Options& given) {
+  if (records.estimate != Estimate::gather || records.footprint != Footprint::circle)
+    throw Error(
+        ExitCode::usage, "--placement-error",
+        "is of gathered records with a circle for a footprint; give --estimate gather, or leave it out");
+  if (!given.given("accuracy") && !given.given("add-to")) records.accuracy = 1 / 3.0;
+}
+
 void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report, bool stated) {
   double light = 0, error = 0;
   for (const IrradianceRecord& r : cache.records) {
@@ -113,6 +122,7 @@ int main(int argc, char** argv) {
     const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     IrradianceCache cache;
     if (!add_to.empty()) cache = open_earlier(add_to, files, scene, allow_mismatch, options, records);
+    if (placement.error) require_judged(records, options);
     cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
     cache.quantity = name_of(records.paths);

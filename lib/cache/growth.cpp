@@ -53,6 +53,12 @@ float RadiusRules::limit(std::size_t record, float radius_m) {
   return this->radius_m(record);
 }
 
+float RadiusRules::lower(std::size_t record, float radius_m) {
+  PHOS_CHECK(record >= kept_, "record ", record, " is to stay as it is");
+  clamp_.lower(record, radius_m);
+  return this->radius_m(record);
+}
+
 float RadiusRules::radius_m(std::size_t i) const {
   const IrradianceRecord& r = made_[i].record;
   if (!r.footprint) return within_bounds_m(std::min(clamp_.radius_m(i), limit_m_[i]), made_[i], bounds_);
@@ -97,11 +103,16 @@ float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& boun
   return std::clamp(radius, bounds.least_m, bounds.most_m);
 }
 
-Growth::Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved)
+Growth::Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved, GrowthBy by)
     : tree_(rays.scene().bounds, cache.accuracy, resolved.leak_test == LeakTest::ray ? &rays : nullptr),
-      rules_(rays.scene().bounds, bounds_of(resolved)),
+      rules_(by == GrowthBy::error ? RadiusRules(rays.scene().bounds, bounds_of(resolved), ClampBy::judged,
+                                                 std::min(1.f, 0.5f / static_cast<float>(resolved.accuracy)))
+                                   : RadiusRules(rays.scene().bounds, bounds_of(resolved))),
+      accuracy_(static_cast<float>(resolved.accuracy)),
       reading_accuracy_(static_cast<float>(reading_accuracy(cache.accuracy))),
-      kept_(cache.records.size()) {
+      most_m_(static_cast<float>(*resolved.max_radius_m)),
+      kept_(cache.records.size()),
+      by_(by) {
   if (resolved.footprint == Footprint::circle_harmonic) tolerance_ = kTolerance;
   if (resolved.footprint == Footprint::adaptive) tolerance_ = 2 * static_cast<float>(resolved.rho);
   if (tolerance_) as_read_.emplace(rays.scene().bounds, reading_accuracy(cache.accuracy));
@@ -113,10 +124,19 @@ Growth::Growth(const IrradianceCache& cache, const RayScene& rays, const RecordO
 }
 
 void Growth::accept(const Made& made) {
-  IrradianceRecord placed = made.record;
-  placed.radius_m = rules_.add(made, [&](std::size_t i, float radius_m) { shrink(i, radius_m); });
+  Made start = made;
+  IrradianceRecord& placed = start.record;
+  if (by_ == GrowthBy::error)
+    placed.radius_m = std::min(kStartReach * placed.distance_m / accuracy_, most_m_);
+  placed.radius_m = rules_.add(start, [&](std::size_t i, float radius_m) { shrink(i, radius_m); });
   tree_.insert(placed);
   if (as_read_) as_read_->insert(placed);
+}
+
+bool Growth::lower(std::size_t record, float radius_m) {
+  const float before_m = tree_.records()[record].radius_m;
+  shrink(record, rules_.lower(record, radius_m));
+  return tree_.records()[record].radius_m < before_m;
 }
 
 void Growth::shrink(std::size_t i, float radius_m) {

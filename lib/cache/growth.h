@@ -27,7 +27,9 @@ float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& boun
 /// have looked in eight directions, and in bounds, when they were made: they neither clamp nor are clamped.
 class RadiusRules {
  public:
-  RadiusRules(const Bounds& scene, const RadiusBounds& bounds) : bounds_(bounds), clamp_(scene) {}
+  /// `slope`: of the clamp, 1 or less.
+  RadiusRules(const Bounds& scene, const RadiusBounds& bounds, ClampBy by = ClampBy::all, float slope = 1)
+      : bounds_(bounds), clamp_(scene, by, slope) {}
 
   /// A record that stays as it is and clamps those after it.
   void keep(const IrradianceRecord& record);
@@ -36,6 +38,8 @@ class RadiusRules {
   /// Limits the radius of a new record (by its place in order) besides, but for the lower bounds. Returns its
   /// radius by now.
   float limit(std::size_t record, float radius_m);
+  /// The same, and new records come to be clamped by it.
+  float lower(std::size_t record, float radius_m);
   /// Appends the new records with their final radii. Where a lower bound is above the right radius, gradients
   /// are reduced so that extrapolation stays bounded. Of those that stand for radiance records, these are
   /// appended to `radiance` (if it is not null), treated alike.
@@ -61,11 +65,24 @@ class RadiusRules {
 /// Bounds that resolved options set.
 RadiusBounds bounds_of(const RecordOptions& resolved);
 
+/// How radii come about.
+enum class GrowthBy {
+  rules,  ///< RadiusRules
+  /// FORMULAS-placement H7: records start with a reach of kStartReach times their harmonic distance, whatever
+  /// their gradients say, and are judged afterwards (Refinement). Those that have been found to reach too far
+  /// clamp new ones by half of what lies between; others clamp none, for at an edge the distance goes to
+  /// zero, and all records about it would be small. Not of footprints.
+  error,
+};
+/// In harmonic distances.
+inline constexpr float kStartReach = 0.8f;
+
 /// RadiusRules with a lookup of what the records so far cover.
 class Growth {
  public:
   /// Takes the cache's own records as they are. Holds a reference to rays.
-  Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved);
+  Growth(const IrradianceCache& cache, const RayScene& rays, const RecordOptions& resolved,
+         GrowthBy by = GrowthBy::rules);
 
   bool covered(const RecordSite& site) const { return tree_.covered(site.position, site.normal); }
   /// The same, with the record that covered a site near by (RecordTree::covered).
@@ -82,6 +99,9 @@ class Growth {
   /// as far as before. Wrong is by more than twice the stated errors of both and a share of the light, the
   /// tolerance. Returns how many have been shrunk; what they covered may be open.
   std::size_t compare();
+  /// Lowers the radius of a new record. False: bounds hold it where it is.
+  bool lower(std::size_t record, float radius_m);
+  std::size_t kept() const { return kept_; }  ///< the cache's own records, which come first
   const RecordTree& tree() const { return tree_; }
   RadiusRules& rules() { return rules_; }
   std::size_t size() const { return rules_.size(); }
@@ -92,8 +112,9 @@ class Growth {
   RadiusRules rules_;
   std::optional<float> tolerance_;     // of compare(); none: records are not compared
   std::optional<RecordTree> as_read_;  // of those that are: each with the reach at which it is read
-  float reading_accuracy_;
+  float accuracy_, reading_accuracy_, most_m_;
   std::size_t kept_;
+  GrowthBy by_;
   int pass_ = 1;
   std::vector<int> shrunk_in_;  // of records that have
 };

@@ -52,6 +52,13 @@ void declare_place_options(Options& options, PlacementOptions& p) {
 
 void declare_options(Options& options, PlacementOptions& p) {
   declare_place_options(options, p);
+  options.number(
+      "placement-error", p.error, "E",
+      "with --estimate gather --place surface: records far apart at first, and nearer to each other "
+      "where they foretell each other's light wrongly, for a root mean square error of about E of "
+      "the mean irradiance; E should not be less than the --rays of a record allow, and accuracy "
+      "is 1/3 if not given",
+      {1e-4, 1}, Recorded::if_given);
   options.text("part", p.part, "K/N",
                "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
                Recorded::no);
@@ -73,6 +80,8 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
     refuse("--at", "is not read by this --place; use --place given or every, or leave --at out");
   if (!p.part.empty() && p.place != Place::every) refuse("--part", "goes with --place every alone; add that");
   parse_share("--part", p.part);
+  if (p.error && p.place != Place::surface)
+    refuse("--placement-error", "goes with --place surface alone; add that");
   if (p.place != Place::view) {
     const bool least = p.min_radius_pixels.value_or(0) > 0;
     if (least || p.max_radius_pixels > 0)

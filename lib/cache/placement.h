@@ -35,10 +35,13 @@ struct PlacementOptions {
   std::optional<double> min_radius_pixels{};
   double max_radius_pixels = 0;  ///< of view; 0: no bound
   std::string part{};            ///< of every: "k/n", or empty: all
+  /// Of surface, by gathered rays: root mean square error aimed at, of the mean; empty: radii by the rules of
+  /// RecordOptions alone.
+  std::optional<double> error{};
 };
 
 void declare_options(Options& options, PlacementOptions& placement);
-/// All but --part.
+/// All but --part and --placement-error.
 void declare_place_options(Options& options, PlacementOptions& placement);
 
 /// What placement may read besides the scene.
@@ -91,11 +94,14 @@ PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, 
 /// Triangles are halved until each piece lies within the reach of one record or is small beside it; a
 /// record is made at the middle of a piece that nothing covers. Repeated, since neighbours shrink each
 /// other's reach, until a pass finds less than kSurfaceShare of the area open, or `passes` are done. With
-/// `wanted`, surfaces of other materials are none.
+/// `wanted`, surfaces of other materials are none. With placement.error, records start far apart and come
+/// nearer to each other where they foretell each other wrongly (Refinement), kErrorPasses times at most;
+/// their gradients then follow from their neighbours too.
 PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                                   const RecordOptions& resolved, const PlacementOptions& placement,
                                   Counters& counters, const MaterialFilter& wanted = {});
 inline constexpr double kSurfaceShare = 1e-4;
+inline constexpr int kErrorPasses = 10;
 
 class Growth;
 class ParallelMaker;

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "cache/growth.h"
 #include "cache/placement.h"
 #include "cache/placer.h"
+#include "cache/refinement.h"
 #include "cache/surface_sides.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -232,14 +234,22 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
                                   const RecordOptions& resolved, const PlacementOptions& placement,
                                   Counters& counters, const MaterialFilter& wanted) {
   PlacementReport report;
-  Growth growth(cache, rays, resolved);
+  Growth growth(cache, rays, resolved, placement.error ? GrowthBy::error : GrowthBy::rules);
   ParallelMaker maker(estimator);
   Placer placer(maker, growth);
   SurfaceCover cover(rays, resolved, wanted, growth, placer);
-  for (int pass = 1; pass <= placement.passes; ++pass) {
+  std::optional<Refinement> refinement;
+  if (placement.error) refinement.emplace(growth, maker, resolved, *placement.error);
+  const std::int64_t passes =
+      refinement ? std::max<std::int64_t>(placement.passes, kErrorPasses) : placement.passes;
+  for (int pass = 1; pass <= passes; ++pass) {
     report.passes = static_cast<std::uint64_t>(pass);
     cover.pass(pass);
-    if (pass < placement.passes) growth.compare();
+    if (refinement) {
+      if (pass < passes && refinement->refine() > 0) continue;
+    } else if (pass < passes) {
+      growth.compare();
+    }
     report.uncovered_share = cover.open_share(pass, true);
     report.uncovered_share_of_triangles = cover.open_share(pass, false);
     if (std::max(*report.uncovered_share, *report.uncovered_share_of_triangles) < kSurfaceShare) break;
@@ -247,7 +257,10 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   report.candidates = cover.pieces();
   report.sides = cover.sides(), report.sides_inside = cover.sides_inside();
   if (report.sides_inside > 0) counters.count("sides inside solids passed over", report.sides_inside);
+  const std::size_t first_new = cache.records.size();
   finish_placement(growth, maker, cache, report, counters);
+  if (refinement && resolved.gradients != GradientMode::none)
+    refinement->fit_gradients(cache.records, first_new);
   return report;
 }
 

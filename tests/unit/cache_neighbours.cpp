@@ -48,6 +48,20 @@ TEST(NeighbourClamp, IsTheLowerEnvelopeOfAllPairsInAnyOrder) {
   }
 }
 
+TEST(NeighbourClamp, OfThoseByErrorJudgedPointsClampTheOnesAfterThem) {
+  Bounds bounds;
+  bounds.include(Vec3(0)), bounds.include(Vec3(1));
+  NeighbourClamp clamp(bounds, ClampBy::judged, 0.5f);
+  const auto never = [](std::size_t, float) { FAIL(); };
+  const std::vector<Point> points = some_points(100);  // so many that the octree branches
+  for (const Point& q : points) EXPECT_EQ(clamp.insert(q.p, q.n, q.radius_m, false, never), q.radius_m);
+  clamp.lower(40, 0.001f);
+  EXPECT_EQ(clamp.radius_m(40), 0.001f);
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(clamp.radius_m(i), points[i].radius_m);
+  const Vec3 p = points[40].p + Vec3(0, 0.05f, 0);
+  EXPECT_NEAR(clamp.insert(p, points[40].n, 1, false, never), 0.001f + 0.5f * 0.05f, 1e-6f);
+}
+
 TEST(NeighbourClamp, TheOtherSideOfAWallAndFrozenPointsAreLeftAlone) {
   Bounds bounds;
   bounds.include(Vec3(0)), bounds.include(Vec3(1));

@@ -378,6 +378,7 @@ TEST(Placement, WhatDoesNotGoTogether) {
   EXPECT_EQ(refused({.place = Place::view}, points), "--at");
   EXPECT_EQ(refused({.place = Place::surface}, points), "--at");
   EXPECT_EQ(refused({.place = Place::surface, .part = "1/2"}, none), "--part");
+  EXPECT_EQ(refused({.place = Place::view, .error = 0.01}, none), "--placement-error");
   EXPECT_EQ(refused({.place = Place::given, .part = "1/2"}, points), "--part");
   EXPECT_EQ(refused({.place = Place::surface, .min_radius_pixels = 1}, none), "--min-radius-pixels");
   EXPECT_EQ(refused({.place = Place::surface, .max_radius_pixels = 1}, none), "--max-radius-pixels");

@@ -57,6 +57,10 @@ void expect_as_brute_force(const KdTree& tree, const std::vector<Vec3>& points, 
     for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(distance2(p, points[rows[i]]), d2[i]);
     std::sort(rows.begin(), rows.end());
     EXPECT_EQ(std::adjacent_find(rows.begin(), rows.end()), rows.end()) << "a row twice";
+    tree.nearest(p, k, rows, d2, radius_m);
+    std::vector<float> near = brute_nearest(points, p, k);
+    near.erase(std::upper_bound(near.begin(), near.end(), radius_m * radius_m), near.end());
+    EXPECT_EQ(d2, near) << "k " << k << " within " << radius_m;
   }
 }
 
