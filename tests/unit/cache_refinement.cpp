@@ -80,7 +80,7 @@ Placed place_in(const Scene& scene, std::optional<double> error) {
   RecordOptions options;
   options.estimate = Estimate::gather;
   if (error) options.accuracy = 1 / 3.0;
-  options.resolve(scene.bounds.diagonal_m());
+  options.resolve(scene.bounds.diagonal_m() / 4);
   PlacementOptions placement{.place = Place::surface};
   placement.error = error;
   Placed placed;
