@@ -43,7 +43,7 @@ class DirectReader {
 
   static constexpr int kMostRays = 4096;
 
-  /// Are lamps so many (more than 500 that stand somewhere, and no mirror) that the target is met by a cut
+  /// Are lamps so many (more than 1000 that stand somewhere, and no mirror) that the target is met by a cut
   /// through their hierarchy (light_by_cut())?
   bool by_cut() const { return tree_.has_value(); }
 

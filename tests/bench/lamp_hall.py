@@ -1,7 +1,7 @@
 """Writes a hall of many lamps: lamp_hall.py OUTPUT.obj LAMPS (and .mtl and .lights.json beside it)
 
 60 x 8 x 30 m, five partitions of 5 m height with a door of 4 m each; point lamps on a grid 7 m above the floor, each of 1 to 3 parts of
-20,000 cd / LAMPS. For light by a cut through a hierarchy of lamps (docs/methods.md).
+20,000 cd / LAMPS. For phos-sense, which reads more than 1000 lamps by a cut through their hierarchy.
 """
 
 import json

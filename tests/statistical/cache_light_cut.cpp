@@ -129,7 +129,7 @@ TEST(LampSampler, ChoosesOfManyByWhatTheyBring) {
 
 /// To 2 % with a fraction of the rays that a lamp chosen by its power takes, or all lamps.
 TEST(DirectReader, ReadsManyLampsByFewRays) {
-  for (const int lamps : {1000, 100000}) {
+  for (const int lamps : {2000, 100000}) {
     const Scene scene = hall_of_lamps(lamps, true);
     const RayScene rays(scene);
     const Luminaires lights(scene);
@@ -147,8 +147,8 @@ TEST(DirectReader, ReadsManyLampsByFewRays) {
         sent += static_cast<double>(e.rays) / 400, met += e.met / 400.0;
       }
     }
-    EXPECT_LT(sent, 400) << lamps;
-    EXPECT_GT(met, 0.65) << lamps;
+    EXPECT_LT(sent, 500) << lamps;
+    EXPECT_GT(met, 0.7) << lamps;
     EXPECT_GT(all.share(), 0.92) << lamps;
     EXPECT_LT(std::fabs(all.bias()), 4 / std::sqrt(all.n)) << lamps;
     RecordProperty("rays of " + std::to_string(lamps), std::to_string(sent));

@@ -4,6 +4,7 @@
 #include "cache/direct_light.h"
 #include "cache/light_cut.h"
 #include "core/error.h"
+#include "support/luminaires.h"
 #include "support/many_lamps.h"
 
 namespace phos::test {
@@ -24,6 +25,14 @@ Scene lamps_any_way(int number) {
       begin_instance(scene, "panel", shine);
       const Frame frame = make_frame(towards);
       add_quad(scene, p, 0.2f * frame.x, 0.2f * frame.y);
+      continue;
+    }
+    if (i % 8 == 1) {
+      hang(scene, luminaire(i % 16 == 1 ? lopsided() : lambertian(100)), p);
+      continue;
+    }
+    if (i % 8 == 2) {
+      hang(scene, luminaire(lambertian(100), {LuminousOpening::Form::box, {0.6, 0.3, 0}}), p);
       continue;
     }
     Light light;
