@@ -55,9 +55,9 @@ void declare_options(Options& options, PlacementOptions& p) {
   options.number(
       "placement-error", p.error, "E",
       "with --estimate gather --place surface: records far apart at first, and nearer to each other "
-      "where they foretell each other's light wrongly, for a root mean square error of about E of "
-      "the mean irradiance; E should not be less than the --rays of a record allow, and accuracy "
-      "is 1/3 if not given",
+      "where they foretell each other's light wrongly, in at most 10 passes (or --passes, if more), "
+      "for a root mean square error of about E of the mean irradiance; the --rays of a record bound "
+      "E from below; accuracy is 1/3 if not given",
       {1e-4, 1}, Recorded::if_given);
   options.text("part", p.part, "K/N",
                "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
