@@ -42,7 +42,8 @@ class CutRays {
     }
     const std::uint32_t bits[2] = {random.bits(), random.bits()};
     for (int k = 0; k < group.rays; ++k) {
-      const LightTree::Choice choice = tree_.choose(cut.node, point_, (k + random.uniform_double()) / group.rays);
+      const LightTree::Choice choice =
+          tree_.choose(cut.node, point_, (k + random.uniform_double()) / group.rays);
       add(choice, group.even ? sobol_point(k, bits[0], bits[1]) : random.uniform2());
     }
     group_.push_back(group);

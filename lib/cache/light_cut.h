@@ -28,8 +28,9 @@ struct CutLight {
 };
 
 /// Illuminance by the tree's lamps: two rays to each node of a cut, one to each half of its importance, whose
-/// difference tells the error or more (FORMULAS-placement T3); one to a lamp without area, of which it is all; to a lamp of an extent that
-/// stands alone as many as its share of the importance, at least two. Lamps' images in mirrors are no part.
+/// difference tells the error or more (FORMULAS-placement T3); one to a lamp without area, of which it is
+/// all; to a lamp of an extent that stands alone as many as its share of the importance, at least two. Lamps'
+/// images in mirrors are no part.
 CutLight light_by_cut(const RayScene& rays, const Luminaires& lights, const LightTree& tree,
                       const SurfacePoint& point, std::size_t nodes, RandomStream& random);
 

@@ -29,7 +29,6 @@ Angle less(const Angle& a, const Angle& b) {
   return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
 }
 
-
 }  // namespace
 
 struct LightTree::Lamp {
