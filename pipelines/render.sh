@@ -22,9 +22,9 @@ while (($# > 0)); do
   shift 2
 done
 case $quality in
-  draft) error=10% ;;
-  good) error=5% ;;
-  final) error=2% ;;
+  draft) error=10% pixels=4 ;;
+  good) error=5% pixels=2 ;;
+  final) error=2% pixels=1 ;;
   *) echo "render.sh: --quality $quality: give draft, good or final" >&2; exit 2 ;;
 esac
 [[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
@@ -48,11 +48,14 @@ gloss=$(setting gloss_rays)
 [[ -z $gloss ]] || direct+=(--gloss-samples "$gloss")
 edges=$(($(setting edge_samples) > samples ? $(setting edge_samples) - samples : 0))
 
+# A record serves so many pixels about it at least: what is smaller is seen by its neighbours.
+least=$(awk -v p="$pixels" -v a="$accuracy" 'BEGIN { print p / a }')
+
 # 2. Light: photons from the lamps, and a tree over them.
 phos-photons "$scene" "${light[@]}" --photons "$photons" --reuse -o "$file.photons"
 # 3. Cache: irradiance records where the camera looks.
-phos-irradiance "$scene" "$file.photons" "${light[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" --reuse \
-  -o "$file.irradiance"
+phos-irradiance "$scene" "$file.photons" "${light[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" \
+  --min-radius-pixels "$least" --reuse -o "$file.irradiance"
 # 4. Fill what the picture sees and no record covers, until nothing is missing.
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do

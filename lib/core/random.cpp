@@ -7,10 +7,10 @@
 namespace phos {
 
 void RandomStream::refill() {
-  PHOS_CHECK(block_ <= 0xffff && bounce_ <= 0xffff, "bounce ", bounce_, ", block ", block_);
-  const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(item_),
-                                               static_cast<std::uint32_t>(item_ >> 32),
-                                               bounce_ << 16 | block_, static_cast<std::uint32_t>(stage_)}};
+  PHOS_CHECK(bounce_ <= 0xffff, "bounce ", bounce_);
+  const r123::Philox4x32::ctr_type counter = {
+      {static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(item_ >> 32),
+       bounce_ << 16 | (block_ & 0xffff), static_cast<std::uint32_t>(stage_) | (block_ & ~0xffffu)}};
   const r123::Philox4x32::key_type key = {
       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
   const r123::Philox4x32::ctr_type result = r123::Philox4x32()(counter, key);
