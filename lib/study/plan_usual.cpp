@@ -9,7 +9,7 @@ namespace phos {
 namespace {
 
 /// Of a picture or table that is right to 5 %.
-constexpr double kError = 0.05, kPhotons = 1e6, kAccuracy = 0.28;
+constexpr double kError = 0.05, kPhotons = 1e6, kPhotonsAlone = 4e6, kAccuracy = 0.28;
 constexpr double kRays = 200, kEdgeSamples = 16, kLightRays = 64, kGlossRays = 64, kSensorRays = 256;
 /// Powers of the error with which photons and rays grow, and accuracy shrinks.
 constexpr double kOfPhotons = 1.5, kOfRays = 1, kOfSamples = 1.5, kOfAccuracy = 0.5;
@@ -31,7 +31,8 @@ Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps) {
   const double finer = kError / error;
   const auto times = [&](double usual, double power) { return usual * std::pow(finer, power); };
   Knobs k{};
-  k[at(Knob::photons)] = std::clamp(std::round(times(kPhotons, kOfPhotons) / 1e4) * 1e4, 5e4, 5e7);
+  const double photons = times(task.by_photons ? kPhotonsAlone : kPhotons, kOfPhotons);
+  k[at(Knob::photons)] = std::clamp(std::round(photons / 1e4) * 1e4, 5e4, 5e7);
   k[at(Knob::accuracy)] = std::clamp(std::round(100 * times(kAccuracy, -kOfAccuracy)) / 100, 0.1, 0.4);
   k[at(Knob::rays)] = whole_rings(times(kRays, kOfRays));
   k[at(Knob::read)] = records_read(k[at(Knob::accuracy)]);

@@ -173,7 +173,8 @@ TEST(TemporalFilm, WhatComesAndGoesHasRecords) {
   for (const char* lives : {"midpoint", "rate"}) {
     const std::string film = folder + "/" + lives;
     const test::Run run =
-        temporal(quick({scene, "--frames", "0:16", "--max-life", "16", "--lives", lives, "-o", film}));
+        temporal(quick({scene, "--frames", "0:16", "--max-life", "16", "--lives", lives, "--min-radius",
+                        "0.035", "--max-radius", "1.5", "-o", film}));  // small beside the slabs
     ASSERT_EQ(run.code, 0) << run.err;
     for (const int frame : {0, 2, 3, 4, 5, 7, 9, 10, 11, 12, 16}) expect_records(scene, film, frame, 0.06);
   }
