@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cache/gloss_report.h"
+#include "cache/typical_distance.h"
 #include "core/parallel.h"
 #include "file/tool.h"
 #include "file/write_text.h"
@@ -54,9 +55,12 @@ int main(int argc, char** argv) {
       throw Error(ExitCode::bad_input, scene_path,
                   "has no light, so there is nothing to plan; give it a lamp or an --environment");
     task.gloss = needs.gloss, task.specular = needs.specular;
-    task.diagonal_m = scene.bounds.diagonal_m();
     task.by_photons = by_photons(plan.records, needs.ways, task, needs);
-    if (task.image) resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
+    if (task.image) {
+      resolve_size(find_camera(scene, plan.camera), kPictureSide, task.width, task.height);
+      const RayScene rays(scene);
+      task.typical_m = typical_distance_m(rays, seen_places(rays, plan.camera));
+    }
     add_portals(task, scene, needs);
     if (needs.animated && !options.given("frame") && !options.given("time"))
       tool.say(

@@ -31,6 +31,10 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
   return l > 0 ? static_cast<float>(1 / (1 + (g / l) * (g / l))) : 0.f;
 }
 
+/// Shadow rays to each extended lamp from what a mirror or glass shows, by its share of the eye's light: it
+/// is seen as sharply as all else.
+int light_samples_of(float share) { return share > 0.25f ? 8 : share > 0.03f ? 2 : 1; }
+
 /// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is
 /// even.
 DVec3 variance_of_mean(const DVec3& all, const DVec3& squares, int n) {
@@ -189,7 +193,8 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       from_lamp =
           sample.weight * lamp * (1.f - light_weight(light_samples, density, samples.count, sample.density));
     }
-    const Rgb rest = sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, random, log);
+    const Rgb rest =
+        sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, 1, random, log);
     sum.from_lamps += from_lamp;
     sum.radiance += rest;
     count_in(DVec3(from_lamp + rest));
@@ -220,7 +225,8 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
       continue;
     }
     sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit, -branch[b].direction) +
-                               outgoing(hit, -branch[b].direction, depth + 1, carried, random, log));
+                               outgoing(hit, -branch[b].direction, depth + 1, carried,
+                                        light_samples_of(max_component(glm::abs(carried))), random, log));
   }
   return sum;
 }
@@ -248,7 +254,7 @@ Shading::Through Shading::through(const SurfacePoint& point, const Bsdf& bsdf, c
 }
 
 Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
-                      RandomStream& random, ShadingLog& log) const {
+                      int light_samples, RandomStream& random, ShadingLog& log) const {
   const Bsdf bsdf(rays_.scene(), point);
   Rgb light(0);
   if (bsdf.has_diffuse()) {
@@ -265,15 +271,15 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   }
   const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
-    light += direct(point, bsdf, wo, 1, by_rays ? 1 : 0, random).radiance +
+    light += direct(point, bsdf, wo, light_samples, by_rays ? 1 : 0, random).radiance +
              mirrored(point, bsdf, wo, by_rays, random).radiance;
   if (bsdf.transmits_diffusely()) {
-    const Through behind = through(point, bsdf, wo, 1, random, log);
+    const Through behind = through(point, bsdf, wo, light_samples, random, log);
     light += behind.indirect + behind.direct.radiance;
   }
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
-    const GlossLight arriving = gloss(point, bsdf, wo, 1, 1, depth, random, random, log);
+    const GlossLight arriving = gloss(point, bsdf, wo, 1, light_samples, depth, random, random, log);
     light += arriving.radiance / survival;
     if (options_.reflect_direct) light += arriving.from_lamps / survival;
   }

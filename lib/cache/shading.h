@@ -116,10 +116,10 @@ class Shading {
   Through through(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                   RandomStream& sequence, ShadingLog& log) const;
 
-  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches, one sample
-  /// of each lamp, one ray of gloss that no radiance record tells of, its mirrors. `depth` counts reflections
-  /// since the eye (or the record).
-  Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
+  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches,
+  /// `light_samples` of each extended lamp (an even number meets a sun half the time), one ray of gloss that
+  /// no radiance record tells of, its mirrors. `depth` counts reflections since the eye (or the record).
+  Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput, int light_samples,
                RandomStream& random, ShadingLog& log) const;
 
  private:

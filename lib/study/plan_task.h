@@ -16,7 +16,7 @@ struct PlanTask {
   std::vector<std::string> scene_words;  ///< options that every stage needs: "--environment", "sky.hdr"
   std::string camera;                    ///< "": the scene's first
   std::int64_t width = 0, height = 0;    ///< of the picture, pixels, both resolved
-  float diagonal_m = 0;                  ///< of the scene; 0: records have the smallest radius that is usual
+  float typical_m = 0;         ///< typical_distance_m() of what is seen; 0: radii are the usual ones
   double pixels_of_final = 1;  ///< the same pixel of the picture that is meant, in pixels of this one
   bool image = true, lux = false;
   std::string points;             ///< CSV of the sensors

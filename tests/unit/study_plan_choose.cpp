@@ -291,7 +291,7 @@ TEST(StudyPlan, TheScriptHoldsPredictionAndReasons) {
 /// pairs.
 TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   PlanTask task = picture();
-  task.diagonal_m = 25;
+  task.typical_m = 25;
   Knobs k{};
   k[at(K::pixel_samples)] = 4, k[at(K::edge_samples)] = 64, k[at(K::light_rays)] = 32;
   k[at(K::accuracy)] = 0.4, k[at(K::rays)] = 256;
@@ -309,7 +309,7 @@ TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
             std::string::npos);
   for (const auto& [accuracy, least] :
-       {std::pair{0.4, "--min-radius 0.125 "}, {0.2, "--min-radius 0.0625 "}}) {
+       {std::pair{0.4, "--min-radius 1.25 "}, {0.2, "--min-radius 0.625 "}}) {
     k[at(K::accuracy)] = accuracy;
     const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
     EXPECT_NE(records.find(least), std::string::npos) << records;
