@@ -84,7 +84,7 @@ TEST(Opal, IsShadedByTheLightOnBothSides) {
     ASSERT_TRUE(trace(rays, {Vec3(0.3f, OpalUnderALamp::kHeight, 0) + 0.2f * wo, -wo}, point));
     RandomStream random(1, Stage::test, 1);
     ShadingLog log;
-    const double seen = static_cast<double>(shading.outgoing(point, wo, 0, Rgb(1), random, log).y);
+    const double seen = static_cast<double>(shading.outgoing(point, wo, 0, Rgb(1), 1, random, log).y);
     const double above_lx = straight_lx + 40, below_lx = 7;
     const double truth =
         (below ? 0.3 * below_lx + 0.5 * above_lx : 0.3 * above_lx + 0.5 * below_lx) / std::numbers::pi;

@@ -273,7 +273,7 @@ TEST(Gloss, IsSeenAsWellByWayOfOthers) {
     ShadingLog log;
     for (int k = 0; k < kDraws; ++k) {
       RandomStream random(1, Stage::test, static_cast<std::uint64_t>(k));
-      const double light = double(shading.outgoing(point, wo, depth, Rgb(1), random, log).y);
+      const double light = double(shading.outgoing(point, wo, depth, Rgb(1), 1, random, log).y);
       sum += light, greatest = std::max(greatest, light);
     }
     EXPECT_NEAR(sum / kDraws, expected, 0.08 * expected) << depth;
