@@ -22,9 +22,9 @@ while (($# > 0)); do
   shift 2
 done
 case $quality in
-  draft) error=10% pixels=4 ;;
-  good) error=5% pixels=2 ;;
-  final) error=2% pixels=1 ;;
+  draft) error=0.1 pixels=4 ;;
+  good) error=0.05 pixels=2 ;;
+  final) error=0.02 pixels=1 ;;
   *) echo "render.sh: --quality $quality: give draft, good or final" >&2; exit 2 ;;
 esac
 [[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
@@ -42,7 +42,7 @@ setting() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" <<<"$plan" | head -1; 
 [[ $plan != *'"--portals"'* || " ${light[*]} " == *' --portals '* ]] || light+=(--portals auto)
 photons=${photons:-$(printf %.0f "$(setting photons)")} accuracy=${accuracy:-$(setting accuracy)} samples=${samples:-$(setting pixel_samples)}
 estimate=(--estimate hull)
-[[ $plan != *'"gather"'* ]] || estimate=(--estimate gather --rays "${rays:-$(setting rays)}")
+[[ $plan != *'"gather"'* ]] || estimate=(--estimate gather --rays "${rays:-$(setting rays)}" --error "$error")
 direct=(--direct interleaved --light-samples "$(setting light_rays)")
 gloss=$(setting gloss_rays)
 [[ -z $gloss ]] || direct+=(--gloss-samples "$gloss")
