@@ -244,9 +244,10 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
     }
     plan.chosen = *found;
     if (wide)
-      plan.warnings.push_back(text("the pilot cannot be sure of ", percent(*goal.error),
-                                   ": the prediction reaches up to ", percent(plan.chosen.error_high()),
-                                   "; phos-plan --run measures and corrects, longer --pilot-seconds narrows it"));
+      plan.warnings.push_back(
+          text("the pilot cannot be sure of ", percent(*goal.error), ": the prediction reaches up to ",
+               percent(plan.chosen.error_high()),
+               "; phos-plan --run measures and corrects, longer --pilot-seconds narrows it"));
     if (goal.seconds && plan.chosen.seconds.value > *goal.seconds) {
       const Prediction other = within(task, pilot, front, *goal.seconds);
       throw Error(

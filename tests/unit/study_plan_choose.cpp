@@ -308,8 +308,7 @@ TEST(StudyPlan, ThePictureSharesShadowRaysAndSamplesEdges) {
   k[at(K::pixel_samples)] = 4, k[at(K::edge_samples)] = 4;
   EXPECT_EQ(shell_line(picture_command(task, k, "s.glb", "c", "i.exr")).find("--edge-samples"),
             std::string::npos);
-  for (const auto& [accuracy, least] :
-       {std::pair{0.4, "--min-radius 1.25 "}, {0.2, "--min-radius 0.625 "}}) {
+  for (const auto& [accuracy, least] : {std::pair{0.4, "--min-radius 1.25 "}, {0.2, "--min-radius 0.625 "}}) {
     k[at(K::accuracy)] = accuracy;
     const std::string records = shell_line(view_records_command(task, k, "s.glb", "p", "c"));
     EXPECT_NE(records.find(least), std::string::npos) << records;
