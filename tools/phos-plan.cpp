@@ -81,23 +81,8 @@ int main(int argc, char** argv) {
           text("pilot: took ", duration(pilot.seconds), way.cached_direct ? ", with --direct cached" : ""));
       return pilot;
     };
-    const auto usual = [&](const std::string& why) {
-      PlanTask traced = task;
-      traced.cached_direct = plan.direct == PlanDirect::cached;
-      return PlannedWay{
-          traced, {}, usual_plan(traced, goal, plan.usual_error, count_lamps(scene).lamps, why)};
-    };
-    const auto [way, pilot, chosen] = [&] {
-      if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
-      tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
-      try {
-        return plan_direct(task, goal, plan.direct, count_lamps(scene), piloting, needs);
-      } catch (const PilotTooLong& late) {
-        return usual(text("the pilot was given up after ", duration(late.seconds),
-                          ": the settings are those usual for the error; with more --pilot-seconds one "
-                          "is foretold"));
-      }
-    }();
+    if (plan.pilot_s > 0) tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));
+    const auto [way, pilot, chosen] = plan_or_usual(task, goal, plan, count_lamps(scene), piloting, needs);
     if (chosen.predicted) tool.say(prediction_line(chosen.chosen));
     for (const std::string& warning : chosen.warnings) tool.say(warning);
     if (!plan.run && !pilot.doubts.empty()) tool.set_exit(ExitCode::numerical);

@@ -52,7 +52,7 @@ int count(const Light& light, int samples) { return light.extended() ? samples :
 
 /// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
 void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
-                   std::span<const LampCount> counts, PointOrder::Kind kind, RandomStream& random,
+                   std::span<const LightSamples> counts, PointOrder::Kind kind, RandomStream& random,
                    std::vector<LampSample>& out) {
   const MirrorPlanes& mirrors = lights.mirrors();
   for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
@@ -79,8 +79,8 @@ void sample_images(const RayScene& rays, const Luminaires& lights, const Surface
   }
 }
 
-/// The variance of the first samples, all of one light or of one image of it; they are added to the sum and
-/// taken off.
+/// Takes the first samples off `lamps`: all samples of one light, or of one image of a light. Adds their
+/// light and its variance to the sum.
 void add_group(std::span<const LampSample>& lamps, int samples, const Luminaires& lights,
                std::vector<DVec3>& part, LampSum& sum) {
   const LampSample first = lamps[0];
@@ -100,13 +100,13 @@ void add_group(std::span<const LampSample>& lamps, int samples, const Luminaires
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out) {
-  std::vector<LampCount> of_each;
+  std::vector<LightSamples> of_each;
   for (std::uint32_t i = 0; i < lights.size(); ++i) of_each.push_back({i, std::max(samples, 1)});
   sample_lamps(rays, lights, receiver, of_each, PointOrder::Kind::r2, random, out);
 }
 
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
-                  std::span<const LampCount> counts, PointOrder::Kind kind, RandomStream& random,
+                  std::span<const LightSamples> counts, PointOrder::Kind kind, RandomStream& random,
                   std::vector<LampSample>& out) {
   out.clear();
   std::vector<Ray> way;
@@ -164,7 +164,7 @@ LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires&
   return sum;
 }
 
-std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const LampCount> counts,
+std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const LightSamples> counts,
                              const Luminaires& lights) {
   std::vector<LampSum> sums(counts.size());
   std::vector<DVec3> part;

@@ -31,18 +31,18 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n);
 /// images that lamps have in flat mirrors. Replaces `out`.
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver, int samples,
                   RandomStream& random, std::vector<LampSample>& out);
-/// How many samples of which light.
-struct LampCount {
+/// A light, and the number of its samples.
+struct LightSamples {
   std::uint32_t light = 0;
   int samples = 0;  ///< 0: none; of a light without extent never more than one
 };
 
-/// The same of some lights. `points`: of which area lights that numbers in the square alone choose
-/// (Luminaires::by_u_alone()) are sampled. Sobol' points in sets of 4^k err less than as many of R2 (256 on a
-/// rectangle that is near: a third), and their stated error is the true one or more from 64 on, the one of R2
-/// only from 96 on.
+/// Samples of the lights that `counts` names, as sample_lamps() above. Area lights that a point of the square
+/// alone chooses (Luminaires::by_u_alone()) are sampled by `points`. Sobol' points in sets of 4^k err less
+/// than as many of R2 (256 on a rectangle that is near: a third), and their stated error is the true one or
+/// more from 64 on, the one of R2 only from 96 on.
 void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
-                  std::span<const LampCount> counts, PointOrder::Kind points, RandomStream& random,
+                  std::span<const LightSamples> counts, PointOrder::Kind points, RandomStream& random,
                   std::vector<LampSample>& out);
 
 /// Points by which light i is sampled where `wanted` are: those, or what its kind takes.
@@ -55,8 +55,8 @@ struct LampSum {
   DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
 };
 LampSum sum_of(std::span<const LampSample> lamps, int samples, const Luminaires& lights);
-/// The same of each light of counts[k], its images in mirrors included.
-std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const LampCount> counts,
+/// sum_of() the samples of each light counts[k], its images in mirrors included.
+std::vector<LampSum> sums_of(std::span<const LampSample> lamps, std::span<const LightSamples> counts,
                              const Luminaires& lights);
 
 /// Their irradiance alone, lx.

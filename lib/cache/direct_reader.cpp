@@ -11,9 +11,10 @@ namespace {
 
 /// Rays of a pilot to each lamp of an extent, and where these are more than that. Powers of 4 (sobol_set()).
 constexpr int kPilotRays = 64, kPilotRaysOfMany = 16, kManyLamps = 16;
-/// A sky of which fewer of those arrive is seen through gaps, or not at all: it gets a larger pilot.
+/// A sky gets a larger pilot where fewer than kFewArrive of the pilot's rays arrive: the point sees it
+/// through gaps, or not at all.
 constexpr int kFewArrive = 16, kSkyPilotRays = 1024;
-/// The error of so few of them is not to be told from one set.
+/// With so few arriving rays, one set of points does not tell the error.
 constexpr int kTooFewArrive = 4;
 /// No lamp gets fewer: the error of fewer points is not told well by themselves. Where lamps are many, their
 /// errors' scatter evens out.
@@ -32,9 +33,9 @@ constexpr double kMargin = 0.8;
 
 double lux(const DVec3& e) { return static_cast<double>(luminance(Rgb(e))); }
 
-std::uint64_t number_of(const std::vector<LampCount>& counts) {
+std::uint64_t number_of(const std::vector<LightSamples>& counts) {
   std::uint64_t sum = 0;
-  for (const LampCount& count : counts) sum += static_cast<std::uint64_t>(count.samples);
+  for (const LightSamples& count : counts) sum += static_cast<std::uint64_t>(count.samples);
   return sum;
 }
 
@@ -42,7 +43,7 @@ std::uint64_t number_of(const std::vector<LampCount>& counts) {
 
 /// What it found of each aimed light, and of the cut.
 struct DirectReader::Pilot {
-  std::vector<LampCount> counts;
+  std::vector<LightSamples> counts;
   std::vector<LampSum> found;
   std::vector<int> arrived;
   CutLight cut;
@@ -82,7 +83,7 @@ DirectReader::Pilot DirectReader::send_pilot(const SurfacePoint& at, std::uint64
   }
   for (std::size_t k = 0; k < aimed_.size(); ++k) {
     if (lights_[aimed_[k]].kind != Light::Kind::environment || pilot.arrived[k] >= kFewArrive) continue;
-    const std::vector<LampCount> more{{aimed_[k], kSkyPilotRays}};
+    const std::vector<LightSamples> more{{aimed_[k], kSkyPilotRays}};
     pilot.counts[k] = more[0];
     random.start_bounce(2);
     sample_lamps(rays_, lights_, at, more, PointOrder::Kind::sobol, random, lamps);
@@ -121,7 +122,7 @@ DirectReading DirectReader::read(const SurfacePoint& at, const DirectTarget& tar
   // Of lamps without an extent the light is known once it is looked for: their rays come first.
   RandomStream random(seed, Stage::direct_light, item);
   std::vector<LampSample> lamps;
-  std::vector<LampCount> counts;
+  std::vector<LightSamples> counts;
   for (const std::uint32_t i : aimed_) counts.push_back({i, !lights_[i].extended()});
   sample_lamps(rays_, lights_, at, counts, PointOrder::Kind::sobol, random, lamps);
   std::uint64_t sent = pilot.rays + number_of(counts);

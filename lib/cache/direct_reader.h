@@ -13,10 +13,8 @@ namespace phos {
 /// How well direct light is to be known.
 struct DirectTarget {
   double relative_error = 0.01;  ///< standard error over the illuminance of all light there
-  /// That illuminance, lx, as far as it is known otherwise: the direct light comes on top of it, or is a
-  /// part.
-  double known_lx = 0;
-  bool holds_direct = false;
+  double known_lx = 0;           ///< illuminance that the caches tell, lx
+  bool holds_direct = false;     ///< known_lx holds the direct light; else the direct light is added to it
 };
 
 struct DirectReading {

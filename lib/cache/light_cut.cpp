@@ -14,11 +14,11 @@ namespace {
 /// From so many rays on a lamp of an extent gets even points, and their error.
 constexpr int kEvenRays = 16, kMostRaysOfALamp = 1024;
 
-/// Rays to one node, of which each is an estimate of all its light.
+/// Rays to one node. Each ray estimates all light of the node.
 struct Group {
   std::size_t first = 0;
   int rays = 1;
-  bool whole = false;  // one ray tells all of it
+  bool whole = false;  // one ray tells all light of the node
   bool even = false;   // Sobol' points
 };
 

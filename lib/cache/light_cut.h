@@ -27,10 +27,10 @@ struct CutLight {
   bool exact = true;  ///< every node was a lamp without area
 };
 
-/// Illuminance by the tree's lamps: two rays to each node of a cut, one to each half of its importance, whose
-/// difference tells the error or more (FORMULAS-placement T3); one to a lamp without area, of which it is
-/// all; to a lamp of an extent that stands alone as many as its share of the importance, at least two. Lamps'
-/// images in mirrors are no part.
+/// Illuminance by the tree's lamps. Each node of a cut gets two rays, one to each half of its importance;
+/// their difference states the error, or more than the error (FORMULAS-placement T3). A node that is one lamp
+/// without area gets one ray, which is exact. A node that is one lamp of an extent gets rays by its share of
+/// the importance, at least two. Images of lamps in mirrors do not count.
 CutLight light_by_cut(const RayScene& rays, const Luminaires& lights, const LightTree& tree,
                       const SurfacePoint& point, std::size_t nodes, RandomStream& random);
 

@@ -42,7 +42,8 @@ class CoveredPlaces {
  public:
   explicit CoveredPlaces(std::size_t places) : by_(places <= kMost ? places : 0, kUnknown) {}
 
-  /// Has it been found covered, by a record that has not shrunk since? `sites` are then those of the place.
+  /// Was the place found covered, by a record that has not shrunk since? Sets `sites` to the number of its
+  /// sites.
   bool still(std::size_t place, int pass, const Growth& growth, std::uint64_t& sites) const {
     if (place >= by_.size() || by_[place] == kUnknown) return false;
     sites = by_[place] == kEmpty ? 0 : 1;

@@ -23,10 +23,10 @@ inline constexpr double kNoiseFall = 1.25;
 /// little less than in proportion to their number.
 int sobol_set(double n);
 
-/// The fewest rays in all whose variances add up to stderr_lx^2, and no more than `most` to any lamp: for
-/// variance a / n^q, in proportion to a^(1/(1 + q)). All rounded up to 2^k or 3 x 2^k, of which
-/// low-discrepancy sequences make even sets. A lamp without noise has `least`; all have `most` where
-/// stderr_lx is 0.
+/// Rays of each lamp: the fewest in all whose variances add up to stderr_lx^2, and at most `most` to a lamp.
+/// The variance of a lamp is a / n^q, so n grows as a^(1/(1 + q)). Each number is rounded up to 2^k or 3 x
+/// 2^k: low-discrepancy sequences of such lengths are even. A lamp without noise has `least`; all have `most`
+/// where stderr_lx is 0.
 std::vector<int> share_rays(std::span<const PilotNoise> lamps, double stderr_lx, int most);
 
 }  // namespace phos

@@ -86,15 +86,14 @@ void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "error allowed in interpolation: a record serves points within A times its radius",
                  {1e-3, 1, false});
-  options.number(
-      "min-radius", r.min_radius_m, "METRES",
-      "smallest radius (default: a 25th of the typical distance, in the middle of what is lit or seen, to "
-      "what surrounds a place)",
-      kPositive);
+  options.number("min-radius", r.min_radius_m, "METRES",
+                 "smallest radius (default: a 25th of the typical distance, which is the median, over lit or "
+                 "seen places, of the harmonic mean distance to what surrounds a place)",
+                 kPositive);
   options.number(
       "max-radius", r.max_radius_m, "METRES",
-      "largest radius (default: the typical distance; of adaptive footprints half of it); coarse records "
-      "that rays read reach a quarter of it at most",
+      "largest radius (default: the typical distance, or half of it with --footprint adaptive); the "
+      "coarse records that rays read are limited to a quarter of the typical distance",
       kPositive);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
                            "ray: a record serves a point only if the two can see each other");

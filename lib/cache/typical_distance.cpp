@@ -63,7 +63,8 @@ PhotonMap few_photons(const RayScene& rays) {
   few.paths = kPaths, few.caustic_paths = 0;
   try {
     return PhotonMap::build(trace_photons(rays, few, 0, totals, unread), totals);
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    if (e.code() != ExitCode::bad_input) throw;  // that one: no light shines
     return PhotonMap::build({}, {});
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cache/hemisphere.h"
+#include "core/error.h"
 
 namespace phos {
 namespace {
@@ -54,6 +55,24 @@ Plan usual_plan(const PlanTask& task, const PlanGoal& goal, double usual_error, 
   plan.chosen.knobs = usual_knobs(task, goal.error.value_or(usual_error), lamps);
   plan.warnings = {why};
   return plan;
+}
+
+PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanOptions& plan,
+                         const LampCount& lamps, const std::function<Pilot(const PlanTask&)>& pilot,
+                         Needs& needs) {
+  const auto usual = [&](const std::string& why) {
+    PlannedWay way{task, {}, usual_plan(task, goal, plan.usual_error, lamps.lamps, why)};
+    way.task.cached_direct = plan.direct == PlanDirect::cached;
+    return way;
+  };
+  if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
+  try {
+    return plan_direct(task, goal, plan.direct, lamps, pilot, needs);
+  } catch (const PilotTooLong& late) {
+    return usual(
+        text("the pilot was given up after ", duration(late.seconds),
+             ": the settings are those usual for the error; more --pilot-seconds let the pilot end"));
+  }
 }
 
 }  // namespace phos
