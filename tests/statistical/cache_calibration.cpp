@@ -26,7 +26,7 @@ Limits limits_of(const std::string& scene, const std::string& estimator) {
   // Two seeds: of twenty it is 90 to 96 %, to half a per cent.
   if (scene == "Sponza") return {has(estimator, "kernel") ? 0 : 0.86, 1};
   // As many shadow rays as a pilot asks for, with a margin.
-  if (has(estimator, "sensor direct")) return {0.90, 1};
+  if (has(estimator, "sensor")) return {0.90, 1};
   // What disagrees is not all error, where records of wide zones reach far.
   if (has(estimator, "blended")) return {0.88, 0.998};
   if (has(estimator, "record") || has(estimator, "radiance")) return {0.86, 0.99};
