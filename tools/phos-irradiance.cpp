@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       "otherwise made from the photons; and a radiance cache, for rays that land on gloss, whose records "
       "hold "
       "irradiance too, so that the surfaces which they cover get none of their own.",
-      17);
+      18);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;

@@ -12,6 +12,8 @@ namespace {
 
 /// Photons of the first, smallest query; each next one has four times as many.
 constexpr std::size_t kFirstPhotons = 32, kMorePhotons = 4;
+/// Light spread over the whole of a disc is as much as this part of the light on its part that is surface.
+constexpr float kLeastShare = 0.25f;
 /// Discs reach no farther than this part of the scene's diagonal.
 constexpr float kMostReach = 1 / 8.f;
 /// Looks for a border of the surface: about the rim of the disc, where it shows first, and within.
@@ -51,18 +53,22 @@ LocalDensity CausticLight::density(float radius_m, const ShareOfDisc& share, Wor
   return local_density(worker.distance2_m2, worker.flux_lm, radius_m, map_->one_photon_lm(), share);
 }
 
-LocalDensity CausticLight::on_surface(const Vec3& p, const Vec3& n, Worker& worker) const {
+LocalDensity CausticLight::on_surface(const Vec3& p, const Vec3& n, std::size_t most_photons, Worker& worker,
+                                      float enough_lx) const {
   if (map_->photons().size() == 0) return {};
   ZonePlace place{p, make_frame(n), receiver(rays_.scene(), p, n).error_m};
   LocalDensity estimate;
   float radius_m = most_m_;
-  std::size_t k = std::min(kFirstPhotons, most_photons_);
-  for (;; k = std::min(k * kMorePhotons, most_photons_)) {
+  std::size_t k = std::min(kFirstPhotons, most_photons);
+  for (;; k = std::min(k * kMorePhotons, most_photons)) {
     radius_m = most_m_;
     const float slab = slab_m(place, radius_m);
     map_->landed(p, n, k, slab, slab, radius_m, worker.map, worker.hits);
     estimate = density(radius_m, {}, worker);
-    if (estimate.settled || k == most_photons_ || !(radius_m < most_m_)) break;
+    if (estimate.settled || k == most_photons || !(radius_m < most_m_)) break;
+    const float unsure_lx = luminance(estimate.stderr_lx());
+    if (kLeastShare * enough_lx > luminance(estimate.irradiance) + 2 * unsure_lx) return estimate;
+    if (unsure_lx < enough_lx) break;
   }
   if (!(radius_m > 0)) return {};
   if (worker.hits.empty()) return estimate;

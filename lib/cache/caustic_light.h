@@ -26,8 +26,14 @@ class CausticLight {
   };
 
   /// Irradiance on the surface through p that faces n (unit): photons that landed about it, over the part of
-  /// the disc that is surface in sight of p.
-  LocalDensity on_surface(const Vec3& p, const Vec3& n, Worker& worker) const;
+  /// the disc that is surface in sight of p. Of fewer than the usual photons where `most_photons` says. An
+  /// error of `enough_lx` is no matter: no more photons are looked for than it takes, and no border of the
+  /// surface where all light is so little.
+  LocalDensity on_surface(const Vec3& p, const Vec3& n, Worker& worker, float enough_lx = 0) const {
+    return on_surface(p, n, most_photons_, worker, enough_lx);
+  }
+  LocalDensity on_surface(const Vec3& p, const Vec3& n, std::size_t most_photons, Worker& worker,
+                          float enough_lx = 0) const;
   /// Irradiance on a plane in free space: photons that cross a virtual disc, over the part of the disc that
   /// no wall hides from p. Passes over all photons.
   LocalDensity in_space(const Vec3& p, const Vec3& n, Worker& worker) const;
@@ -53,7 +59,7 @@ class CausticLight {
 /// Photons of an estimate: a picture's pixels are many, and noise of a few photons in a hundred is little
 /// against what the eye makes out; a sensor is to be right.
 inline constexpr std::size_t kPictureCaustics = 512, kSensorCaustics = 8192;
-/// Where gathered rays land, whose light is averaged over many places.
+/// Where rays of gathering and gloss land, whose light is averaged over many places.
 inline constexpr std::size_t kGatherCaustics = 64;
 
 }  // namespace phos

@@ -54,8 +54,7 @@ int count(const Light& light, int samples) { return light.extended() ? samples :
 void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
                    std::span<const LightSamples> counts, PointOrder::Kind kind, RandomStream& random,
                    std::vector<LampSample>& out) {
-  const MirrorPlanes& mirrors = lights.mirrors();
-  for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+  for (std::size_t chain = 0; chain < lights.mirrors().chains().size(); ++chain) {
     for (const auto& [i, samples] : counts) {
       if (!has_images(rays.scene(), lights[i])) continue;
       const int n = count(lights[i], samples);
@@ -64,7 +63,7 @@ void sample_images(const RayScene& rays, const Luminaires& lights, const Surface
       for (int k = 0; k < n; ++k) {
         Illumination light;
         const float u_triangle = (static_cast<float>(k) + shift) / static_cast<float>(n);
-        if (!illuminate_by_mirrors(rays, lights, mirrors, chain, i, receiver, std::min(u_triangle, kBelowOne),
+        if (!illuminate_by_mirrors(rays, lights, chain, i, receiver, std::min(u_triangle, kBelowOne),
                                    points[k], light))
           continue;
         const float cosine = glm::dot(receiver.normal, light.direction);

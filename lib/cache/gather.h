@@ -95,6 +95,7 @@ class HitLight {
     std::unique_ptr<Estimator::Worker> fallback;  // of GatherSource::fallback, made when it is first needed
     GlossCache::Worker gloss;
     CausticLight::Worker caustics;
+    std::uint32_t dark = 0;  // places along a ray that no photons were found at
     std::uint64_t beyond_reach = 0, without_record = 0, without_radiance = 0;  // since counted
   };
   std::unique_ptr<Worker> make_worker() const;

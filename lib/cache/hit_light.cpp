@@ -23,6 +23,12 @@ constexpr const char* kBeyondReach = "gathered places beyond the reach of record
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
+/// Walks among surfaces that reflect more than they get would never end: they are cut where so much light of
+/// one comes together.
+constexpr float kMostThroughput = 16, kMostFollowedThroughput = 1.5f;
+/// Nor is it followed on where so many places along it had no photons: that is within some body, into which
+/// cracks let rays but no light.
+constexpr std::uint32_t kMostDark = 8;
 // A sheet's other side has random streams of its own: this bit numbers them.
 constexpr std::uint32_t kOtherSide = 1u << 16;
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
@@ -213,7 +219,9 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   if (!source.fallback) return Rgb(0);
   if (!worker.fallback) worker.fallback = source.fallback->make_worker();
   const RecordSite site{point.position, point.smooth_normal, item};
-  return source.fallback->irradiance_lx(site, *worker.fallback);
+  const Rgb lux = source.fallback->irradiance_lx(site, *worker.fallback);
+  worker.dark += lux == Rgb(0);
+  return lux;
 }
 
 /// Caustic light that records do not hold; 0: they do.
@@ -242,7 +250,8 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
   const std::uint64_t item = ray.key();
   Rgb lux = cached_lx(point, item, worker);
   const Rgb apart = caustic(source.caustics, point, worker).irradiance;
-  if (followed == kMostFollowed || !is_near(point, lux)) {
+  const bool cut = kPi * max_component(glm::abs(f)) > kMostFollowedThroughput || worker.dark >= kMostDark;
+  if (followed == kMostFollowed || cut || !is_near(point, lux)) {
     lux += apart;
     worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
     worker.read.lux = luminance(lux);
@@ -505,7 +514,8 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
       if (left == 1) break;
       if (left > 0) --left;
     }
-    if (reflection == kMostReflections) {
+    if (reflection == kMostReflections || worker.dark >= kMostDark ||
+        max_component(glm::abs(throughput)) > kMostThroughput) {
       worker.counters.count("gathered paths cut");
       break;
     }
@@ -547,7 +557,7 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     h.hit_normal[i] = point.geometric_normal;
     if (impl_->bounces == 0) continue;
     const RayName ray{item, pass, static_cast<std::uint32_t>(i)};
-    worker.read = {};
+    worker.read = {}, worker.dark = 0;
     Impl::Landing landing;
     h.radiance[i] = impl_->surface[point.material].diffuse
                         ? impl_->from_diffuse(point, -h.direction[i], lamp_points, ray, worker)

@@ -10,6 +10,8 @@ namespace {
 
 // No image is less likely than this part of an equal share: by power the lamp beside the mirror would starve.
 constexpr double kMinimumShare = 0.1;
+/// An image that promises this part of the light of all is a good part of it.
+constexpr double kGoodPart = 0.02;
 
 template <class Choices>
 void normalise(Choices& choices) {
@@ -33,6 +35,13 @@ ImageSampler::ImageSampler(const RayScene& rays, const Luminaires& lights) : ray
         before == MirrorPlanes::kNone ? 0 : chain_[static_cast<std::size_t>(before)].reflections;
     chain_.push_back({i, 0, static_cast<double>(chains[i].reflectance), so_far + 1});
   }
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    auto side = std::find_if(side_.begin(), side_.end(), [&](const Side& s) {
+      return s.plane == chains[i].plane && s.front == chains[i].front;
+    });
+    if (side == side_.end()) side = side_.insert(side, {chains[i].plane, chains[i].front, {}});
+    side->chain.push_back(i);
+  }
   const std::vector<double> share = lights.power_shares(kMinimumShare);
   for (std::size_t i = 0; i < lights.size(); ++i)
     if (has_images(rays.scene(), lights[i])) lamp_.push_back({i, 0, share[i], 0});
@@ -45,27 +54,91 @@ const ImageSampler::Choice& ImageSampler::choose(const std::vector<Choice>& amon
   return *above;
 }
 
-ImageSampler::Sample ImageSampler::sample(const SurfacePoint& point, std::int64_t most_reflections,
-                                          RandomStream& random) const {
-  const Choice& chain = choose(chain_, random.uniform_double());
-  const Choice& lamp = choose(lamp_, random.uniform_double());
-  const float u_triangle = random.uniform();
-  const Vec2 u = random.uniform2();
+template <class F>
+void ImageSampler::each_image(const SurfacePoint& point, F&& f) const {
+  for (const Side& side : side_) {
+    const std::optional<ImageBounds::Sight> mirror =
+        ImageBounds::sight(lights_.mirrors().plane(side.plane), side.front, point);
+    if (!mirror) continue;
+    for (const std::size_t chain : side.chain)
+      for (const Choice& lamp : lamp_) {
+        const auto promise = static_cast<double>(lights_.image_promise_lx(chain, lamp.index, *mirror, point));
+        if (promise > 0) f(Image{chain, lamp.index, 1, chain_[chain].reflections}, promise);
+      }
+  }
+}
+
+std::optional<ImageSampler::Image> ImageSampler::choose(const SurfacePoint& point, double u) const {
+  if (!compares()) {
+    const Choice& chain = choose(chain_, u);
+    const Choice& lamp = choose(lamp_, (u - chain.below) / (chain.up_to - chain.below));
+    return Image{chain.index, lamp.index, (chain.up_to - chain.below) * (lamp.up_to - lamp.below),
+                 chain.reflections};
+  }
+  // One pass: each takes the place of those before it with its part of the sum so far.
+  double sum = 0, chosen = 0;
+  std::optional<Image> image;
+  each_image(point, [&](const Image& other, double promise) {
+    sum += promise;
+    const double part = promise / sum;
+    if (u < part)
+      image = other, chosen = promise, u /= part;
+    else
+      u = (u - part) / (1 - part);
+  });
+  if (image) image->probability = chosen / sum;
+  return image;
+}
+
+ImageSampler::Sample ImageSampler::sample_of(const Image& image, const SurfacePoint& point, float u_triangle,
+                                             const Vec2& u) const {
   Sample sample;
-  if (most_reflections >= 0 && chain.reflections > most_reflections) return sample;
   Illumination light;
-  if (!illuminate_by_mirrors(rays_, lights_, lights_.mirrors(), chain.index, lamp.index, point,
-                             std::min(u_triangle, kBelowOne), u, light))
+  if (!illuminate_by_mirrors(rays_, lights_, image.chain, image.light, point, std::min(u_triangle, kBelowOne),
+                             u, light))
     return sample;
   const float cosine = glm::dot(point.normal, light.direction);
   if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) return sample;
-  const double chosen = (chain.up_to - chain.below) * (lamp.up_to - lamp.below);
-  sample.extended = lights_[lamp.index].extended();
+  sample.extended = lights_[image.light].extended();
   sample.direction = light.direction;
   sample.lux =
-      light.value * static_cast<float>(static_cast<double>(cosine) / chosen /
+      light.value * static_cast<float>(static_cast<double>(cosine) / image.probability /
                                        (light.density > 0 ? static_cast<double>(light.density) : 1.0));
   return sample;
+}
+
+ImageSampler::Sample ImageSampler::sample(const SurfacePoint& point, std::int64_t most_reflections,
+                                          RandomStream& random) const {
+  const std::optional<Image> image = choose(point, random.uniform_double());
+  if (!image || (most_reflections >= 0 && image->reflections > most_reflections)) return {};
+  const float u_triangle = random.uniform();
+  return sample_of(*image, point, u_triangle, random.uniform2());
+}
+
+void ImageSampler::sample_all(const SurfacePoint& point, int k, int total, RandomStream& sequence,
+                              std::vector<Sample>& out) const {
+  out.clear();
+  const auto spread = [&](float u) { return (static_cast<float>(k) + u) / static_cast<float>(total); };
+  const float u_step = spread(sequence.uniform()), u_triangle = spread(sequence.uniform());
+  const std::uint32_t shift[2] = {sequence.bits(), sequence.bits()};
+  const Vec2 u = sobol_point(k, shift[0], shift[1]);
+  const auto take = [&](const Image& image) {
+    const Sample sample = sample_of(image, point, u_triangle, u);
+    if (max_component(sample.lux) > 0) out.push_back(sample);
+  };
+  double all = 0;
+  each_image(point, [&](const Image&, double promise) { all += promise; });
+  // Systematic sampling: of those that promise less than a step, one a step of the sum of their promises.
+  const double step = kGoodPart * all;
+  double sum = 0, next = step * static_cast<double>(u_step);
+  each_image(point, [&](Image image, double promise) {
+    if (!(promise < step)) return take(image);
+    sum += promise;
+    if (!(sum > next)) return;
+    next += step;
+    image.probability = promise / step;
+    take(image);
+  });
 }
 
 }  // namespace phos

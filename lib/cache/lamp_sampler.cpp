@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cache/lamp_extent.h"
 #include "core/sampling.h"
 #include "scene/environment.h"
+#include "scene/lamp_extent.h"
 #include "scene/offset.h"
 #include "scene/passage.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cache/lamp_extent.h"
 #include "scene/fitting.h"
+#include "scene/lamp_extent.h"
 #include "scene/photometry.h"
 
 namespace phos {

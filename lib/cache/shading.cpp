@@ -35,6 +35,16 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 /// is seen as sharply as all else.
 int light_samples_of(float share) { return share > 0.25f ? 8 : share > 0.03f ? 2 : 1; }
 
+/// A ray of gloss that starts where another landed is followed with a probability of this many times its
+/// weight (Russian roulette): the light of a weak coat is little beside the Lambert part's.
+constexpr float kGlossChance = 2, kLeastGlossChance = 0.05f;
+
+/// An error of this part of the light at a place does not show.
+constexpr float kNoMatter = 0.01f;
+/// Caustic light is looked for with this probability where many rays land, each of which takes the time of
+/// several rays.
+constexpr float kCausticChance = 0.125f;
+
 /// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is
 /// even.
 DVec3 variance_of_mean(const DVec3& all, const DVec3& squares, int n) {
@@ -53,7 +63,9 @@ Shading::Shading(const RayScene& rays, const Luminaires& lights, const RecordTre
       far_(records),
       options_(options),
       gloss_(gloss),
-      caustics_(caustics) {
+      caustics_(caustics),
+      lamps_(rays, lights),
+      images_(rays, lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const bool area = lights[i].kind == Light::Kind::area;
     extent_.push_back(area ? extent_of(rays.scene(), lights[i]) : LampExtent());
@@ -74,9 +86,9 @@ Interpolated Shading::cached(const SurfacePoint& point, ShadingLog& log) const {
   return far_.interpolate(point.position, point.smooth_normal);
 }
 
-LocalDensity Shading::caustic(const SurfacePoint& point, ShadingLog& log) const {
+LocalDensity Shading::caustic(const SurfacePoint& point, ShadingLog& log, float other_lx) const {
   if (!caustics_) return {};
-  return caustics_->on_surface(point.position, point.smooth_normal, log.caustics);
+  return caustics_->on_surface(point.position, point.smooth_normal, log.caustics, kNoMatter * other_lx);
 }
 
 std::optional<GlossyLight> Shading::recorded(const SurfacePoint& point, const Vec3& wo,
@@ -137,29 +149,85 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
 }
 
 DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
-                              RandomStream& sequence) const {
+                              const SampleRange& samples, RandomStream& sequence) const {
   DirectLight sum;
-  const MirrorPlanes& mirrors = lights_.mirrors();
-  for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-      if (!has_images(rays_.scene(), lights_[i])) continue;
-      const float u_triangle = sequence.uniform();
-      const Vec2 u = sequence.uniform2();
-      Illumination light;
-      if (!illuminate_by_mirrors(rays_, lights_, mirrors, chain, i, point, u_triangle, u, light)) continue;
-      const float cosine = glm::dot(point.normal, light.direction);
-      if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) continue;
-      const Rgb arriving = light.value * (cosine / (light.density > 0 ? light.density : 1.f));
-      sum.illuminance += arriving;
-      const bool lambert = !options_.cached_direct && bsdf.has_diffuse(),
-                 gloss = !gloss_by_rays || !lights_[i].extended();
-      Rgb f(0);
-      if (lambert) f += bsdf.diffuse_reflectance() / kPi;
-      if (gloss) f += bsdf.evaluate_gloss(wo, light.direction);
-      sum.radiance += f * arriving;
-    }
+  if (images_.empty()) return sum;
+  std::vector<ImageSampler::Sample> images;
+  const int n = std::max(samples.count, 1);
+  images_.sample_all(point, samples.first / n, samples.total / n, sequence, images);
+  for (const ImageSampler::Sample& image : images) {
+    sum.illuminance += image.lux;
+    sum.radiance += image_share(bsdf, wo, image, gloss_by_rays) * image.lux;
   }
   return sum;
+}
+
+Rgb Shading::image_share(const Bsdf& bsdf, const Vec3& wo, const ImageSampler::Sample& image,
+                         bool gloss_by_rays) const {
+  Rgb f(0);
+  if (!options_.cached_direct && bsdf.has_diffuse()) f += bsdf.diffuse_reflectance() / kPi;
+  if (!gloss_by_rays || !image.extended) f += bsdf.evaluate_gloss(wo, image.direction);
+  return f;
+}
+
+Rgb Shading::from_one_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
+                           RandomStream& random) const {
+  Rgb sum(0);
+  if (!images_.empty()) {
+    const ImageSampler::Sample image = images_.sample(point, -1, random);
+    if (max_component(image.lux) > 0) sum += image_share(bsdf, wo, image, gloss_by_rays) * image.lux;
+  }
+  if (lights_.size() == 0) return sum;
+  const auto n = static_cast<int>(lamps_.samples());
+  const float shift = random.uniform();
+  Rgb mean(0);
+  for (int s = 0; s < n; ++s)
+    mean += from_lamp(
+        lamps_.choose(point, std::min((static_cast<float>(s) + shift) / static_cast<float>(n), kBelowOne)),
+        point, bsdf, wo, gloss_by_rays, random);
+  return sum + mean / static_cast<float>(n);
+}
+
+Rgb Shading::from_lamp(const LampSampler::Choice& choice, const SurfacePoint& point, const Bsdf& bsdf,
+                       const Vec3& wo, bool gloss_by_rays, RandomStream& random) const {
+  const Light& lamp = lights_[choice.light];
+  Illumination light;
+  if (!(choice.probability > 0) || out_of_sight(extent_[choice.light], point) ||
+      !lights_.illuminate(choice.light, point.position, std::min(choice.rest, kBelowOne), random.uniform2(),
+                          light))
+    return Rgb(0);
+  const float cosine = glm::dot(point.normal, light.direction);
+  if (!(cosine > 0) || !(glm::dot(point.geometric_normal, light.direction) > 0)) return Rgb(0);
+  if (lamp.extended() && !(light.density > 0)) return Rgb(0);
+  Rgb f =
+      options_.cached_direct ? bsdf.evaluate_gloss(wo, light.direction) : bsdf.evaluate(wo, light.direction);
+  if (gloss_by_rays && lamp.extended())
+    f -= left_to_gloss(point, choice.light, kOneLamp, light.density, 1,
+                       bsdf.density_gloss(wo, light.direction)) *
+         bsdf.evaluate_gloss(wo, light.direction);
+  if (f == Rgb(0)) return Rgb(0);
+  const Rgb arriving =
+      light.value * (cosine / (choice.probability * (lamp.extended() ? light.density : 1.f)));
+  return f * arriving * arriving_share(rays_, point, light);
+}
+
+float Shading::left_to_gloss(const SurfacePoint& point, std::size_t light, int light_samples,
+                             float light_density, int gloss_rays, float gloss_density) const {
+  if (light_samples == kOneLamp) {
+    light_samples = 1;
+    if (light_density > 0) light_density *= lamps_.probability(point, light);
+  }
+  return 1 - light_weight(light_samples, light_density, gloss_rays, gloss_density);
+}
+
+Rgb Shading::caustic_sample(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
+                            float other_lx, RandomStream& random, ShadingLog& log) const {
+  if (!(random.uniform() < kCausticChance)) return Rgb(0);
+  const LocalDensity bright = caustics_->on_surface(point.position, point.smooth_normal, kGatherCaustics,
+                                                    log.caustics, kNoMatter * other_lx);
+  Rgb light = bright.irradiance * bsdf.diffuse_reflectance() / kPi;
+  if (gloss) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
+  return light / kCausticChance;
 }
 
 GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -172,13 +240,19 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
   for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
     if (!bsdf.sample_gloss(wo, sobol_point(samples.first + s, shift[0], shift[1]), sample)) continue;
+    if (depth > 0) {
+      const float chance = std::max(kGlossChance * max_component(glm::abs(sample.weight)), kLeastGlossChance);
+      if (chance < 1 && !(random.uniform() < chance)) continue;
+      sample.weight /= std::min(chance, 1.f);
+    }
     SurfacePoint hit;
     const Ray ray{point.leave(sample.direction), sample.direction};
     if (!trace(rays_, ray, hit)) {
       if (!environment) continue;
       const float density = lights_.density_beyond(point.position, sample.direction);
       const Rgb from_beyond = sample.weight * background_luminance(rays_.scene(), sample.direction) *
-                              (1.f - light_weight(light_samples, density, samples.count, sample.density));
+                              left_to_gloss(point, static_cast<std::size_t>(lights_.environment()),
+                                            light_samples, density, samples.count, sample.density);
       sum.from_lamps += from_beyond;
       count_in(DVec3(from_beyond));
       continue;
@@ -190,8 +264,9 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
       const float cos_light = std::fabs(glm::dot(hit.geometric_normal, sample.direction));
       const float density = lights_.density(static_cast<std::size_t>(light), point.position, hit.triangle,
                                             hit.distance_m, cos_light);
-      from_lamp =
-          sample.weight * lamp * (1.f - light_weight(light_samples, density, samples.count, sample.density));
+      from_lamp = sample.weight * lamp *
+                  left_to_gloss(point, static_cast<std::size_t>(light), light_samples, density, samples.count,
+                                sample.density);
     }
     const Rgb rest =
         sample.weight * outgoing(hit, -sample.direction, depth + 1, sample.weight, 1, random, log);
@@ -249,7 +324,7 @@ Shading::Through Shading::through(const SurfacePoint& point, const Bsdf& bsdf, c
   }
   if (options_.cached_direct || !options_.reflect_direct) return light;
   light.direct = direct(there, lambert, -wo, samples, 0, sequence);
-  light.direct.radiance += mirrored(there, lambert, -wo, false, sequence).radiance;
+  light.direct.radiance += mirrored(there, lambert, -wo, false, samples, sequence).radiance;
   return light;
 }
 
@@ -257,29 +332,36 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
                       int light_samples, RandomStream& random, ShadingLog& log) const {
   const Bsdf bsdf(rays_.scene(), point);
   Rgb light(0);
+  float lux = 0;  // from the cache
   if (bsdf.has_diffuse()) {
     const Interpolated found = cached(point, log);
+    lux = luminance(found.irradiance);
     if (found.weight > 0) light += found.irradiance * bsdf.diffuse_reflectance() / kPi;
   }
   const bool glossy = bsdf.has_gloss();
   const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
   if (known) light += known->radiance;
-  if (caustics_ && (bsdf.has_diffuse() || known)) {
-    const LocalDensity bright = caustic(point, log);
+  const bool of_many = light_samples == 1;  // rays, over which its light is averaged
+  if (caustics_ && of_many && (bsdf.has_diffuse() || known)) {
+    light += caustic_sample(point, bsdf, wo, known.has_value(), lux, random, log);
+  } else if (caustics_ && (bsdf.has_diffuse() || known)) {
+    const LocalDensity bright = caustic(point, log, lux);
     light += bright.irradiance * bsdf.diffuse_reflectance() / kPi;
     if (known) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
   }
   const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
-    light += direct(point, bsdf, wo, light_samples, by_rays ? 1 : 0, random).radiance +
-             mirrored(point, bsdf, wo, by_rays, random).radiance;
+    light += of_many ? from_one_lamp(point, bsdf, wo, by_rays, random)
+                     : direct(point, bsdf, wo, light_samples, by_rays ? 1 : 0, random).radiance +
+                           mirrored(point, bsdf, wo, by_rays, 1, random).radiance;
   if (bsdf.transmits_diffusely()) {
     const Through behind = through(point, bsdf, wo, light_samples, random, log);
     light += behind.indirect + behind.direct.radiance;
   }
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
-    const GlossLight arriving = gloss(point, bsdf, wo, 1, light_samples, depth, random, random, log);
+    const GlossLight arriving =
+        gloss(point, bsdf, wo, 1, of_many ? kOneLamp : light_samples, depth, random, random, log);
     light += arriving.radiance / survival;
     if (options_.reflect_direct) light += arriving.from_lamps / survival;
   }

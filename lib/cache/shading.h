@@ -8,11 +8,13 @@
 #include "cache/caustic_light.h"
 #include "cache/far_records.h"
 #include "cache/gloss_cache.h"
+#include "cache/image_sampler.h"
 #include "cache/irradiance_cache.h"
-#include "cache/lamp_extent.h"
+#include "cache/lamp_sampler.h"
 #include "core/counters.h"
 #include "core/random.h"
 #include "scene/bsdf.h"
+#include "scene/lamp_extent.h"
 #include "scene/luminaires.h"
 #include "scene/rays.h"
 
@@ -74,8 +76,9 @@ class Shading {
   Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
 
   /// Caustic light at a point, of which the records hold none: irradiance, and what log.caustics needs for
-  /// its gloss. 0 where they hold it.
-  LocalDensity caustic(const SurfacePoint& point, ShadingLog& log) const;
+  /// its gloss. 0 where they hold it. An error far below `other_lx`, the rest of the irradiance there, is no
+  /// matter.
+  LocalDensity caustic(const SurfacePoint& point, ShadingLog& log, float other_lx = 0) const;
   bool has_caustics() const { return caustics_ != nullptr; }
 
   /// Light through the glossy lobes from radiance records, all but what lamps send straight there. Nothing
@@ -89,14 +92,22 @@ class Shading {
   DirectLight direct(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                      int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
-  /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each, of the environment
-  /// its sun's alone. With `gloss_by_rays`, the glossy lobes' share of area lights and sun is left to
-  /// gloss(), whose rays find them in mirrors; radiance records do not hold it.
+  /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each (ImageSampler
+  /// leaves weak ones to chance), of the environment its sun's alone. With `gloss_by_rays`, the glossy lobes'
+  /// share of area lights and sun is left to gloss(), whose rays find them in mirrors; radiance records do
+  /// not hold it.
   DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
-                       RandomStream& sequence) const;
+                       const SampleRange& samples, RandomStream& sequence) const;
+
+  /// direct() and mirrored() for a place whose light is averaged over many others: one sample of one lamp
+  /// (LampSampler), and one of one image (ImageSampler). cd/m2 towards the viewer
+  Rgb from_one_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
+                    RandomStream& random) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
-  /// they land. `light_samples` is what direct() was called with; 0 if it was not, so that lamps count whole.
+  /// they land. `light_samples` is what direct() was called with; kOneLamp: from_one_lamp() was; 0 if
+  /// neither, so that lamps count whole.
+  static constexpr int kOneLamp = -1;
   GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                    int light_samples, int depth, RandomStream& sequence, RandomStream& random,
                    ShadingLog& log, bool environment = true) const;
@@ -117,12 +128,26 @@ class Shading {
                   RandomStream& sequence, ShadingLog& log) const;
 
   /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches,
-  /// `light_samples` of each extended lamp (an even number meets a sun half the time), one ray of gloss that
-  /// no radiance record tells of, its mirrors. `depth` counts reflections since the eye (or the record).
+  /// `light_samples` of each extended lamp (an even number meets a sun half the time; 1: from_one_lamp(), and
+  /// caustic light with a probability only), one ray of gloss that no radiance record tells of, its mirrors.
+  /// `depth` counts reflections since the eye (or the record).
   Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput, int light_samples,
                RandomStream& random, ShadingLog& log) const;
 
  private:
+  /// Part of the light of lamps that a ray of gloss finds which direct() leaves to it; `light_samples` as
+  /// of gloss().
+  float left_to_gloss(const SurfacePoint& point, std::size_t light, int light_samples, float light_density,
+                      int gloss_rays, float gloss_density) const;
+  /// Light of one sample of a lamp, its choice included, cd/m2 towards the viewer.
+  Rgb from_lamp(const LampSampler::Choice& choice, const SurfacePoint& point, const Bsdf& bsdf,
+                const Vec3& wo, bool gloss_by_rays, RandomStream& random) const;
+  /// Of an image's lux: cd/m2 towards the viewer, without the glossy lobes where gloss() finds it.
+  Rgb image_share(const Bsdf& bsdf, const Vec3& wo, const ImageSampler::Sample& image,
+                  bool gloss_by_rays) const;
+  /// caustic() where one sample is enough: with a probability, weighted by its inverse.
+  Rgb caustic_sample(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss, float other_lx,
+                     RandomStream& random, ShadingLog& log) const;
   /// A lamp lights nothing that looks away from all of it.
   bool out_of_sight(const LampExtent& lamp, const SurfacePoint& point) const;
   const RayScene& rays_;
@@ -132,6 +157,8 @@ class Shading {
   ShadingOptions options_;
   const GlossCache* gloss_;
   const CausticLight* caustics_;
+  LampSampler lamps_;
+  ImageSampler images_;
   std::vector<LampExtent> extent_;  // per light
 };
 

@@ -90,12 +90,10 @@ Rgb PathTracer::light_at(const SurfacePoint& point, bool every_light, const Scat
   const auto add = [&](std::size_t i, float probability) {
     add_straight(i, probability);
     if (!has_images(rays_->scene(), (*luminaires_)[i])) return;
-    const MirrorPlanes& mirrors = luminaires_->mirrors();
-    for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+    for (std::size_t chain = 0; chain < luminaires_->mirrors().chains().size(); ++chain) {
       Illumination light;
       const float u_triangle = random.uniform();
-      if (!illuminate_by_mirrors(*rays_, *luminaires_, mirrors, chain, i, point, u_triangle,
-                                 random.uniform2(), light))
+      if (!illuminate_by_mirrors(*rays_, *luminaires_, chain, i, point, u_triangle, random.uniform2(), light))
         continue;
       float scatter_density = 0;
       const Rgb f_cos = scatter(light.direction, scatter_density);

@@ -111,7 +111,7 @@ double mean_emission(const Scene& scene, std::uint32_t triangle) {
 
 }  // namespace
 
-Luminaires::Luminaires(const Scene& scene) : scene_(&scene), mirrors_(scene) {
+Luminaires::Luminaires(const Scene& scene) : scene_(&scene), mirrors_(scene), image_bounds_(scene, mirrors_) {
   if (scene.environment && !scene.portal.empty())
     portals_.emplace(*scene.environment, scene.portal, scene.portal_sight);
   instance_light_.assign(scene.instance.size(), -1);

@@ -6,6 +6,7 @@
 
 #include "core/spherical_triangle.h"
 #include "core/vector.h"
+#include "scene/image_bounds.h"
 #include "scene/mirror_planes.h"
 #include "scene/portal_light.h"
 #include "scene/rays.h"
@@ -76,6 +77,14 @@ class Luminaires {
   const Light& operator[](std::size_t i) const { return scene_->light[i]; }
   /// By way of which lamps have images (scene/mirror_images.h).
   const MirrorPlanes& mirrors() const { return mirrors_; }
+  /// ImageBounds::promise_lx() of the image of light `i` in a chain of mirrors().
+  float image_promise_lx(std::size_t chain, std::size_t i, const SurfacePoint& point) const {
+    return image_bounds_.promise_lx(mirrors_, chain, i, point);
+  }
+  float image_promise_lx(std::size_t chain, std::size_t i, const ImageBounds::Sight& last,
+                         const SurfacePoint& point) const {
+    return image_bounds_.promise_lx(mirrors_, chain, i, last, point);
+  }
 
   /// One sample of light `i` as seen from `from`. False where it cannot shine there (behind it, outside the
   /// cone). Area lights: of a triangle chosen by u_triangle in proportion to its power, uniform over it, or
@@ -167,6 +176,7 @@ class Luminaires {
 
   const Scene* scene_;
   MirrorPlanes mirrors_;
+  ImageBounds image_bounds_;
   std::int32_t environment_ = -1;
   std::optional<PortalLight> portals_;  // of the environment
   std::vector<Shape> shape_;            // per light; empty for one without area

@@ -67,14 +67,13 @@ Rgb sun_luminance(const Scene& scene, const Vec3& direction) {
   return map->luminance(direction) - map->map_luminance(direction);
 }
 
-bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, const MirrorPlanes& mirrors,
-                           std::size_t chain, std::size_t light, const SurfacePoint& from, float u_triangle,
-                           const Vec2& u, Illumination& result) {
+bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, std::size_t chain,
+                           std::size_t light, const SurfacePoint& from, float u_triangle, const Vec2& u,
+                           Illumination& result) {
   const Scene& scene = rays.scene();
-  if (!has_images(scene, lights[light])) return false;
+  const MirrorPlanes& mirrors = lights.mirrors();
+  if (!(lights.image_promise_lx(chain, light, from) > 0)) return false;
   const std::vector<MirrorPlanes::Chain>& chains = mirrors.chains();
-  const MirrorPlanes::Chain& last = chains[chain];
-  if (mirrors.plane(last.plane).front_of(from.position) != last.front) return false;
   const Vec3 image = mirrors.image(static_cast<std::int32_t>(chain), from.position);
   if (lights[light].kind == Light::Kind::environment) {
     result = Illumination();
@@ -88,11 +87,8 @@ bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, const
   for (auto c = static_cast<std::int32_t>(chain); c != MirrorPlanes::kNone;
        c = chains[static_cast<std::size_t>(c)].before)
     links.push_back(c);
-  Vec3 direction = result.direction, normal = result.normal;
-  for (auto c = links.rbegin(); c != links.rend(); ++c) {
-    const MirrorPlanes::Plane& plane = mirrors.plane(chains[static_cast<std::size_t>(*c)].plane);
-    direction = plane.mirrored_direction(direction), normal = plane.mirrored_direction(normal);
-  }
+  const Vec3 direction = mirrors.image_of_direction(static_cast<std::int32_t>(chain), result.direction),
+             normal = mirrors.image_of_direction(static_cast<std::int32_t>(chain), result.normal);
 
   Unfolding way{{from.leave(direction), direction}, Rgb(1), from.error_m};
   float travelled_m = 0;

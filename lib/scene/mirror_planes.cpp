@@ -170,4 +170,15 @@ Vec3 MirrorPlanes::image(std::int32_t chain, const Vec3& receiver) const {
   return p;
 }
 
+Vec3 MirrorPlanes::image_of_lamp(std::int32_t chain, const Vec3& lamp) const {
+  const Chain& c = chain_[static_cast<std::size_t>(chain)];
+  return plane(c.plane).mirrored(c.before == kNone ? lamp : image_of_lamp(c.before, lamp));
+}
+
+Vec3 MirrorPlanes::image_of_direction(std::int32_t chain, const Vec3& towards) const {
+  const Chain& c = chain_[static_cast<std::size_t>(chain)];
+  return plane(c.plane).mirrored_direction(c.before == kNone ? towards
+                                                             : image_of_direction(c.before, towards));
+}
+
 }  // namespace phos

@@ -52,6 +52,9 @@ class MirrorPlanes {
   std::int32_t follow(std::int32_t chain, std::uint32_t triangle, bool front_of_triangle) const;
   /// Image of a receiver as the lamp sees it over a chain.
   Vec3 image(std::int32_t chain, const Vec3& receiver) const;
+  /// Image of a place on a lamp, or of the direction to a far one, as a receiver sees it over a chain.
+  Vec3 image_of_lamp(std::int32_t chain, const Vec3& lamp) const;
+  Vec3 image_of_direction(std::int32_t chain, const Vec3& towards) const;
 
  private:
   void find_planes(const Scene& scene);

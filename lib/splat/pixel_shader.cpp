@@ -39,8 +39,8 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   }
   const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
   const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
-  from_caustics(point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
+  from_caustics(sample, point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   if (bsdf.transmits_diffusely()) from_other_side(sample, point, bsdf, wo, sequence, light, result);
   if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
   light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
@@ -100,17 +100,30 @@ bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, co
   return true;
 }
 
+/// Samples of a pixel that take turns to look for caustic photons, which they share: all see much the same of
+/// them where no edge is.
+int PixelShader::caustic_turns(const SampleOfPixel& sample) const {
+  if (sample.at_edge) return 1;
+  constexpr int kMost = 4;
+  for (int turns = kMost; turns > 1; --turns)
+    if (options_.pixel_samples % turns == 0) return turns;
+  return 1;
+}
+
 /// What caustic photons bring to the diffuse lobe, and with `gloss` to those that read radiance records.
-void PixelShader::from_caustics(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
-                                PixelSample& light, ShadingLog& log) const {
+void PixelShader::from_caustics(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                                const Vec3& wo, bool gloss, PixelSample& light, ShadingLog& log) const {
   if (!shading_.has_caustics() || !(bsdf.has_diffuse() || gloss)) return;
-  const LocalDensity found = shading_.caustic(point, log);
-  const Rgb reflected = bsdf.diffuse_reflectance() / kPi, error = found.stderr_lx();
+  const int turns = caustic_turns(sample);
+  if ((static_cast<std::size_t>(sample.index) + sample.pixel) % static_cast<std::size_t>(turns) != 0) return;
+  const auto stands_for = static_cast<float>(turns);
+  const LocalDensity found = shading_.caustic(point, log, light.illuminance_lx);
+  const Rgb reflected = stands_for * bsdf.diffuse_reflectance() / kPi, error = found.stderr_lx();
   light.indirect += found.irradiance * reflected;
-  if (bsdf.has_diffuse()) light.illuminance_lx += luminance(found.irradiance);
+  if (bsdf.has_diffuse()) light.illuminance_lx += stands_for * luminance(found.irradiance);
   Rgb unsure = error * reflected;
   if (gloss) {
-    const Rgb shown = CausticLight::gloss(found, bsdf, wo, log.caustics);
+    const Rgb shown = stands_for * CausticLight::gloss(found, bsdf, wo, log.caustics);
     light.glossy += shown;
     const float lux = luminance(found.irradiance);
     if (lux > 0) unsure += glm::abs(shown) * (luminance(error) / lux);
@@ -155,7 +168,7 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
                               RandomStream& sequence, PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
   if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
-  from_mirrors(point, bsdf, wo, gloss_by_rays, sequence, light);
+  from_mirrors(sample, point, bsdf, wo, gloss_by_rays, sequence, light);
   // What lamps show in gloss is not shared. Where rays look for gloss anyway, shadow maps leave it to them.
   const bool own = bsdf.has_gloss() && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
   if (shared && !own) {
@@ -192,9 +205,11 @@ void PixelShader::from_other_side(const SampleOfPixel& sample, const SurfacePoin
   light.variance += through.direct.variance;
 }
 
-void PixelShader::from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                               bool gloss_by_rays, RandomStream& sequence, PixelSample& light) const {
-  const DirectLight mirrored = shading_.mirrored(point, bsdf, wo, gloss_by_rays, sequence);
+void PixelShader::from_mirrors(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                               const Vec3& wo, bool gloss_by_rays, RandomStream& sequence,
+                               PixelSample& light) const {
+  const DirectLight mirrored =
+      shading_.mirrored(point, bsdf, wo, gloss_by_rays, range(sample, options_.light_samples), sequence);
   light.direct += mirrored.radiance;
   light.noisy += mirrored.radiance;
   if (!cached_direct_) light.illuminance_lx += luminance(mirrored.illuminance);

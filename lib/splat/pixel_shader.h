@@ -57,8 +57,9 @@ class PixelShader {
   /// Is the gloss had from radiance records? Else it is to be traced.
   bool gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat, PixelSample& light,
                         ShadingResult& result) const;
-  void from_caustics(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
-                     PixelSample& light, ShadingLog& log) const;
+  int caustic_turns(const SampleOfPixel& sample) const;
+  void from_caustics(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                     bool gloss, PixelSample& light, ShadingLog& log) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
   SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
   /// Is the environment's light had without rays?
@@ -70,8 +71,8 @@ class PixelShader {
   void from_other_side(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
                        const Vec3& wo, RandomStream& sequence, PixelSample& light,
                        ShadingResult& result) const;
-  void from_mirrors(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,
-                    RandomStream& sequence, PixelSample& light) const;
+  void from_mirrors(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
+                    bool gloss_by_rays, RandomStream& sequence, PixelSample& light) const;
   void from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                   bool environment, RandomStream& sequence, RandomStream& random, PixelSample& light,
                   ShadingLog& log) const;

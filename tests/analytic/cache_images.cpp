@@ -107,20 +107,22 @@ TEST_P(Images, ShineInGloss) {
   ASSERT_TRUE(trace(rays, {Vec3(1, 0, 1) + 0.3f * wo, -wo}, point));
   ASSERT_TRUE(trace(all_rays, {Vec3(1, 0, 1) + 0.3f * wo, -wo}, same));
   const Bsdf bsdf(half, point), bsdf_there(whole, same);
-  double by_both = 0, by_records = 0, by_rays = 0;
+  double by_both = 0, by_records = 0, by_rays = 0, by_one = 0;
   constexpr int kTimes = 4000;
   for (int k = 0; k < kTimes; ++k) {
     RandomStream random(1, Stage::test, static_cast<std::uint64_t>(k));
     by_both += static_cast<double>(all.direct(same, bsdf_there, wo, 1, 0, random).radiance.y) / kTimes;
     by_records += static_cast<double>((shading.direct(point, bsdf, wo, 1, 0, random).radiance +
-                                       shading.mirrored(point, bsdf, wo, false, random).radiance)
+                                       shading.mirrored(point, bsdf, wo, false, 1, random).radiance)
                                           .y) /
                   kTimes;
-    by_rays += static_cast<double>(shading.mirrored(point, bsdf, wo, true, random).radiance.y -
-                                   shading.mirrored(point, bsdf, wo, false, random).radiance.y) /
+    by_one += static_cast<double>(shading.from_one_lamp(point, bsdf, wo, false, random).y) / kTimes;
+    by_rays += static_cast<double>(shading.mirrored(point, bsdf, wo, true, 1, random).radiance.y -
+                                   shading.mirrored(point, bsdf, wo, false, 1, random).radiance.y) /
                kTimes;
   }
   EXPECT_NEAR(by_records, by_both, 0.01 * by_both);
+  EXPECT_NEAR(by_one, by_both, 0.02 * by_both) << "one lamp or image at a time";
   if (GetParam() == Lamp::point) {
     EXPECT_NEAR(by_rays, 0, 1e-3 * by_both) << "no ray finds a point";
   } else {

@@ -72,7 +72,7 @@ TEST(MirrorImages, ShineFromBehindTheMirror) {
   p.geometric_normal = p.normal = {0, 1, 0};
   const std::int32_t right = lights.mirrors().follow(MirrorPlanes::kNone, 6, true);
   Illumination light;
-  ASSERT_TRUE(illuminate_by_mirrors(rays, lights, lights.mirrors(), static_cast<std::size_t>(right), 0, p, 0,
+  ASSERT_TRUE(illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0,
                                     Vec2(0.5f), light));
   const Vec3 way = Vec3(6.5f, 2.5f, 2) - p.position;
   EXPECT_NEAR(light.distance_m, glm::length(way), 1e-5f);
@@ -80,8 +80,43 @@ TEST(MirrorImages, ShineFromBehindTheMirror) {
   EXPECT_LT(glm::length(light.direction - glm::normalize(way)), 1e-6f);
   // From beyond the mirror's end its image is not seen.
   p.position = {2, 1, -20};
-  EXPECT_FALSE(illuminate_by_mirrors(rays, lights, lights.mirrors(), static_cast<std::size_t>(right), 0, p, 0,
+  EXPECT_FALSE(illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0,
                                      Vec2(0.5f), light));
+}
+
+/// A point lamp between mirrors that face each other sends I / d^2 by each image that a point sees: of the
+/// chains along the room, all. What the bounds leave out has no image there.
+TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
+  const Scene scene = corridor(0.9f);
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const MirrorPlanes& mirrors = lights.mirrors();
+  std::size_t seen = 0, left_out = 0;
+  for (const Vec3& place : {Vec3(2, 1, 2), Vec3(0.1f, 3.9f, 0.1f), Vec3(3.9f, 0.1f, 3.5f)}) {
+    SurfacePoint p;
+    p.position = place, p.error_m = 1e-6f;
+    p.geometric_normal = p.normal = {0, 1, 0};
+    for (std::size_t chain = 0; chain < mirrors.chains().size(); ++chain) {
+      const float promise = lights.image_promise_lx(chain, 0, p);
+      // An image is seen where its way meets each mirror, as x alone decides in this room.
+      const Vec3 image = mirrors.image_of_lamp(static_cast<std::int32_t>(chain), scene.light[0].position);
+      const MirrorPlanes::Chain& last = mirrors.chains()[chain];
+      const bool there = mirrors.plane(last.plane).front_of(place) == last.front && image.y > place.y;
+      if (!(promise > 0)) {
+        ++left_out;
+        EXPECT_FALSE(there && last.before == MirrorPlanes::kNone) << chain;
+        continue;
+      }
+      Illumination light;
+      if (!illuminate_by_mirrors(rays, lights, chain, 0, p, 0, Vec2(0.5f), light)) continue;
+      ++seen;
+      const float d = glm::distance(image, place);
+      EXPECT_NEAR(light.value.x, last.reflectance * 1000 / (d * d), 1e-3f * light.value.x);
+    }
+  }
+  // By reflections, first off the left or the right: 2 * 37 at each place, of which those below are not seen.
+  EXPECT_EQ(seen, 3 * 2 * 37u);
+  EXPECT_GT(left_out, 0u) << "outer sides";
 }
 
 }  // namespace phos::test

@@ -1,4 +1,4 @@
-#include "cache/lamp_extent.h"
+#include "scene/lamp_extent.h"
 
 #include <cmath>
 
