@@ -14,6 +14,7 @@
 #include "scene/unsampled.h"
 #include "splat/caches.h"
 #include "splat/picture_gloss.h"
+#include "splat/picture_memory.h"
 #include "splat/picture_report.h"
 #include "temporal/film_inputs.h"
 
@@ -134,6 +135,7 @@ int main(int argc, char** argv) {
     if (render.splat == SplatBy::gl && any_footprint(caches.irradiance.records))
       tool.say("the cache has adaptive records: they are drawn on the CPU (--splat cpu)");
 
+    if (const std::string memory = require_memory(render); !memory.empty()) tool.say(memory);
     const RayScene rays = [&] {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});

@@ -75,6 +75,20 @@ Layers::Layers(int width, int height, const LayerSet& wanted, int most_samples, 
   parallel_for(makes.size(), 1, [&](std::size_t k) { makes[k](); });
 }
 
+double Layers::bytes_of_pixel(const LayerSet& wanted) {
+  const auto of = [&](Layer layer, std::size_t sums) {
+    return wanted.has(layer) ? static_cast<double>(sums + sizeof(Rgb)) : 0.0;
+  };
+  double bytes = sizeof(Rgb) + sizeof(std::uint16_t);  // direct_, and how many samples
+  for (const Layer layer : {Layer::beauty, Layer::indirect, Layer::glossy, Layer::specular, Layer::emission,
+                            Layer::albedo, Layer::normal, Layer::position})
+    bytes += of(layer, sizeof(Rgb));
+  bytes += of(Layer::stderr_, 3 * sizeof(DVec3) + sizeof(Rgb));
+  for (const Layer layer : {Layer::illuminance, Layer::weight, Layer::depth})
+    bytes += of(layer, sizeof(float)) - (wanted.has(layer) ? sizeof(Rgb) - sizeof(float) : 0);
+  return bytes;
+}
+
 void Layers::add(std::size_t i, const PixelSample& s, int times) {
   const auto add = [&](auto& sums, const auto& value) { add_to(sums, i, times_of(times, value)); };
   add(beauty_, s.beauty());

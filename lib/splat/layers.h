@@ -62,6 +62,9 @@ class Layers {
   /// does not: the larger is stated.
   Layers(int width, int height, const LayerSet& wanted, int most_samples, int spread_from);
 
+  /// Memory of a pixel, in bytes: sums, or sums and picture where that is more.
+  static double bytes_of_pixel(const LayerSet& wanted);
+
   /// A sample, or as many that see the same as `times` tells.
   void add(std::size_t pixel, const PixelSample& sample, int times = 1);
   /// What does not average: seen through the pixel's first sample.
