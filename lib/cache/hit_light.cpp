@@ -448,11 +448,14 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
   for (std::uint32_t reflection = 0;; ++reflection) {
     if (landing && !from) landing->distance_m = point.distance_m, landing->normal = point.geometric_normal;
     random.start_bounce(reflection);
-    const Bsdf bsdf = way.bsdf(point);
+    Bsdf bsdf = way.bsdf(point);
     Step step;
     const std::optional<Rgb> gloss =
         bsdf.has_gloss() ? recorded(point, bsdf, wo, left, worker) : std::nullopt;
-    if (gloss) sum += throughput * *gloss;
+    if (gloss)
+      sum += throughput * *gloss;
+    else
+      bsdf.look_from(wo);
     choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
     const auto add_lambert = [&](const SurfacePoint& at, const Vec3& towards, const Rgb& f,
                                  std::uint32_t number) {

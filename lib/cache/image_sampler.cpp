@@ -1,6 +1,7 @@
 #include "cache/image_sampler.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/sampling.h"
 #include "scene/mirror_images.h"
@@ -75,19 +76,24 @@ std::optional<ImageSampler::Image> ImageSampler::choose(const SurfacePoint& poin
     return Image{chain.index, lamp.index, (chain.up_to - chain.below) * (lamp.up_to - lamp.below),
                  chain.reflections};
   }
-  // One pass: each takes the place of those before it with its part of the sum so far.
-  double sum = 0, chosen = 0;
-  std::optional<Image> image;
-  each_image(point, [&](const Image& other, double promise) {
+  struct Promise {
+    std::uint32_t chain, light;
+    double up_to;  // sum of this one's and those before it, lx
+  };
+  std::array<Promise, kMostCompared> promises;
+  std::size_t n = 0;
+  double sum = 0;
+  each_image(point, [&](const Image& image, double promise) {
     sum += promise;
-    const double part = promise / sum;
-    if (u < part)
-      image = other, chosen = promise, u /= part;
-    else
-      u = (u - part) / (1 - part);
+    promises[n++] = {static_cast<std::uint32_t>(image.chain), static_cast<std::uint32_t>(image.light), sum};
   });
-  if (image) image->probability = chosen / sum;
-  return image;
+  if (n == 0) return {};
+  const auto last = promises.begin() + static_cast<std::ptrdiff_t>(n) - 1;
+  const auto chosen = std::upper_bound(promises.begin(), last, u * sum,
+                                       [](double x, const Promise& p) { return x < p.up_to; });
+  const double below = chosen == promises.begin() ? 0 : std::prev(chosen)->up_to;
+  return Image{chosen->chain, chosen->light, (chosen->up_to - below) / sum,
+               chain_[chosen->chain].reflections};
 }
 
 ImageSampler::Sample ImageSampler::sample_of(const Image& image, const SurfacePoint& point, float u_triangle,

@@ -240,7 +240,7 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
   for (int s = 0; s < samples.count; ++s) {
     BsdfSample sample;
     if (!bsdf.sample_gloss(wo, sobol_point(samples.first + s, shift[0], shift[1]), sample)) continue;
-    if (depth > 0) {
+    if (light_samples == kOneLamp) {
       const float chance = std::max(kGlossChance * max_component(glm::abs(sample.weight)), kLeastGlossChance);
       if (chance < 1 && !(random.uniform() < chance)) continue;
       sample.weight /= std::min(chance, 1.f);
@@ -330,16 +330,18 @@ Shading::Through Shading::through(const SurfacePoint& point, const Bsdf& bsdf, c
 
 Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput,
                       int light_samples, RandomStream& random, ShadingLog& log) const {
-  const Bsdf bsdf(rays_.scene(), point);
+  Bsdf bsdf(rays_.scene(), point);
   Rgb light(0);
+  const bool glossy = bsdf.has_gloss();
+  const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
+  const bool by_rays = glossy && !known;
+  if (by_rays) bsdf.look_from(wo);
   float lux = 0;  // from the cache
   if (bsdf.has_diffuse()) {
     const Interpolated found = cached(point, log);
     lux = luminance(found.irradiance);
     if (found.weight > 0) light += found.irradiance * bsdf.diffuse_reflectance() / kPi;
   }
-  const bool glossy = bsdf.has_gloss();
-  const std::optional<GlossyLight> known = glossy ? recorded(point, wo, log) : std::nullopt;
   if (known) light += known->radiance;
   const bool of_many = light_samples == 1;  // rays, over which its light is averaged
   if (caustics_ && of_many && (bsdf.has_diffuse() || known)) {
@@ -349,7 +351,6 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
     light += bright.irradiance * bsdf.diffuse_reflectance() / kPi;
     if (known) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
   }
-  const bool by_rays = glossy && !known;
   if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
     light += of_many ? from_one_lamp(point, bsdf, wo, by_rays, random)
                      : direct(point, bsdf, wo, light_samples, by_rays ? 1 : 0, random).radiance +
@@ -360,8 +361,8 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   }
   const float survival = depth < kGlossDepth ? 1.f : kGlossSurvival;
   if (by_rays && (survival == 1 || random.uniform() < survival)) {
-    const GlossLight arriving =
-        gloss(point, bsdf, wo, 1, of_many ? kOneLamp : light_samples, depth, random, random, log);
+    const GlossLight arriving = gloss(point, bsdf, wo, of_many ? 1 : light_samples,
+                                      of_many ? kOneLamp : light_samples, depth, random, random, log);
     light += arriving.radiance / survival;
     if (options_.reflect_direct) light += arriving.from_lamps / survival;
   }

@@ -129,7 +129,8 @@ class Shading {
 
   /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches,
   /// `light_samples` of each extended lamp (an even number meets a sun half the time; 1: from_one_lamp(), and
-  /// caustic light with a probability only), one ray of gloss that no radiance record tells of, its mirrors.
+  /// caustic light with a probability only), as many rays of gloss that
+  /// no radiance record tells of, its mirrors.
   /// `depth` counts reflections since the eye (or the record).
   Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput, int light_samples,
                RandomStream& random, ShadingLog& log) const;

@@ -431,9 +431,20 @@ int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMod
 float Bsdf::broad_share(const Vec3& o) const {
   if (!coated_) return 0;
   if (lobe_ == Lobe::none) return 1;
-  const float broad = luminance(base_) * coat_mean_ * (std::fabs(coat_transmittance(o) - coat_mean_) + 0.04f);
+  const float towards = coat_transmittance(o);
+  // The coat's change: towards the eye, and by where light comes from.
+  const float change =
+      looked_from_ ? 0.04f * towards : coat_mean_ * (std::fabs(towards - coat_mean_) + 0.04f);
+  const float broad = luminance(base_) * change;
   // Never more than half, as a narrow lobe sees more contrast than a broad one.
   return std::clamp(broad / (broad + luminance(schlick(o.z))), 0.1f, 0.5f);
+}
+
+void Bsdf::look_from(const Vec3& wo) {
+  const Vec3 o = frame_.to_local(wo);
+  if (!coated_ || !(o.z > 0)) return;
+  diffuse_ = base_ * (coat_mean_ * coat_transmittance(o));
+  looked_from_ = true;
 }
 
 float Bsdf::density_gloss(const Vec3& wo, const Vec3& wi) const {

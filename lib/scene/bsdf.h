@@ -113,6 +113,10 @@ class Bsdf {
   /// part at grazing angles and leaves a little more elsewhere; over all directions that part adds up to
   /// nothing.
   Rgb evaluate_gloss(const Vec3& wo, const Vec3& wi) const;
+  /// Under a coat: from now on diffuse_reflectance() is that towards wo, a mean over directions of arrival
+  /// alone, and evaluate_gloss() holds what is left of the coat's change, which is little. For light that is
+  /// traced: tables of lobes know the other split. sample() is then not to be used.
+  void look_from(const Vec3& wo);
   /// sample() restricted to what evaluate_gloss holds; the weight can be negative under a coat.
   bool sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const;
   /// Density of sample_gloss, per sr.
@@ -173,6 +177,7 @@ class Bsdf {
   float coverage_ = 1;    // share of the surface that is there
   PaneLayer pack_;
   bool packed_ = false;
+  bool looked_from_ = false;  // look_from() was called
   bool coated_ = false, front_ = true;
 };
 

@@ -22,7 +22,7 @@ PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const Ren
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
                                const Splat& splat, const SharedLight* shared, ShadingResult& result) const {
   PixelSample light;
-  const Bsdf bsdf(rays_.scene(), point);
+  Bsdf bsdf(rays_.scene(), point);
   const Vec3 wo = -ray.direction;
   // What the samples of a pixel share, and each one's own.
   RandomStream sequence(options_.seed, Stage::direct_light, sample.pixel);
@@ -33,12 +33,14 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
                       sample.pixel * static_cast<std::uint64_t>(most) + static_cast<std::uint64_t>(index));
   light.emission = emitted_luminance(rays_.scene(), point, wo);
   light.albedo = bsdf.diffuse_reflectance();
+  // Harmonics know lobes as tables do: before look_from().
+  const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
+  const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
+  if (trace_gloss) bsdf.look_from(wo);
   if (bsdf.has_diffuse()) {
     ++result.looked_up;
     from_cache(point, bsdf, splat, light, result);
   }
-  const bool by_rays = !from_environment(point, bsdf, wo, light, result.log);
-  const bool trace_gloss = bsdf.has_gloss() && !gloss_from_cache(point, wo, splat, light, result);
   from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
   from_caustics(sample, point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   if (bsdf.transmits_diffusely()) from_other_side(sample, point, bsdf, wo, sequence, light, result);

@@ -11,7 +11,7 @@ namespace {
 
 /// Of a picture or table that is right to 5 %.
 constexpr double kError = 0.05, kPhotons = 1e6, kPhotonsAlone = 4e6, kAccuracy = 0.28;
-constexpr double kRays = 3200, kEdgeSamples = 16, kLightRays = 64, kGlossRays = 64, kSensorRays = 256;
+constexpr double kRays = 1600, kEdgeSamples = 16, kLightRays = 64, kGlossRays = 64, kSensorRays = 256;
 /// Powers of the error with which photons and rays grow, and accuracy shrinks.
 constexpr double kOfPhotons = 1.5, kOfRays = 1, kOfSamples = 1.5, kOfAccuracy = 0.5;
 
