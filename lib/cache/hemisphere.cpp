@@ -92,18 +92,6 @@ float harmonic_distance_m(const Hemisphere& h) {
   return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
 }
 
-float harmonic_distance_of_light_m(const Hemisphere& h) {
-  double lux = 0, nearness = 0;
-  for (std::size_t i = 0; i < h.size(); ++i) {
-    const auto brings =
-        static_cast<double>(h.projected_sr[i]) * std::max(0.0, static_cast<double>(luminance(h.radiance[i])));
-    const auto distance_m = static_cast<double>(h.distance_m[i]);
-    lux += brings;
-    if (brings > 0) nearness += distance_m != 0 ? brings / distance_m : HUGE_VAL;
-  }
-  return nearness > 0 ? static_cast<float>(lux / nearness) : kInfinity;
-}
-
 float least_distance_m(const Hemisphere& h) {
   float least = kInfinity;
   for (std::size_t i = 0; i < h.size(); ++i)

@@ -97,9 +97,6 @@ Rgb standard_error_of(const Hemisphere& h);
 /// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (A7), m; infinity if all miss,
 /// 0 if a ray starts on what it hits.
 float harmonic_distance_m(const Hemisphere& h);
-/// The same of the light: each direction by the illuminance (luminance of it) that it brings, so that dark or
-/// missing surroundings do not hide how near it comes from. Infinity where none comes from a finite distance.
-float harmonic_distance_of_light_m(const Hemisphere& h);
 /// Least distance over rays more than 10 degrees above the horizon (Tabellion and Lamorlette 2004), m.
 float least_distance_m(const Hemisphere& h);
 

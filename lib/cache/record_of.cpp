@@ -41,7 +41,7 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   if (mode == GradientMode::none) mode = stratified ? GradientMode::hybrid : GradientMode::analytic;
   PlaceLight light;
   DVec3 sum(0), variance(0), source(0);
-  double nearness = 0, light_nearness = 0;
+  double nearness = 0;
   float least_m = kInfinity;
   for (const Hemisphere& h : passes) {
     const double weight = static_cast<double>(h.size()) / rays;
@@ -51,8 +51,6 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
     source += weight * h.source.total();  // the same for all passes
     const auto distance_m = static_cast<double>(harmonic_distance_m(h));
     nearness += distance_m > 0 ? weight / distance_m : HUGE_VAL;
-    const auto of_light_m = static_cast<double>(harmonic_distance_of_light_m(h));
-    light_nearness += of_light_m > 0 ? weight / of_light_m : HUGE_VAL;
     least_m = std::min(least_m, least_distance_m(h));
     add(light.gradients, ray_gradients(h, mode, static_cast<float>(*resolved.min_radius_m)),
         static_cast<float>(weight));
@@ -60,7 +58,6 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   light.irradiance = Rgb(sum);
   light.stderr_lx = Rgb(glm::sqrt(variance + source));
   light.shared_lx2 = source;
-  nearness = std::max(nearness, light_nearness);
   const float mean_m = nearness > 0 ? static_cast<float>(1 / nearness) : kInfinity;
   light.distance_m = resolved.radius == RadiusRule::least ? least_m : mean_m;
   return light;
