@@ -33,7 +33,8 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
 
 /// Shadow rays to each extended lamp from what a mirror or glass shows, by its share of the eye's light: it
 /// is seen as sharply as all else.
-int light_samples_of(float share) { return share > 0.25f ? 8 : share > 0.03f ? 2 : 1; }
+constexpr int kManyLightSamples = 8;
+int light_samples_of(float share) { return share > 0.25f ? kManyLightSamples : share > 0.03f ? 2 : 1; }
 
 /// A ray of gloss that starts where another landed is followed with a probability of this many times its
 /// weight (Russian roulette): the light of a weak coat is little beside the Lambert part's.
@@ -223,11 +224,18 @@ float Shading::left_to_gloss(const SurfacePoint& point, std::size_t light, int l
 Rgb Shading::caustic_sample(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
                             float other_lx, RandomStream& random, ShadingLog& log) const {
   if (!(random.uniform() < kCausticChance)) return Rgb(0);
-  const LocalDensity bright = caustics_->on_surface(point.position, point.smooth_normal, kGatherCaustics,
-                                                    log.caustics, kNoMatter * other_lx);
+  return caustic_light(point, bsdf, wo, gloss, other_lx, 1, log) / kCausticChance;
+}
+
+Rgb Shading::caustic_light(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss,
+                           float other_lx, int light_samples, ShadingLog& log) const {
+  const LocalDensity bright = light_samples < kManyLightSamples
+                                  ? caustics_->on_surface(point.position, point.smooth_normal,
+                                                          kGatherCaustics, log.caustics, kNoMatter * other_lx)
+                                  : caustic(point, log, other_lx);
   Rgb light = bright.irradiance * bsdf.diffuse_reflectance() / kPi;
   if (gloss) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
-  return light / kCausticChance;
+  return light;
 }
 
 GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -344,17 +352,17 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   }
   if (known) light += known->radiance;
   const bool of_many = light_samples == 1;  // rays, over which its light is averaged
-  if (caustics_ && of_many && (bsdf.has_diffuse() || known)) {
-    light += caustic_sample(point, bsdf, wo, known.has_value(), lux, random, log);
-  } else if (caustics_ && (bsdf.has_diffuse() || known)) {
-    const LocalDensity bright = caustic(point, log, lux);
-    light += bright.irradiance * bsdf.diffuse_reflectance() / kPi;
-    if (known) light += CausticLight::gloss(bright, bsdf, wo, log.caustics);
+  const bool lit = options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct));
+  if (lit && of_many) {
+    light += from_one_lamp(point, bsdf, wo, by_rays, random);
+  } else if (lit) {
+    const DirectLight straight = direct(point, bsdf, wo, light_samples, by_rays ? light_samples : 0, random);
+    light += straight.radiance + mirrored(point, bsdf, wo, by_rays, 1, random).radiance;
+    if (!options_.cached_direct) lux += luminance(straight.illuminance);
   }
-  if (options_.reflect_direct && (glossy || (bsdf.has_diffuse() && !options_.cached_direct)))
-    light += of_many ? from_one_lamp(point, bsdf, wo, by_rays, random)
-                     : direct(point, bsdf, wo, light_samples, by_rays ? 1 : 0, random).radiance +
-                           mirrored(point, bsdf, wo, by_rays, 1, random).radiance;
+  if (caustics_ && (bsdf.has_diffuse() || known))
+    light += of_many ? caustic_sample(point, bsdf, wo, known.has_value(), lux, random, log)
+                     : caustic_light(point, bsdf, wo, known.has_value(), lux, light_samples, log);
   if (bsdf.transmits_diffusely()) {
     const Through behind = through(point, bsdf, wo, light_samples, random, log);
     light += behind.indirect + behind.direct.radiance;

@@ -149,6 +149,10 @@ class Shading {
   /// caustic() where one sample is enough: with a probability, weighted by its inverse.
   Rgb caustic_sample(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss, float other_lx,
                      RandomStream& random, ShadingLog& log) const;
+  /// caustic() as it is reflected, by the lobes too with `gloss`, cd/m2; of fewer photons where few samples
+  /// of lamps are asked for.
+  Rgb caustic_light(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss, float other_lx,
+                    int light_samples, ShadingLog& log) const;
   /// A lamp lights nothing that looks away from all of it.
   bool out_of_sight(const LampExtent& lamp, const SurfacePoint& point) const;
   const RayScene& rays_;

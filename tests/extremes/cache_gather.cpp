@@ -3,9 +3,11 @@
 #include <cstring>
 
 #include "cache/hemisphere_record.h"
+#include "cache/two_level.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "support/gathered.h"
+#include "support/records.h"
 
 namespace phos {
 namespace {
@@ -178,6 +180,26 @@ TEST(Nothing, IsTheLeastThereIs) {
   for (const IrradianceRecord& r : g.records({1, 0, 0.75f}, {0, 1, 0}, options, source, 2000))
     expect_finite(r);
   EXPECT_GT(g.counters[kBelowZeroEvent], 0u) << "nothing was tested";
+}
+
+/// Within a body that reflects more than it gets, where rays come by a crack and photons do not: from a place
+/// there each walk would go on for ever, and start others where it reads nothing.
+TEST(Walks, EndWithinABodyThatReflectsTooMuch) {
+  test::AnalyticScene s = test::point_light_over_plane();
+  Material shiny = s.scene.material[0];
+  shiny.model = Model::phong, shiny.kd = Rgb(0.66f), shiny.ks = Rgb(0.9f), shiny.exponent = 400;
+  s.scene.material.push_back(shiny);
+  test::begin_instance(s.scene, "body", static_cast<std::uint32_t>(s.scene.material.size() - 1));
+  const Vec3 at = s.checks[0].position + Vec3(0.01f);
+  test::add_room(s.scene, at, at + Vec3(0.1f));
+  finalize(s.scene);
+  const test::Lit lit = test::light_up(s.scene, 20'000);
+  test::Gathered g(s.scene);
+  const RecordOptions options = test::gather_options(s.scene, Quantity::indirect, -1, 128);
+  const CoarseLevel coarse(*lit.rays, lit.photons, options, 1);
+  const auto records = g.records(at + Vec3(0.05f, 0, 0.05f), {0, 1, 0}, options, coarse.source(), 2);
+  for (const IrradianceRecord& r : records) expect_finite(r);
+  EXPECT_GT(g.counters["gathered paths cut"], 0u);
 }
 
 TEST(Determinism, SameBytesForAnyThreads) {

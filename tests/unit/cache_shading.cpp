@@ -100,6 +100,41 @@ TEST(Gloss, EverySplitOfTheLightGivesTheAlbedo) {
   }
 }
 
+/// So does a place that a ray or a mirror finds, whether eight samples of the lamps and as many rays of gloss
+/// are taken there, or one of one lamp, with gloss by chance.
+TEST(Gloss, PlacesThatRaysFindShowTheAlbedo) {
+  for (const Named& model : models()) {
+    const Scene scene = lit_sheet(model.material);
+    const RayScene rays(scene);
+    const Luminaires lights(scene);
+    const RecordTree no_records(scene.bounds, 0.2);
+    const Shading shading(rays, lights, no_records, {});
+    for (const float cosine : {1.f, 0.3f}) {
+      const Vec3 wo = towards(cosine, 1.1f);
+      const SurfacePoint point = sheet_seen_from(rays, wo);
+      const Bsdf bsdf(scene, point);
+      if (bsdf.has_specular() || bsdf.transmits_diffusely()) continue;
+      const Rgb truth = albedo(bsdf, wo, false);
+      for (const int light_samples : {8, 2, 1}) {
+        constexpr int kRepeats = 4000;
+        DVec3 sum(0), square(0);
+        ShadingLog log;
+        for (int k = 0; k < kRepeats; ++k) {
+          RandomStream random(8, Stage::test, static_cast<std::uint64_t>(k));
+          const DVec3 v(shading.outgoing(point, wo, 1, Rgb(1), light_samples, random, log) / kLuminance);
+          sum += v, square += v * v;
+        }
+        const DVec3 mean = sum / double(kRepeats);
+        const DVec3 error =
+            glm::sqrt(glm::max(square / double(kRepeats) - mean * mean, DVec3(0)) / double(kRepeats - 1));
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(mean[c], double(truth[c]), 5 * error[c] + 0.005)
+              << model.name << ", cosine " << cosine << ", " << light_samples << " samples";
+      }
+    }
+  }
+}
+
 /// Records that hold direct light have lit the Lambert part: direct() and gloss() add the rest.
 TEST(CachedDirect, LeavesTheLambertPartToTheRecords) {
   for (const Named& model : models()) {
