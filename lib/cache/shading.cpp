@@ -290,12 +290,19 @@ GlossLight Shading::gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec
 }
 
 Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth,
-                      const Rgb& throughput, RandomStream& random, ShadingLog& log) const {
+                      const Rgb& throughput, bool of_many, RandomStream& random, ShadingLog& log) const {
   if (!bsdf.has_specular()) return Rgb(0);
   BsdfSample branch[2];
   const int branches = bsdf.specular_branches(wo, branch);
   Rgb sum(0);
-  for (int b = 0; b < branches; ++b) {
+  int first = 0, end = branches;
+  if (of_many && branches == 2) {
+    const float all = luminance(branch[0].weight) + luminance(branch[1].weight);
+    if (!(all > 0)) return sum;
+    first = random.uniform() * all < luminance(branch[0].weight) ? 0 : 1, end = first + 1;
+    branch[first].weight *= all / luminance(branch[first].weight);
+  }
+  for (int b = first; b < end; ++b) {
     const Rgb carried = throughput * branch[b].weight;
     if (depth >= options_.specular_depth || max_component(glm::abs(carried)) < kLeastThroughput) {
       log.counters.count("specular paths cut");
@@ -307,9 +314,10 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
       sum += branch[b].weight * background_luminance(rays_.scene(), branch[b].direction);
       continue;
     }
-    sum += branch[b].weight * (emitted_luminance(rays_.scene(), hit, -branch[b].direction) +
-                               outgoing(hit, -branch[b].direction, depth + 1, carried,
-                                        light_samples_of(max_component(glm::abs(carried))), random, log));
+    sum += branch[b].weight *
+           (emitted_luminance(rays_.scene(), hit, -branch[b].direction) +
+            outgoing(hit, -branch[b].direction, depth + 1, carried,
+                     of_many ? 1 : light_samples_of(max_component(glm::abs(carried))), random, log));
   }
   return sum;
 }
@@ -374,7 +382,7 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
     light += arriving.radiance / survival;
     if (options_.reflect_direct) light += arriving.from_lamps / survival;
   }
-  return light + specular(point, bsdf, wo, depth, throughput, random, log);
+  return light + specular(point, bsdf, wo, depth, throughput, of_many, random, log);
 }
 
 }  // namespace phos

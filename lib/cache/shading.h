@@ -112,9 +112,10 @@ class Shading {
                    int light_samples, int depth, RandomStream& sequence, RandomStream& random,
                    ShadingLog& log, bool environment = true) const;
 
-  /// Light through mirrors and smooth glass: every branch, deterministic, to options.specular_depth. cd/m2
+  /// Light through mirrors and smooth glass, to options.specular_depth, cd/m2: of every branch; of one,
+  /// chosen by what it sends on, where the light is one `of_many` that are averaged.
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
-               RandomStream& random, ShadingLog& log) const;
+               bool of_many, RandomStream& random, ShadingLog& log) const;
 
   /// Light that diffuse transmission brings through to a point from the other side, cd/m2: as outgoing(), but
   /// for `samples` of each extended lamp there.

@@ -45,7 +45,7 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   from_caustics(sample, point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   if (bsdf.transmits_diffusely()) from_other_side(sample, point, bsdf, wo, sequence, light, result);
   if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
-  light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), random, result.log);
+  light.specular = shading_.specular(point, bsdf, wo, 0, Rgb(1), false, random, result.log);
   return light;
 }
 

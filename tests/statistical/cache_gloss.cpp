@@ -83,7 +83,7 @@ TEST(Shading, AMirrorShowsRecordsOfAGlossyWall) {
       const Shading shading(room.rays, room.lights, room.indirect, {}, gloss);
       return estimate(kRuns, [&](std::uint64_t run) {
         RandomStream random(3, Stage::test, run);
-        return shading.specular(mirror, bsdf, wo, 0, Rgb(1), random, log).y;
+        return shading.specular(mirror, bsdf, wo, 0, Rgb(1), false, random, log).y;
       });
     };
     ShadingLog log;

@@ -113,8 +113,11 @@ TEST(Gloss, PlacesThatRaysFindShowTheAlbedo) {
       const Vec3 wo = towards(cosine, 1.1f);
       const SurfacePoint point = sheet_seen_from(rays, wo);
       const Bsdf bsdf(scene, point);
-      if (bsdf.has_specular() || bsdf.transmits_diffusely()) continue;
-      const Rgb truth = albedo(bsdf, wo, false);
+      if (bsdf.transmits_diffusely()) continue;
+      Rgb truth = albedo(bsdf, wo, false);
+      BsdfSample branch[2];
+      const int branches = bsdf.specular_branches(wo, branch);
+      for (int b = 0; b < branches; ++b) truth += branch[b].weight;
       for (const int light_samples : {8, 2, 1}) {
         constexpr int kRepeats = 4000;
         DVec3 sum(0), square(0);
@@ -198,7 +201,7 @@ TEST(Mirror, ShowsCacheAndDirectLight) {
   const auto show = [&](const ShadingOptions& options, ShadingLog& log) {
     const Shading shading(rays, lights, records, options);
     RandomStream random(1, Stage::test, 1);
-    return static_cast<double>(shading.specular(point, bsdf, wo, 0, Rgb(1), random, log).y);
+    return static_cast<double>(shading.specular(point, bsdf, wo, 0, Rgb(1), false, random, log).y);
   };
   ShadingLog log;
   EXPECT_NEAR(show({}, log), 0.8 * 0.5 / M_PI * (30 + direct), 1e-3 * (30 + direct));
@@ -226,7 +229,7 @@ TEST(Mirror, AMissIsLoggedWhereItIsSeen) {
   ASSERT_TRUE(trace(rays, {{0.2f, 0.5f, 0.3f}, {0, 1, 0}}, point));
   ShadingLog log;
   RandomStream random(1, Stage::test, 1);
-  shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), random, log);
+  shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), false, random, log);
   ASSERT_EQ(log.misses.size(), 1u);
   EXPECT_NEAR(glm::distance(log.misses[0].position, Vec3(0.2f, -1, 0.3f)), 0, 1e-5f);
   EXPECT_EQ(log.misses[0].normal, Vec3(0, 1, 0));
@@ -250,7 +253,7 @@ TEST(Mirror, EndlessReflectionsEndAtTheDepth) {
   ASSERT_TRUE(trace(rays, {{0, 0.5f, 0}, {0, 1, 0}}, point));
   ShadingLog log;
   RandomStream random(1, Stage::test, 1);
-  EXPECT_EQ(shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), random, log), Rgb(0));
+  EXPECT_EQ(shading.specular(point, Bsdf(scene, point), {0, -1, 0}, 0, Rgb(1), false, random, log), Rgb(0));
   EXPECT_EQ(log.counters["specular paths cut"], 1u);
 }
 
@@ -282,7 +285,7 @@ TEST(Glass, LeadsLightFromEndToEnd) {
   ASSERT_TRUE(trace(rays, {end - 0.1f * way, way}, point));
   ShadingLog log;
   RandomStream random(1, Stage::test, 1);
-  const Rgb seen = shading.specular(point, Bsdf(scene, point), -way, 0, Rgb(1), random, log);
+  const Rgb seen = shading.specular(point, Bsdf(scene, point), -way, 0, Rgb(1), false, random, log);
   const double across = (out - kIndex * cosine) / (out + kIndex * cosine),
                along = (kIndex * out - cosine) / (kIndex * out + cosine);
   const double lost = (across * across + along * along) / 2;
@@ -338,7 +341,7 @@ TEST(Glass, APaneSplitsTheLight) {
   ShadingLog log;
   RandomStream random(1, Stage::test, 1);
   const double f = 0.04, back = 2 * f / (1 + f);
-  EXPECT_NEAR(shading.specular(point, Bsdf(scene, point), {0, 0, -1}, 0, Rgb(1), random, log).y,
+  EXPECT_NEAR(shading.specular(point, Bsdf(scene, point), {0, 0, -1}, 0, Rgb(1), false, random, log).y,
               back * 10 + (1 - back) * 1000, 0.01);
 }
 
