@@ -60,7 +60,7 @@ phos-irradiance "$scene" "$file.photons" "${light[@]}" --place view "${view[@]}"
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do
   phos-splat "$scene" "$file.view.irradiance" "${light[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
-    --direct none --gloss-samples 1 --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
+    --direct none --gloss-samples 1 --layers weight --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
   missing=$(($(wc -l <"$file.misses.csv") - 1))
   echo "round $round: $missing visible points without a record"
   ((missing > 0)) || break

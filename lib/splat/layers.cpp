@@ -45,6 +45,13 @@ LayerSet::LayerSet(std::span<const std::string> layers) {
   if (bits_ == 0) throw Error(ExitCode::usage, "--layers", "names no layer; give all, or some of " + names());
 }
 
+bool LayerSet::show_light() const {
+  constexpr std::array kNoLight{Layer::albedo, Layer::weight, Layer::normal, Layer::position, Layer::depth};
+  unsigned light = bits_;
+  for (const Layer layer : kNoLight) light &= ~(1u << static_cast<unsigned>(layer));
+  return light != 0;
+}
+
 std::string LayerSet::names() {
   std::string all;
   for (const char* name : kNames) all += (all.empty() ? "" : ", ") + std::string(name);

@@ -35,6 +35,8 @@ class LayerSet {
   bool has(Layer layer) const { return (bits_ >> static_cast<unsigned>(layer) & 1u) != 0; }
   /// Asked for by "all": layers that would be black are left out of the file then.
   bool all() const { return all_; }
+  /// Is any of them of light? Others tell of surfaces and records.
+  bool show_light() const;
   /// "beauty, direct, ..."
   static std::string names();
 

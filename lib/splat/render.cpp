@@ -225,9 +225,9 @@ class Painter {
     return records;
   }
 
-  /// Null where records hold caustic light.
+  /// Null where records hold caustic light, and where no layer shows any light.
   std::unique_ptr<const CausticLight> caustic_light() const {
-    if (!cache_.caustics) return nullptr;
+    if (!cache_.caustics || !LayerSet(options_.layers).show_light()) return nullptr;
     return std::make_unique<CausticLight>(rays_, std::make_shared<CausticMap>(*cache_.caustics),
                                           kPictureCaustics);
   }
