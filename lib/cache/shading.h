@@ -128,11 +128,12 @@ class Shading {
   Through through(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                   RandomStream& sequence, ShadingLog& log) const;
 
-  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches,
-  /// `light_samples` of each extended lamp (an even number meets a sun half the time; 1: from_one_lamp(), and
-  /// caustic light with a probability only), as many rays of gloss that
-  /// no radiance record tells of, its mirrors.
-  /// `depth` counts reflections since the eye (or the record).
+  /// Light leaving a point that a ray has found, but for its own emission, cd/m2: from the caches, from the
+  /// lamps, through the glossy lobes that no radiance record tells of, and through mirrors and glass. Each
+  /// extended lamp gets `light_samples` samples (an even number meets a sun half the time), the lobes as many
+  /// rays. With 1 the light is one of many that are averaged: one lamp is sampled (from_one_lamp()), caustic
+  /// light is looked for with a probability only, and of two specular branches one is followed. `depth`
+  /// counts reflections since the eye (or the record).
   Rgb outgoing(const SurfacePoint& point, const Vec3& wo, int depth, const Rgb& throughput, int light_samples,
                RandomStream& random, ShadingLog& log) const;
 

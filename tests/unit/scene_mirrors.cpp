@@ -72,16 +72,16 @@ TEST(MirrorImages, ShineFromBehindTheMirror) {
   p.geometric_normal = p.normal = {0, 1, 0};
   const std::int32_t right = lights.mirrors().follow(MirrorPlanes::kNone, 6, true);
   Illumination light;
-  ASSERT_TRUE(illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0,
-                                    Vec2(0.5f), light));
+  ASSERT_TRUE(
+      illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0, Vec2(0.5f), light));
   const Vec3 way = Vec3(6.5f, 2.5f, 2) - p.position;
   EXPECT_NEAR(light.distance_m, glm::length(way), 1e-5f);
   EXPECT_NEAR(light.value.x, 0.9f * 1000 / glm::dot(way, way), 1e-3f);
   EXPECT_LT(glm::length(light.direction - glm::normalize(way)), 1e-6f);
   // From beyond the mirror's end its image is not seen.
   p.position = {2, 1, -20};
-  EXPECT_FALSE(illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0,
-                                     Vec2(0.5f), light));
+  EXPECT_FALSE(
+      illuminate_by_mirrors(rays, lights, static_cast<std::size_t>(right), 0, p, 0, Vec2(0.5f), light));
 }
 
 /// A point lamp between mirrors that face each other sends I / d^2 by each image that a point sees: of the
