@@ -5,6 +5,7 @@
 #include "cache/gather.h"
 #include "cache/image_sampler.h"
 #include "cache/lamp_sampler.h"
+#include "cache/lamp_sequence.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
@@ -23,11 +24,11 @@ constexpr const char* kBeyondReach = "gathered places beyond the reach of record
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
 constexpr std::uint32_t kMostReflections = 65534;  // of a random stream
-/// Walks among surfaces that reflect more than they get would never end: they are cut where so much light of
-/// one comes together.
+/// Among surfaces that reflect more than they get, walks would never end. A walk is cut where its throughput
+/// is above the first; above the second no place along it is followed.
 constexpr float kMostThroughput = 16, kMostFollowedThroughput = 1.5f;
-/// Nor is it followed on where so many places along it had no photons: that is within some body, into which
-/// cracks let rays but no light.
+/// A ray's walks are cut after so many places without photons: such places lie within a body, which rays
+/// enter by cracks and light does not.
 constexpr std::uint32_t kMostDark = 8;
 // A sheet's other side has random streams of its own: this bit numbers them.
 constexpr std::uint32_t kOtherSide = 1u << 16;
@@ -55,36 +56,6 @@ struct RayName {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-};
-
-/// Point k of an additive sequence of three dimensions (R3), each shifted: low discrepancy over the rays of a
-/// hemisphere, so that together they see all of the lamps evenly. Of several points to a ray, the first
-/// numbers, which choose the lamp, are stratified.
-class LampSequence {
- public:
-  LampSequence(RandomStream random, std::uint32_t to_a_ray)
-      : shift_{random.bits(), random.bits(), random.bits()}, to_a_ray_(to_a_ray) {}
-  std::array<float, 3> point(std::size_t ray, std::uint32_t n) const {
-    return at(static_cast<std::uint32_t>(ray * to_a_ray_ + n), n);
-  }
-  /// Another, with nothing in common with that.
-  std::array<float, 3> other_point(std::size_t ray, std::uint32_t n) const {
-    return at(kUnlike * (static_cast<std::uint32_t>(ray * to_a_ray_ + n) + 1), n);
-  }
-
- private:
-  static constexpr std::uint32_t kUnlike = 0x9e3779b1u;
-
-  std::array<float, 3> at(std::uint32_t k, std::uint32_t n) const {
-    constexpr std::uint32_t kStep[3] = {0xd1b54a32u, 0xabc98388u,
-                                        0x8cb92ba7u};  // 2^32 / 1.2207440846^(d + 1)
-    std::array<float, 3> u;
-    for (unsigned d = 0; d < 3; ++d) u[d] = static_cast<float>((shift_[d] + k * kStep[d]) >> 8) * 0x1p-24f;
-    if (to_a_ray_ > 1) u[0] = (static_cast<float>(n) + u[0]) / static_cast<float>(to_a_ray_);
-    return u;
-  }
-
-  std::uint32_t shift_[3], to_a_ray_;
 };
 
 /// Noise of the light that a hemisphere's rays read from the source.

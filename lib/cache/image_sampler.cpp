@@ -11,7 +11,7 @@ namespace {
 
 // No image is less likely than this part of an equal share: by power the lamp beside the mirror would starve.
 constexpr double kMinimumShare = 0.1;
-/// An image that promises this part of the light of all is a good part of it.
+/// sample_all() takes every image that promises at least this part of what all images promise together.
 constexpr double kGoodPart = 0.02;
 
 template <class Choices>

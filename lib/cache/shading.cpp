@@ -42,7 +42,7 @@ constexpr float kGlossChance = 2, kLeastGlossChance = 0.05f;
 
 /// An error of this part of the light at a place does not show.
 constexpr float kNoMatter = 0.01f;
-/// Caustic light is looked for with this probability where many rays land, each of which takes the time of
+/// Where one of many rays lands, caustic light is looked for with this probability: looking takes as long as
 /// several rays.
 constexpr float kCausticChance = 0.125f;
 

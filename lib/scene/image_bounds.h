@@ -24,8 +24,8 @@ class ImageBounds {
   /// The mirror that the last reflection of a chain is off; nothing where none of its light can arrive.
   static std::optional<Sight> sight(const MirrorPlanes::Plane& mirror, bool front, const SurfacePoint& point);
 
-  /// Illuminance at a point by the image of a light in a chain of mirrors, of which the last is seen so, lx:
-  /// roughly, and nothing that stands between or looks away considered. 0 only where none arrives.
+  /// Illuminance at a point by the image of a light in a chain of mirrors, lx: a rough value without shadows
+  /// and cosines. 0 only where no such light arrives. `last` is sight() of the chain's last mirror.
   float promise_lx(const MirrorPlanes& mirrors, std::size_t chain, std::size_t light, const Sight& last,
                    const SurfacePoint& point) const;
   float promise_lx(const MirrorPlanes& mirrors, std::size_t chain, std::size_t light,

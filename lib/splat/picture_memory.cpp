@@ -10,9 +10,9 @@
 namespace phos {
 namespace {
 
-/// Of a pixel, of what one pass over the picture sees and what the caches say of it.
+/// Bytes a pixel: of the visible surface, and of the records drawn there.
 constexpr double kSeen = sizeof(Hit) + 3 * sizeof(Vec4), kSplats = 3 * sizeof(Vec4);
-/// And of OpenGL's own buffers, about: measured with OSMesa.
+/// Bytes a pixel of OpenGL's own buffers, measured with OSMesa.
 constexpr double kOpenGl = 128;
 constexpr double kMuch = 1024.0 * 1024 * 1024;
 

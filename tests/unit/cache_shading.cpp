@@ -29,6 +29,16 @@ Vec3 towards(float cosine, float azimuth) {
   return {sine * std::cos(azimuth), cosine, sine * std::sin(azimuth)};
 }
 
+/// That scene, shaded without records.
+struct LitSheet {
+  explicit LitSheet(const Material& material) : scene(lit_sheet(material)), rays(scene), lights(scene) {}
+  LitSheet(const LitSheet&) = delete;
+  Scene scene;
+  RayScene rays;
+  Luminaires lights;
+  RecordTree no_records{scene.bounds, 0.2};
+};
+
 SurfacePoint sheet_seen_from(const RayScene& rays, const Vec3& wo) {
   SurfacePoint point;
   EXPECT_TRUE(trace(rays, {Vec3(0.01f, 0, 0.02f) + 0.5f * wo, -wo}, point));
@@ -51,41 +61,45 @@ struct Split {
   int light_samples, gloss_samples;
 };
 
+/// Mean of what light(random) gives with other random numbers each time, and its standard error, in units of
+/// kLuminance.
+template <class Light>
+void repeat(int times, Rgb& mean, Rgb& error, const Light& light) {
+  DVec3 sum(0), square(0);
+  for (int k = 0; k < times; ++k) {
+    RandomStream random(7, Stage::test, static_cast<std::uint64_t>(k));
+    const DVec3 v(light(random) / kLuminance);
+    sum += v, square += v * v;
+  }
+  const DVec3 m = sum / double(times);
+  mean = Rgb(m);
+  error = Rgb(glm::sqrt(glm::max(square / double(times) - m * m, DVec3(0)) / double(times - 1)));
+}
+
 /// Mean of direct() + gloss(), and its standard error, in units of kLuminance.
 void measure(const Shading& shading, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, Split split,
              Rgb& mean, Rgb& error) {
-  constexpr int kRepeats = 400;
-  DVec3 sum(0), square(0);
   ShadingLog log;
-  for (int k = 0; k < kRepeats; ++k) {
-    RandomStream random(7, Stage::test, static_cast<std::uint64_t>(k));
+  repeat(400, mean, error, [&](RandomStream& random) {
     Rgb light(0);
     if (split.light_samples > 0)
       light += shading.direct(point, bsdf, wo, split.light_samples, split.gloss_samples, random).radiance;
     const GlossLight gloss =
         shading.gloss(point, bsdf, wo, split.gloss_samples, split.light_samples, 0, random, random, log);
-    light += gloss.from_lamps;
     EXPECT_EQ(gloss.radiance, Rgb(0));  // black walls show nothing but their own light
-    const DVec3 v(light / kLuminance);
-    sum += v, square += v * v;
-  }
-  const DVec3 m = sum / double(kRepeats);
-  mean = Rgb(m);
-  error = Rgb(glm::sqrt(glm::max(square / double(kRepeats) - m * m, DVec3(0)) / double(kRepeats - 1)));
+    return light + gloss.from_lamps;
+  });
 }
 
 /// In an even surrounding a surface shows L x integral(f cos), however its light is split.
 TEST(Gloss, EverySplitOfTheLightGivesTheAlbedo) {
   for (const Named& model : models()) {
-    const Scene scene = lit_sheet(model.material);
-    const RayScene rays(scene);
-    const Luminaires lights(scene);
-    const RecordTree no_records(scene.bounds, 0.2);
-    const Shading shading(rays, lights, no_records, {});
+    const LitSheet sheet(model.material);
+    const Shading shading(sheet.rays, sheet.lights, sheet.no_records, {});
     for (const float cosine : {1.f, 0.6f}) {
       const Vec3 wo = towards(cosine, 1.1f);
-      const SurfacePoint point = sheet_seen_from(rays, wo);
-      const Bsdf bsdf(scene, point);
+      const SurfacePoint point = sheet_seen_from(sheet.rays, wo);
+      const Bsdf bsdf(sheet.scene, point);
       const Rgb all = albedo(bsdf, wo, false), gloss = albedo(bsdf, wo, true);
       for (const Split split : {Split{64, 0}, Split{16, 8}, Split{2, 16}, Split{0, 64}}) {
         Rgb mean, error;
@@ -104,34 +118,25 @@ TEST(Gloss, EverySplitOfTheLightGivesTheAlbedo) {
 /// are taken there, or one of one lamp, with gloss by chance.
 TEST(Gloss, PlacesThatRaysFindShowTheAlbedo) {
   for (const Named& model : models()) {
-    const Scene scene = lit_sheet(model.material);
-    const RayScene rays(scene);
-    const Luminaires lights(scene);
-    const RecordTree no_records(scene.bounds, 0.2);
-    const Shading shading(rays, lights, no_records, {});
+    const LitSheet sheet(model.material);
+    const Shading shading(sheet.rays, sheet.lights, sheet.no_records, {});
     for (const float cosine : {1.f, 0.3f}) {
       const Vec3 wo = towards(cosine, 1.1f);
-      const SurfacePoint point = sheet_seen_from(rays, wo);
-      const Bsdf bsdf(scene, point);
+      const SurfacePoint point = sheet_seen_from(sheet.rays, wo);
+      const Bsdf bsdf(sheet.scene, point);
       if (bsdf.transmits_diffusely()) continue;
       Rgb truth = albedo(bsdf, wo, false);
       BsdfSample branch[2];
       const int branches = bsdf.specular_branches(wo, branch);
       for (int b = 0; b < branches; ++b) truth += branch[b].weight;
       for (const int light_samples : {8, 2, 1}) {
-        constexpr int kRepeats = 4000;
-        DVec3 sum(0), square(0);
+        Rgb mean, error;
         ShadingLog log;
-        for (int k = 0; k < kRepeats; ++k) {
-          RandomStream random(8, Stage::test, static_cast<std::uint64_t>(k));
-          const DVec3 v(shading.outgoing(point, wo, 1, Rgb(1), light_samples, random, log) / kLuminance);
-          sum += v, square += v * v;
-        }
-        const DVec3 mean = sum / double(kRepeats);
-        const DVec3 error =
-            glm::sqrt(glm::max(square / double(kRepeats) - mean * mean, DVec3(0)) / double(kRepeats - 1));
+        repeat(4000, mean, error, [&](RandomStream& random) {
+          return shading.outgoing(point, wo, 1, Rgb(1), light_samples, random, log);
+        });
         for (int c = 0; c < 3; ++c)
-          EXPECT_NEAR(mean[c], double(truth[c]), 5 * error[c] + 0.005)
+          EXPECT_NEAR(mean[c], truth[c], 5 * error[c] + 0.005f)
               << model.name << ", cosine " << cosine << ", " << light_samples << " samples";
       }
     }
@@ -141,16 +146,13 @@ TEST(Gloss, PlacesThatRaysFindShowTheAlbedo) {
 /// Records that hold direct light have lit the Lambert part: direct() and gloss() add the rest.
 TEST(CachedDirect, LeavesTheLambertPartToTheRecords) {
   for (const Named& model : models()) {
-    const Scene scene = lit_sheet(model.material);
-    const RayScene rays(scene);
-    const Luminaires lights(scene);
-    const RecordTree no_records(scene.bounds, 0.2);
+    const LitSheet sheet(model.material);
     ShadingOptions options;
     options.cached_direct = true;
-    const Shading shading(rays, lights, no_records, options);
+    const Shading shading(sheet.rays, sheet.lights, sheet.no_records, options);
     const Vec3 wo = towards(0.6f, 1.1f);
-    const SurfacePoint point = sheet_seen_from(rays, wo);
-    const Bsdf bsdf(scene, point);
+    const SurfacePoint point = sheet_seen_from(sheet.rays, wo);
+    const Bsdf bsdf(sheet.scene, point);
     const Rgb truth = albedo(bsdf, wo, true);
     Rgb mean, error;
     measure(shading, point, bsdf, wo, {16, 8}, mean, error);

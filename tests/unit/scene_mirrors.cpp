@@ -114,7 +114,7 @@ TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
       EXPECT_NEAR(light.value.x, last.reflectance * 1000 / (d * d), 1e-3f * light.value.x);
     }
   }
-  // By reflections, first off the left or the right: 2 * 37 at each place, of which those below are not seen.
+  // At each of the three places: chains of 1 to 37 reflections, the first of which is off either mirror.
   EXPECT_EQ(seen, 3 * 2 * 37u);
   EXPECT_GT(left_out, 0u) << "outer sides";
 }
