@@ -19,13 +19,21 @@ std::string percent(double part, double whole) {
   return out.str();
 }
 
+/// Of a cache that is begun by rays on every surface, where neither it nor --accuracy is given.
+constexpr double kUsualPlacementError = 0.05;
+
 /// --placement-error judges gathered records of circles, which reading blends 1.5 times as far as they reach.
-void require_judged(RecordOptions& records, const Options& given) {
-  if (records.estimate != Estimate::gather || records.footprint != Footprint::circle)
+void judge_placement(RecordOptions& records, PlacementOptions& placement, const Options& given) {
+  const bool judged = records.estimate == Estimate::gather && records.footprint == Footprint::circle;
+  const bool begun = !given.given("accuracy") && !given.given("add-to");
+  if (!placement.error && judged && begun && placement.place == Place::surface)
+    placement.error = kUsualPlacementError;
+  if (!placement.error) return;
+  if (!judged)
     throw Error(
         ExitCode::usage, "--placement-error",
         "is of gathered records with a circle for a footprint; give --estimate gather, or leave it out");
-  if (!given.given("accuracy") && !given.given("add-to")) records.accuracy = 1 / 3.0;
+  if (begun) records.accuracy = 1 / 3.0;
 }
 
 void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& report, bool stated) {
@@ -70,7 +78,7 @@ int main(int argc, char** argv) {
       "otherwise made from the photons; and a radiance cache, for rays that land on gloss, whose records "
       "hold "
       "irradiance too, so that the surfaces which they cover get none of their own.",
-      18);
+      19);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;
@@ -122,8 +130,6 @@ int main(int argc, char** argv) {
     const EstimateInputs inputs = open_inputs(files, scene, allow_mismatch);
     IrradianceCache cache;
     if (!add_to.empty()) cache = open_earlier(add_to, files, scene, allow_mismatch, options, records);
-    if (placement.error) require_judged(records, options);
-    cache.accuracy = records.accuracy;
     cache.scene_hash = scene.hash;
     cache.quantity = name_of(records.paths);
     cache.caustics = caustics_of_run(inputs, scene, add_to.empty() ? nullptr : &cache, add_to);
@@ -134,6 +140,8 @@ int main(int argc, char** argv) {
     if (!at.empty()) points = read_points(at, scene.origin_m);
     PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !at.empty(), points, tool.seed()};
     resolve(placement, scene, source, records.accuracy);
+    judge_placement(records, placement, options);
+    cache.accuracy = records.accuracy;
     const RayScene rays(scene, {isa});
     const TypicalDistance typical = typical_distance(rays, placement, source);
     tool.stat("typical_distance_m", typical.least_m);

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
             "on bounces) and stores one at each surface they reach. The file holds the photons and a kd-tree "
             "over them, and "
             "feeds phos-irradiance. The same command gives the same bytes on any number of threads.",
-            4);
+            5);
   std::string scene_path;
   SceneOptions scene_options;
   PhotonOptions options;

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
             "only or read a cache; its .brdf file (else lobes are projected here); and caches for rays to "
             "read where they land: irradiance, in place of the coarse cache that is otherwise made from the "
             "photons, and radiance, for gloss.",
-            16);
+            17);
   tool.takes_strict();
   std::vector<std::string> paths;
   SceneOptions scene_options;

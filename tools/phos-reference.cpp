@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       "indirect_stderr, albedo, normal, position and Z; or, with --points, a CSV of illuminance (lx) "
       "with its "
       "standard error.",
-      3, Tool::Output::optional);
+      4, Tool::Output::optional);
   tool.takes_strict();
   Options& options = tool.options();
   std::string scene_path, points_path;

@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
             "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout. With --bands all these "
             "are of "
             "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
-            10, Tool::Output::optional);
+            11, Tool::Output::optional);
   tool.takes_strict();
   tool.output_has_no_key();
   Inputs inputs;

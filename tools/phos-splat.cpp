@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
             "beauty (R G B), direct, indirect, glossy, specular, emission, stderr, albedo in cd/m2, "
             "illuminance.Y in lx, weight, normal, position (m, counted from the scene's origin where "
             "phos-scene tells of one) and Z. Another camera, size or --accuracy needs no new cache.",
-            13);
+            14);
   tool.takes_strict();
   Options& options = tool.options();
   std::string scene_path, misses_path, gloss_misses_path;

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
             "lobes are projected here); and for irradiance records the radiance film of the same frames, "
             "whose surfaces then "
             "get none of their own.",
-            17);
+            18);
   std::vector<std::string> paths;
   std::string frames, isa;
   SceneOptions scene_options;

@@ -57,8 +57,9 @@ void declare_options(Options& options, PlacementOptions& p) {
       "with --estimate gather --place surface: records far apart at first, and nearer to each other "
       "where they foretell each other's light wrongly, in at most 10 passes (or --passes, if more), "
       "for a root mean square error of about E of the mean irradiance; the --rays of a record bound "
-      "E from below; accuracy is 1/3 if not given",
-      {1e-4, 1}, Recorded::if_given);
+      "E from below; accuracy is 1/3 if not given (default: 0.05, unless --accuracy or --add-to says how "
+      "dense they are)",
+      {1e-4, 1}, Recorded::unless_default);
   options.text("part", p.part, "K/N",
                "with --place every: make only part K of N of the records; phos-merge joins the parts exactly",
                Recorded::no);

@@ -9,6 +9,7 @@
 #include "file/lfs_pointer.h"
 #include "scene/daylight.h"
 #include "scene/environment.h"
+#include "scene/find_blinds.h"
 #include "scene/find_portals.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_load.h"
@@ -38,6 +39,7 @@ void aim(Scene& scene, const std::string& portals) {
                 "aims light of a sky, and there is none; give --sky, --sun or --environment");
   const RayScene rays(scene);
   scene.portal = find_portals(rays, portals);
+  scene.blind = find_blinds(rays);
   if (scene.portal.empty())
     scene.warnings.emplace_back(Note::Level::info, "loader", "", "", kNothingToAimAt);
   else

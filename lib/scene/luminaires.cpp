@@ -113,7 +113,7 @@ double mean_emission(const Scene& scene, std::uint32_t triangle) {
 
 Luminaires::Luminaires(const Scene& scene) : scene_(&scene), mirrors_(scene), image_bounds_(scene, mirrors_) {
   if (scene.environment && !scene.portal.empty())
-    portals_.emplace(*scene.environment, scene.portal, scene.portal_sight);
+    portals_.emplace(*scene.environment, scene.portal, scene.portal_sight, scene.blind);
   instance_light_.assign(scene.instance.size(), -1);
   shape_.resize(scene.light.size());
   for (std::size_t i = 0; i < scene.light.size(); ++i) {

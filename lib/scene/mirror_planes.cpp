@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "scene/bsdf.h"
+#include "scene/mirror_sight.h"
 #include "scene/offset.h"
 
 namespace phos {
@@ -18,6 +19,9 @@ constexpr float kWeak = 0.2f;
 constexpr std::size_t kMostWeakPlanes = 8;
 /// Chains that reflect less are left to photons, whose noise is then of little light.
 constexpr float kLeastReflectance = 0.02f;
+/// And those that carry less than this part of the lamps' light, as far as a few places on them tell: one in
+/// 256 sees a lamp.
+constexpr float kLeastCarried = 0.002f;
 constexpr float kSamePlane = 1 - 1e-6f;  // cosine of normals
 
 /// Luminance that a material sends back as a mirror does at normal incidence; 0 of solid glass.
@@ -44,7 +48,7 @@ bool flat(const Scene& scene, const Triangle& t, const Vec3& normal) {
 
 MirrorPlanes::MirrorPlanes(const Scene& scene) {
   find_planes(scene);
-  find_chains();
+  if (!plane_.empty()) find_chains(scene);
 }
 
 void MirrorPlanes::find_planes(const Scene& scene) {
@@ -117,25 +121,39 @@ bool MirrorPlanes::beside(const Plane& part, const Plane& of, bool front) const 
   return false;
 }
 
-void MirrorPlanes::find_chains() {
+void MirrorPlanes::find_chains(const Scene& scene) {
+  std::vector<Vec3> normals;
+  for (const Plane& p : plane_) normals.push_back(p.normal);
+  const MirrorSight sight(scene, normals, plane_of_);
+  const auto planes = static_cast<std::int32_t>(plane_.size());
+  constexpr float kUnknown = -1;
+  std::vector<float> seen_share(4 * plane_.size() * plane_.size(), kUnknown);
+  const auto seen = [&](std::int32_t a, bool a_front, std::int32_t b, bool b_front) {
+    const auto x = static_cast<std::size_t>(a), y = static_cast<std::size_t>(b);
+    float& share = seen_share[((2 * x + a_front) * plane_.size() + y) * 2 + b_front];
+    if (share == kUnknown) share = sight.seen_share({x, a_front}, {y, b_front});
+    return share;
+  };
   struct Candidate {
+    float carried;  // share of the lamps' light, roughly
     float reflectance;
     std::int32_t before, plane;
     bool front;
     std::size_t number;  // earlier ones first
     bool operator<(const Candidate& o) const {
-      return reflectance != o.reflectance ? reflectance < o.reflectance : number > o.number;
+      return carried != o.carried ? carried < o.carried : number > o.number;
     }
   };
   std::priority_queue<Candidate> queue;
   std::size_t number = 0;
-  const auto offer = [&](float product, std::int32_t before, std::int32_t next, bool front) {
-    const float r = product * std::min(plane(next).reflectance, 1.f);
-    if (r >= kLeastReflectance) queue.push({r, before, next, front, number++});
+  const auto offer = [&](float reflectance, float lit, std::int32_t before, std::int32_t next, bool front) {
+    const float r = reflectance * std::min(plane(next).reflectance, 1.f);
+    if (r >= kLeastReflectance && r * lit >= kLeastCarried)
+      queue.push({r * lit, r, before, next, front, number++});
   };
-  const auto planes = static_cast<std::int32_t>(plane_.size());
   for (std::int32_t p = 0; p < planes; ++p)
-    for (const bool front : {true, false}) offer(1, kNone, p, front);
+    for (const bool front : {true, false})
+      offer(1, sight.lit_share({static_cast<std::size_t>(p), front}), kNone, p, front);
   while (!queue.empty() && chain_.size() < kMostChains) {
     const Candidate c = queue.top();
     queue.pop();
@@ -145,7 +163,9 @@ void MirrorPlanes::find_chains() {
     for (std::int32_t next = 0; next < planes; ++next) {
       if (next == c.plane || !beside(plane(next), plane(c.plane), c.front)) continue;
       for (const bool front : {true, false})
-        if (beside(plane(c.plane), plane(next), front)) offer(c.reflectance, index, next, front);
+        if (beside(plane(c.plane), plane(next), front))
+          offer(c.reflectance, c.carried / c.reflectance * seen(c.plane, c.front, next, front), index, next,
+                front);
     }
   }
 }

@@ -11,8 +11,8 @@ namespace phos {
 
 /// Surfaces that lie in one plane and reflect as mirrors do: mirrors, polished metal, panes, glossy coats
 /// without roughness. Light of a lamp over a chain of them comes as if from an image of the lamp, so that
-/// shadow rays find it (MirrorImages). Only the largest and brightest planes and the brightest chains are
-/// taken; light over others is left to photons.
+/// shadow rays find it (MirrorImages). Only the largest and brightest planes are taken, and the brightest
+/// chains that light gets to (MirrorSight); light over others is left to photons.
 class MirrorPlanes {
  public:
   static constexpr std::int32_t kNone = -1;
@@ -58,7 +58,7 @@ class MirrorPlanes {
 
  private:
   void find_planes(const Scene& scene);
-  void find_chains();
+  void find_chains(const Scene& scene);
   /// Has one plane's box a part on that side of the other?
   bool beside(const Plane& part, const Plane& of, bool front) const;
 

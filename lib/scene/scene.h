@@ -11,6 +11,7 @@
 
 #include "core/json.h"
 #include "core/vector.h"
+#include "scene/blind.h"
 #include "scene/fitting.h"
 #include "scene/note.h"
 #include "scene/portal.h"
@@ -238,6 +239,7 @@ struct Scene {
   std::shared_ptr<const Environment> environment;  ///< null: black. One of the lights stands for it
   std::vector<Portal> portal;  ///< openings through which its light is looked for and sent
   std::shared_ptr<const PortalSight> portal_sight;  ///< of them; null: not known
+  std::vector<Blind> blind;                         ///< before the sky, found where portals are looked for
   std::vector<Camera> camera;
   std::vector<Animation> animation;
   double time_s = 0;

@@ -21,11 +21,11 @@ double direct_lx(const AnalyticScene& s, const Check& check) {
                              : check.irradiance_lx;
 }
 
-class EveryScene : public testing::TestWithParam<std::size_t> {};
+class EveryLitScene : public testing::TestWithParam<std::size_t> {};
 
 /// A Lambert surface under E reflects rho E / pi. The stated variance is that of independent samples; the
 /// points are of low discrepancy, so the error is less.
-TEST_P(EveryScene, ShadowRaysAgreeWithTheClosedForm) {
+TEST_P(EveryLitScene, ShadowRaysAgreeWithTheClosedForm) {
   const AnalyticScene s = std::move(all_point_scenes()[GetParam()]);
   const RayScene rays(s.scene);
   const Luminaires lights(s.scene);
@@ -411,7 +411,7 @@ TEST(EdgeLight, SaysThatItMayHaveMissedSomething) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Most, SceneWithDarkSurfaces, testing::Values(0, 1, 2, 8, 9));
-INSTANTIATE_TEST_SUITE_P(All, EveryScene, testing::Range<std::size_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(All, EveryLitScene, testing::Range<std::size_t>(0, 10));
 
 }  // namespace
 }  // namespace phos::test

@@ -300,5 +300,3 @@ TEST(Degenerate, ThirtyBandsFromThePoleToTheHorizon) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

@@ -318,5 +318,3 @@ TEST(Light, GrazingSun) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

@@ -99,5 +99,3 @@ TEST(Offset, EnergyOfPhotons) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

@@ -303,5 +303,3 @@ TEST(Rounding, DirectLightOfARectangle) { direct_light(true, "rectangle"); }
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

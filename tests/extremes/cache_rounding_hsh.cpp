@@ -104,5 +104,3 @@ TEST(Rounding, RotationOfHarmonics) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

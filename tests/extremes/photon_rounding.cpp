@@ -126,5 +126,3 @@ TEST(Rounding, AnglesFromASpotsAxis) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

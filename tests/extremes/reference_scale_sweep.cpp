@@ -67,5 +67,3 @@ TEST(ScaleSweep, ClosedFormsAtEveryAlbedo) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

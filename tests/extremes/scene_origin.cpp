@@ -158,5 +158,3 @@ TEST(Origin, ScenesNearTheOriginStayAsTheyAre) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

@@ -56,5 +56,3 @@ TEST(Rounding, ErrorsOfMeansOfRecords) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

@@ -128,5 +128,3 @@ TEST(ScaleSweep, WholePipeline) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

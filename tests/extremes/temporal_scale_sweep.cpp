@@ -81,5 +81,3 @@ TEST(ScaleSweep, FilmFromPhotons) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::limits_main(argc, argv); }

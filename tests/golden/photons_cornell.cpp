@@ -16,5 +16,3 @@ TEST_F(GoldenCornell, PhotonsAreWhereTheyWere) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::golden_main(argc, argv); }

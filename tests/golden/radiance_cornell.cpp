@@ -37,5 +37,3 @@ TEST_F(GoldenRadiance, IsWhatItWas) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::golden_main(argc, argv); }

@@ -51,5 +51,3 @@ TEST_F(Picture, LooksTheSameThroughOpenGl) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::golden_main(argc, argv); }

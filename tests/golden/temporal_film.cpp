@@ -41,5 +41,3 @@ TEST_F(GoldenFilm, RecordsLiveAndChangeAsTheyDid) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::golden_main(argc, argv); }

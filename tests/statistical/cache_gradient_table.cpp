@@ -160,5 +160,3 @@ TEST(GradientTable, IsWhatTheEstimatorsGive) {
 
 }  // namespace
 }  // namespace phos::test
-
-int main(int argc, char** argv) { return phos::test::golden_main(argc, argv); }

@@ -1,4 +1,4 @@
-// Golden files: what a stage gave when last looked at, in data/golden. A test program with golden_main takes
+// Golden files: what a stage gave when last looked at, in data/golden. A test program takes
 // --update, which writes them anew and prints what changes.
 #pragma once
 
@@ -15,13 +15,9 @@
 #include "file/json_parse.h"
 #include "image/image.h"
 #include "support/run.h"
+#include "support/update.h"
 
 namespace phos::test {
-
-inline bool& updating_golden() {
-  static bool updating = false;
-  return updating;
-}
 
 inline std::string golden_path(const std::string& name) {
   return std::string(PHOS_SOURCE) + "/data/golden/" + name;
@@ -200,14 +196,6 @@ inline void expect_golden_image(const std::string& name, const std::string& fres
     EXPECT_LE(d.beyond, tolerance.fraction) << name << ": " << channel;
     EXPECT_LE(d.worst, tolerance.hard) << name << ": " << channel;
   }
-}
-
-/// main of a golden test.
-inline int golden_main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  for (int i = 1; i < argc; ++i)
-    updating_golden() = updating_golden() || std::string_view(argv[i]) == "--update";
-  return RUN_ALL_TESTS();
 }
 
 }  // namespace phos::test

@@ -1,5 +1,5 @@
 // tests/extremes/LIMITS.md: for each quantity the range in which it is right, written by the tests that found
-// it. A test program with limits_main takes --update, which writes its lines anew.
+// it. A test program takes --update, which writes its lines anew.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -123,6 +123,4 @@ inline void expect_limit(const Limit& limit) {
 }
 
 /// main of a test program with lines in the page.
-inline int limits_main(int argc, char** argv) { return golden_main(argc, argv); }
-
 }  // namespace phos::test

@@ -2,13 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "scene/mirror_images.h"
+#include "scene/mirror_sight.h"
 #include "support/scenes.h"
 
 namespace phos::test {
 namespace {
 
-/// A box of 4 m whose walls x = 0 and x = 4 are mirrors, and a point lamp.
-Scene corridor(float reflectance, bool textured_normal = false) {
+/// A box of 4 m whose walls x = 0 and x = 4 are mirrors, and a point lamp; with a black screen of constant x
+/// if its box is not empty.
+Scene corridor(float reflectance, bool textured_normal = false, const Bounds& screen = {}) {
   Scene scene;
   const std::uint32_t black = add_lambert(scene, "black", 0), mirror = add_lambert(scene, "mirror", 0);
   scene.material[mirror].model = Model::mirror, scene.material[mirror].ks = Rgb(reflectance);
@@ -19,6 +21,7 @@ Scene corridor(float reflectance, bool textured_normal = false) {
   begin_instance(scene, "black", black);
   add_quad(scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
   add_quad(scene, {0, 4, 0}, {4, 0, 0}, {0, 0, 4});
+  if (!screen.empty()) add_quad(scene, screen.lo, {0, screen.size().y, 0}, {0, 0, screen.size().z});
   begin_instance(scene, "mirrors", mirror);
   add_quad(scene, {0, 0, 0}, {0, 4, 0}, {0, 0, 4});
   add_quad(scene, {4, 0, 0}, {0, 0, 4}, {0, 4, 0});
@@ -32,16 +35,40 @@ Scene corridor(float reflectance, bool textured_normal = false) {
 TEST(MirrorPlanes, TwoThatFaceEachOtherMakeChainsAsLongAsTheyReflect) {
   const Scene scene = corridor(0.9f);
   const MirrorPlanes mirrors(scene);
-  // 0.9^37 is the last above 0.02; the first mirror may be either; outer sides reflect once.
+  // 0.9^37 is the last above 0.02; the first mirror may be either; no light gets to the outer sides.
   std::size_t inside = 0;
   for (const MirrorPlanes::Chain& c : mirrors.chains()) {
     EXPECT_GE(c.reflectance, 0.02f);
     inside += mirrors.plane(c.plane).front_of({2, 2, 2}) == c.front;
   }
   EXPECT_EQ(inside, 2 * 37u);
+  EXPECT_EQ(mirrors.chains().size(), inside);
   EXPECT_TRUE(MirrorPlanes(corridor(0.01f)).empty()) << "too little to look for";
   EXPECT_TRUE(MirrorPlanes(corridor(0.9f, true)).empty()) << "bumps are not flat";
   EXPECT_TRUE(MirrorPlanes(point_light_over_plane().scene).empty());
+}
+
+TEST(MirrorPlanes, AMirrorBehindAScreenReflectsNothing) {
+  const Scene scene = corridor(0.9f, false, {{3.9f, 0, 0}, {3.9f, 4, 4}});
+  const MirrorPlanes mirrors(scene);
+  ASSERT_EQ(mirrors.chains().size(), 1u);
+  EXPECT_EQ(mirrors.plane(mirrors.chains()[0].plane).box.hi.x, 0);
+}
+
+/// A screen just before the lower half of a mirror.
+TEST(MirrorSight, TellsWhichShareIsLit) {
+  const Scene scene = corridor(0.9f, false, {{3.999f, 0, 0}, {3.999f, 2, 4}});
+  const std::vector<Vec3> normals{{1, 0, 0}, {-1, 0, 0}};
+  std::vector<std::int32_t> plane_of(scene.triangle.size(), -1);
+  for (std::size_t t = plane_of.size() - 4; t < plane_of.size(); ++t)
+    plane_of[t] = t < plane_of.size() - 2 ? 0 : 1;
+  const MirrorSight sight(scene, normals, plane_of);
+  EXPECT_EQ(sight.lit_share({0, true}), 1);
+  EXPECT_NEAR(sight.lit_share({1, true}), 0.5f, 0.02f);
+  EXPECT_EQ(sight.lit_share({0, false}), 0);
+  EXPECT_NEAR(sight.seen_share({0, true}, {1, true}), 0.5f, 0.05f);
+  EXPECT_NEAR(sight.seen_share({1, true}, {0, true}), 0.5f, 0.05f);
+  EXPECT_EQ(sight.seen_share({0, true}, {1, false}), 0);
 }
 
 TEST(MirrorPlanes, FollowsWhatItTook) {
@@ -92,7 +119,7 @@ TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
   const Luminaires lights(scene);
   const MirrorPlanes& mirrors = lights.mirrors();
   std::size_t seen = 0, left_out = 0;
-  for (const Vec3& place : {Vec3(2, 1, 2), Vec3(0.1f, 3.9f, 0.1f), Vec3(3.9f, 0.1f, 3.5f)}) {
+  for (const Vec3& place : {Vec3(2, 1, 2), Vec3(0.1f, 3.9f, 0.1f), Vec3(3.9f, 0.1f, 3.5f), Vec3(5, 1, 2)}) {
     SurfacePoint p;
     p.position = place, p.error_m = 1e-6f;
     p.geometric_normal = p.normal = {0, 1, 0};
@@ -101,7 +128,8 @@ TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
       // An image is seen where its way meets each mirror, as x alone decides in this room.
       const Vec3 image = mirrors.image_of_lamp(static_cast<std::int32_t>(chain), scene.light[0].position);
       const MirrorPlanes::Chain& last = mirrors.chains()[chain];
-      const bool there = mirrors.plane(last.plane).front_of(place) == last.front && image.y > place.y;
+      const bool there =
+          place.x < 4 && mirrors.plane(last.plane).front_of(place) == last.front && image.y > place.y;
       if (!(promise > 0)) {
         ++left_out;
         EXPECT_FALSE(there && last.before == MirrorPlanes::kNone) << chain;
@@ -114,9 +142,10 @@ TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
       EXPECT_NEAR(light.value.x, last.reflectance * 1000 / (d * d), 1e-3f * light.value.x);
     }
   }
-  // At each of the three places: chains of 1 to 37 reflections, the first of which is off either mirror.
+  // At each of the three places between them: chains of 1 to 37 reflections, the first of which is off either
+  // mirror.
   EXPECT_EQ(seen, 3 * 2 * 37u);
-  EXPECT_GT(left_out, 0u) << "outer sides";
+  EXPECT_GT(left_out, 0u) << "from behind a mirror";
 }
 
 }  // namespace phos::test
