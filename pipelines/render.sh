@@ -43,9 +43,7 @@ setting() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" <<<"$plan" | head -1; 
 photons=${photons:-$(printf %.0f "$(setting photons)")} accuracy=${accuracy:-$(setting accuracy)} samples=${samples:-$(setting pixel_samples)}
 estimate=(--estimate hull)
 [[ $plan != *'"gather"'* ]] || estimate=(--estimate gather --rays "${rays:-$(setting rays)}" --error "$(awk -v e="$error" 'BEGIN { print e / 2 }')")
-direct=(--direct interleaved --light-samples "$(setting light_rays)")
-gloss=$(setting gloss_rays)
-[[ -z $gloss ]] || direct+=(--gloss-samples "$gloss")
+direct=(--direct interleaved --noise "$error")
 edges=$(($(setting edge_samples) > samples ? $(setting edge_samples) - samples : 0))
 
 # A record serves so many pixels about it at least: what is smaller is seen by its neighbours.

@@ -13,6 +13,7 @@
 #include "scene/rays.h"
 #include "scene/unsampled.h"
 #include "splat/caches.h"
+#include "splat/noise_target.h"
 #include "splat/picture_gloss.h"
 #include "splat/picture_memory.h"
 #include "splat/picture_report.h"
@@ -48,6 +49,24 @@ void require_finite(const Image& image) {
     if (finite[c] == 0)
       throw Error(ExitCode::numerical, "",
                   "channel " + *channels[c].first + " has a non-finite value; please report this scene");
+}
+
+void require_one_choice(const Options& options, const RenderOptions& render) {
+  if (!render.noise) return;
+  for (const char* name : {"light-samples", "gloss-samples"})
+    if (options.given(name))
+      throw Error(ExitCode::usage, "--noise", text("chooses the number of rays; leave out --", name));
+  if (render.direct == DirectBy::shadow_map)
+    throw Error(ExitCode::usage, "--noise", "is of shadow rays; give --direct traced or interleaved");
+}
+
+void tell_of_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target) {
+  if (!render.noise) return;
+  tool.stat("pilot noise, direct", target.direct);
+  tool.stat("pilot noise, gloss", target.gloss);
+  tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
+                " rays of gloss are sent"));
+  if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
 }
 
 }  // namespace
@@ -113,6 +132,7 @@ int main(int argc, char** argv) {
     if (options.given("reuse") && !(misses_path.empty() && gloss_misses_path.empty()))
       throw Error(ExitCode::usage, misses_path.empty() ? "--gloss-misses" : "--misses",
                   "a picture that is not made anew has no misses; leave out --reuse");
+    require_one_choice(options, render);
     if (tool.up_to_date()) return;
 
     if (files.empty()) files = open_caches(cache_paths);
@@ -147,6 +167,9 @@ int main(int argc, char** argv) {
       return gloss_of_picture(rays, caches, render, allow_mismatch, tool.counters());
     }();
     if (gloss.projected) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+    tell_of_noise(
+        tool, render,
+        choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));
     Rendering rendering =
         render_scene(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr);
     require_finite(rendering.image);

@@ -44,6 +44,7 @@ struct RenderOptions {
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 64;
+  std::optional<double> noise;  ///< chooses the first two of these (splat/noise_target.h)
   std::int64_t shadow_map_size = 1024;
   GlossBy gloss = GlossBy::automatic;
   SplatBy gloss_splat = SplatBy::cpu;

@@ -44,6 +44,17 @@ class SplatOptions : public testing::Test {
 };
 std::string* SplatOptions::folder_ = nullptr;
 
+TEST_F(SplatOptions, NoiseChoosesTheNumberOfRays) {
+  const test::Run both = splat({"--noise", "0.02", "-o", path("no.exr")});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_TRUE(is_one_line(both.err)) << both.err;
+  EXPECT_NE(both.err.find("--light-samples"), std::string::npos) << both.err;
+  const test::Run run = run_tool({"splat", data("cornell-measured.glb"), path("a.irradiance"), "--width",
+                                  "64", "--splat", "cpu", "--noise", "0.02", "-o", path("noise.exr")});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("shadow rays a pixel and light"), std::string::npos) << run.err;
+}
+
 TEST_F(SplatOptions, WritesTheLayersAskedFor) {
   ASSERT_EQ(splat({"--layers", "beauty", "-o", path("beauty.exr"), "--quiet"}).code, 0);
   EXPECT_EQ(read_image(path("beauty.exr")).channels().size(), 3u);

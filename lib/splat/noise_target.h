@@ -1,0 +1,24 @@
+// How many rays a picture's direct light and gloss take for an asked noise.
+#pragma once
+
+#include "splat/render.h"
+
+namespace phos {
+
+/// What was found.
+struct NoiseTarget {
+  /// Noise of direct light and of gloss in the small pictures, over the light of the pixel, or over a tenth
+  /// of the picture's mean where that is more: root mean square.
+  double direct = 0, gloss = 0;
+  bool enough = true;  ///< false: more rays than are ever sent would be needed
+};
+
+/// Sets light_samples and gloss_samples of resolved options such that each brings half of the variance of
+/// `noise`, a root mean square of the same kind. Emission does not count as light. Two small pictures of
+/// other random numbers tell: their differences, but for the largest fiftieth, which are of edges. Rays of
+/// independent noise are assumed: where they are stratified, the noise falls below what was asked. From 16
+/// (4, of very many lamps) to 4096 rays. Nothing where noise is not asked for.
+NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, RenderOptions& render,
+                        std::span<const BrdfTable> brdfs, const GlossCache* gloss);
+
+}  // namespace phos

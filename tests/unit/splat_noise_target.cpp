@@ -1,0 +1,83 @@
+// Numbers of rays that follow from an asked noise.
+#include "splat/noise_target.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+
+namespace phos::test {
+namespace {
+
+/// A square lamp over a floor, half of it behind a screen: partly seen everywhere.
+Scene half_hidden() {
+  Scene scene;
+  begin_instance(scene, "floor", add_lambert(scene, "grey", 0.5f));
+  add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  begin_instance(scene, "screen", add_lambert(scene, "black", 0));
+  add_quad(scene, {-4, 1, -4}, {0, 0, 8}, {4, 0, 0});
+  begin_instance(scene, "lamp", add_lambert(scene, "lamp", 0, 1000));
+  add_quad(scene, {-2, 2, -2}, {4, 0, 0}, {0, 0, 4});
+  scene.camera.push_back(look_at({0.1f, 0.9f, 0}, {0.1f, 0, 0}, {0, 0, 1}, 0.8f));
+  finalize(scene);
+  return scene;
+}
+
+NoiseTarget target_of(const RayScene& rays, double noise, RenderOptions& render) {
+  render.noise = noise, render.direct = DirectBy::traced;
+  render.splat = SplatBy::cpu, render.width = 64, render.height = 64;
+  IrradianceCache cache;
+  cache.accuracy = 0.2;
+  resolve(render, rays.scene().camera.front(), cache);
+  return choose_rays(rays, cache, render, {}, nullptr);
+}
+
+}  // namespace
+
+/// Four times the rays for half of the noise; and the picture has about the noise that was asked for.
+TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
+  const Scene scene = half_hidden();
+  const RayScene rays(scene);
+  RenderOptions coarse, fine;
+  const NoiseTarget found = target_of(rays, 0.05, coarse);
+  EXPECT_TRUE(found.enough);
+  EXPECT_GT(found.direct, 0.005);
+  EXPECT_EQ(found.gloss, 0);
+  target_of(rays, 0.02, fine);
+  ASSERT_GT(fine.light_samples, 64);
+  EXPECT_NEAR(static_cast<double>(fine.light_samples), 64 * found.direct * found.direct / (0.02 * 0.02 / 2),
+              1);
+  EXPECT_LT(coarse.light_samples, fine.light_samples);
+  EXPECT_GE(coarse.light_samples, 16);
+  EXPECT_EQ(fine.gloss_samples, 16);
+
+  RenderOptions impossible;
+  EXPECT_FALSE(target_of(rays, 1e-4, impossible).enough);
+  EXPECT_EQ(impossible.light_samples, 4096);
+
+  IrradianceCache cache;
+  cache.accuracy = 0.2;
+  double squares = 0, n = 0;
+  std::vector<Rgb> picture[2];
+  for (std::uint64_t seed : {0, 1}) {
+    fine.seed = seed;
+    picture[seed] = render_scene(rays, cache, fine).image.rgb("direct");
+  }
+  for (std::size_t i = 0; i < picture[0].size(); ++i) {
+    const float mean = (luminance(picture[0][i]) + luminance(picture[1][i])) / 2;
+    if (!(mean > 0)) continue;
+    const auto change = static_cast<double>((luminance(picture[0][i]) - luminance(picture[1][i])) / mean);
+    squares += change * change / 2, n += 1;
+  }
+  EXPECT_LT(std::sqrt(squares / n), 0.02);
+}
+
+TEST(NoiseTarget, LeavesTheNumbersWhereNoneIsAsked) {
+  const Scene scene = half_hidden();
+  const RayScene rays(scene);
+  RenderOptions render;
+  render.light_samples = 5;
+  choose_rays(rays, IrradianceCache(), render, {}, nullptr);
+  EXPECT_EQ(render.light_samples, 5);
+}
+
+}  // namespace phos::test
