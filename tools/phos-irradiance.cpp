@@ -5,6 +5,7 @@
 #include "cache/record_ways.h"
 #include "cache/typical_distance.h"
 #include "file/tool.h"
+#include "scene/inside_solid.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
 
@@ -143,6 +144,9 @@ int main(int argc, char** argv) {
     judge_placement(records, placement, options);
     cache.accuracy = records.accuracy;
     const RayScene rays(scene, {isa});
+    if (placement.place == Place::view)
+      if (const auto inside = camera_inside_solid(rays, find_camera(scene, placement.camera)))
+        tool.warn(*inside);
     const TypicalDistance typical = typical_distance(rays, placement, source);
     tool.stat("typical_distance_m", typical.least_m);
     records.resolve(typical);

@@ -10,6 +10,7 @@
 #include "reference/measure_points.h"
 #include "reference/render.h"
 #include "scene/film.h"
+#include "scene/inside_solid.h"
 #include "scene/load.h"
 
 namespace {
@@ -77,6 +78,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   const double pixels = static_cast<double>(reference.width) * static_cast<double>(reference.height);
   const bool both_ends =
       is_bidirectional(method_of(reference), scene, ways, pixels * static_cast<double>(reference.samples));
+  if (const auto inside = camera_inside_solid(rays, find_camera(scene, reference.camera))) tool.warn(*inside);
   reference.method = both_ends ? ReferenceMethod::bidirectional : ReferenceMethod::path;
   ReferencePicture picture = [&] {
     const auto timer = tool.time("trace");

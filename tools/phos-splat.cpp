@@ -9,6 +9,7 @@
 #include "image/image_provenance.h"
 #include "image/without_errors.h"
 #include "scene/film.h"
+#include "scene/inside_solid.h"
 #include "scene/load.h"
 #include "scene/rays.h"
 #include "scene/unsampled.h"
@@ -160,6 +161,7 @@ int main(int argc, char** argv) {
       const auto timer = tool.time("build rays");
       return RayScene(scene, {render.isa});
     }();
+    if (const auto inside = camera_inside_solid(rays, find_camera(scene, render.camera))) tool.warn(*inside);
     if (render.direct == DirectBy::shadow_map && rays.has_panes())
       tool.say("light comes through panes, which shadow maps do not show: shadow rays stand in for them");
     const PictureGloss gloss = [&] {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "cache/direct_light.h"
-#include "cache/inside_solid.h"
+#include "scene/inside_solid.h"
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"

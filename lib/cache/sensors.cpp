@@ -8,7 +8,7 @@
 #include "cache/caustic_light.h"
 #include "cache/direct_reader.h"
 #include "cache/gather.h"
-#include "cache/inside_solid.h"
+#include "scene/inside_solid.h"
 #include "cache/placement.h"
 #include "cache/radiance_cache.h"
 #include "cache/two_level.h"

@@ -10,6 +10,7 @@
 #include "scene/describe.h"
 #include "scene/environment.h"
 #include "scene/finalize.h"
+#include "scene/inside_solid.h"
 #include "scene/load.h"
 #include "scene/merl.h"
 #include "scene/sky_access.h"
@@ -47,7 +48,9 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
-    check_sky();
+    const RayScene rays(scene_);
+    check_cameras(rays);
+    check_sky(rays);
     check_lamps();
     check_materials();
     check_tangents();
@@ -111,9 +114,15 @@ class Linter {
     }
   }
 
-  void check_sky() {
+  void check_cameras(const RayScene& rays) {
+    for (const Camera& camera : scene_.camera)
+      if (const std::optional<std::string> inside = camera_inside_solid(rays, camera))
+        add(Level::warning, "camera-inside", *inside, "put it where there is air");
+  }
+
+  void check_sky(const RayScene& rays) {
     if (!scene_.environment) return;
-    if (const std::optional<std::string> closed = closed_to_the_sky(RayScene(scene_)))
+    if (const std::optional<std::string> closed = closed_to_the_sky(rays))
       add(Level::warning, "no-opening", *closed,
           "a window needs a hole in the wall, or a pane of glass (transmission, or dielectric) in it");
   }

@@ -24,6 +24,7 @@ const char* level_name(Finding::Level level);
 ///     room has 10 to 10,000 lx) or above 200,000 lx (noon sun is 100,000 lx);
 ///   reflectance: above 0.95 is asked about, above 1 is wrong;
 ///   sky: no camera gets light of it;
+///   cameras: they stand inside of solids, or of glass;
 ///   normals: more than 1 % of triangles whose vertex normals point to their back.
 std::vector<Finding> lint_scene(const Scene& scene);
 

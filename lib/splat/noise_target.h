@@ -17,7 +17,7 @@ struct NoiseTarget {
 /// `noise`, a root mean square of the same kind. Emission does not count as light. Two small pictures of
 /// other random numbers tell: their differences, but for the largest fiftieth, which are of edges. Rays of
 /// independent noise are assumed: where they are stratified, the noise falls below what was asked. From 16
-/// (4, of very many lamps) to 4096 rays. Nothing where noise is not asked for.
+/// (4, of very many lamps; 64 of gloss) to 4096 rays. Nothing where noise is not asked for.
 NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, RenderOptions& render,
                         std::span<const BrdfTable> brdfs, const GlossCache* gloss);
 

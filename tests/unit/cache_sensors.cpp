@@ -4,7 +4,7 @@
 #include <set>
 
 #include "cache/direct_light.h"
-#include "cache/inside_solid.h"
+#include "scene/inside_solid.h"
 #include "cache/sensor_grid.h"
 #include "core/error.h"
 #include "core/parallel.h"

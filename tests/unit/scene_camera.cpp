@@ -5,8 +5,10 @@
 
 #include "core/random.h"
 #include "core/sampling.h"
+#include "scene/inside_solid.h"
 #include "scene/picture.h"
 #include "scene/scene.h"
+#include "support/scenes.h"
 
 using namespace phos;
 
@@ -128,4 +130,32 @@ TEST(Picture, SamplesOfAPixelDoNotGoWithThoseOfLamps) {
     }
     EXPECT_LT(std::sqrt(square / kShifts), 0.25 / std::sqrt(static_cast<double>(n))) << n;
   }
+}
+
+/// In the air of a room, in a block of stone in it, and in a block of glass.
+TEST(CameraInside, IsToldOfSolidsAndGlass) {
+  Scene scene;
+  test::begin_instance(scene, "room", test::add_lambert(scene, "grey", 0.5f));
+  test::add_room(scene, {0, 0, 0}, {4, 3, 4});
+  const auto add_block = [&](const char* name, std::uint32_t material, const Vec3& lo) {
+    test::begin_instance(scene, name, material);
+    test::add_room(scene, lo + Vec3(1, 0, 0), lo + Vec3(0, 1, 1));  // mirrored: fronts outwards
+  };
+  add_block("stone", 0, {0.5f, 0.1f, 0.5f});
+  const std::uint32_t glass = test::add_lambert(scene, "glass", 0);
+  scene.material[glass].model = Model::dielectric, scene.material[glass].ior = 1.5f;
+  add_block("glass", glass, {2.5f, 0.1f, 2.5f});
+  test::add_point_light(scene, {2, 2.5f, 2}, 100);
+  finalize(scene);
+  const RayScene rays(scene);
+  const auto told = [&](const Vec3& eye, bool perspective = true) {
+    Camera camera;
+    camera.name = "eye", camera.perspective = perspective;
+    camera.to_world[3] = Vec4(eye, 1);
+    return camera_inside_solid(rays, camera).value_or("");
+  };
+  EXPECT_EQ(told({2, 1.5f, 2}), "");
+  EXPECT_NE(told({1, 0.6f, 1}).find("\"eye\""), std::string::npos);
+  EXPECT_NE(told({3, 0.6f, 3}), "");
+  EXPECT_EQ(told({1, 0.6f, 1}, false), "");
 }

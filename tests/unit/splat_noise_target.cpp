@@ -48,7 +48,7 @@ TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
               1);
   EXPECT_LT(coarse.light_samples, fine.light_samples);
   EXPECT_GE(coarse.light_samples, 16);
-  EXPECT_EQ(fine.gloss_samples, 16);
+  EXPECT_EQ(fine.gloss_samples, 64);
 
   RenderOptions impossible;
   EXPECT_FALSE(target_of(rays, 1e-4, impossible).enough);

@@ -1,5 +1,8 @@
-// Places where no sensor can be meant.
+// Places where no sensor and no camera can be meant.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "scene/rays.h"
 
@@ -11,5 +14,7 @@ namespace phos {
 /// inside of a solid if light cannot get there either, neither from a lamp nor from outside, over 16
 /// surfaces.
 bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
+/// A line for people where a perspective camera stands in such a place.
+std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camera& camera);
 
 }  // namespace phos

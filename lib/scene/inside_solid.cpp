@@ -1,8 +1,9 @@
-#include "cache/inside_solid.h"
+#include "scene/inside_solid.h"
 
 #include <algorithm>
 #include <array>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
 #include "scene/passage.h"
@@ -76,6 +77,15 @@ bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {
   }
   if (2 * behind <= hits) return false;
   return 2 * one_sided > behind || !light_gets_to(rays, origin);
+}
+
+std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camera& camera) {
+  if (!camera.perspective) return std::nullopt;
+  SurfacePoint eye;
+  eye.position = Vec3(camera.to_world[3]);
+  if (!inside_solid(rays, eye)) return std::nullopt;
+  return text("camera \"", camera.name,
+              "\" stands inside a solid, or behind walls that show their backs: move it");
 }
 
 }  // namespace phos
