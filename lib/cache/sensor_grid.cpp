@@ -6,12 +6,12 @@
 #include <map>
 
 #include "cache/direct_light.h"
-#include "scene/inside_solid.h"
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "scene/inside_solid.h"
 
 namespace phos {
 namespace {

@@ -8,7 +8,6 @@
 #include "cache/caustic_light.h"
 #include "cache/direct_reader.h"
 #include "cache/gather.h"
-#include "scene/inside_solid.h"
 #include "cache/placement.h"
 #include "cache/radiance_cache.h"
 #include "cache/two_level.h"
@@ -16,6 +15,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "scene/inside_solid.h"
 
 namespace phos {
 namespace {

@@ -13,6 +13,9 @@ namespace {
 /// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
 constexpr double kReadBeyond = 1.2;
 
+/// Records of photons that carry more than so many times the median are not usual ones.
+constexpr double kUsual = 32;
+
 /// Of the zone that a record describes.
 double area_m2(const IrradianceRecord& r) {
   const auto radius_m = static_cast<double>(r.radius_m);
@@ -50,14 +53,35 @@ RecordOptions coarse_options(const RecordOptions& fine) {
 }
 
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy) {
-  double noise = 0, light = 0, squares = 0, errors = 0;
+  struct OfRecord {
+    double noise = 0, light = 0, error = 0;
+    double photon_lm() const { return noise / light; }
+  };
+  std::vector<OfRecord> noisy;
+  double light_of_exact = 0, squares_of_exact = 0;
   for (const IrradianceRecord& r : records) {
-    const auto error = static_cast<double>(luminance(r.stderr_lx));
-    noise += accuracy * accuracy * area_m2(r) * error * error;
-    const auto lux = static_cast<double>(luminance(r.irradiance));
-    light += lux, squares += lux * lux, errors += error * error;
+    const auto error = static_cast<double>(luminance(r.stderr_lx)),
+               lux = static_cast<double>(luminance(r.irradiance));
+    const double noise = accuracy * accuracy * area_m2(r) * error * error;
+    if (noise > 0 && lux > 0)
+      noisy.push_back({noise, lux, error});
+    else
+      light_of_exact += lux, squares_of_exact += lux * lux;
   }
-  if (!(light > 0) || !(errors > 0)) return {};
+  if (noisy.empty()) return {};
+  const auto middle = noisy.begin() + static_cast<std::ptrdiff_t>(noisy.size() / 2);
+  std::nth_element(noisy.begin(), middle, noisy.end(),
+                   [](const OfRecord& a, const OfRecord& b) { return a.photon_lm() < b.photon_lm(); });
+  const double most_lm = kUsual * middle->photon_lm();
+  // In an order that nth_element() has no say in: that of what they carry.
+  std::sort(noisy.begin(), noisy.end(), [](const OfRecord& a, const OfRecord& b) {
+    return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a.light < b.light;
+  });
+  double noise = 0, light = light_of_exact, squares = squares_of_exact, errors = 0;
+  for (const OfRecord& r : noisy) {
+    if (r.photon_lm() > most_lm) break;
+    noise += r.noise, light += r.light, squares += r.light * r.light, errors += r.error * r.error;
+  }
   return {noise / light, squares / errors};
 }
 

@@ -22,7 +22,8 @@ struct EquivalentPhotons {
       0;  ///< luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach
   double of_a_zone = 0;  ///< sum of E^2 / sum of s^2
 };
-/// Zero of records that are exact.
+/// Zero of records that are exact. Records of far noisier photons than usual do not count: with portals, they
+/// lie out of doors.
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy);
 /// Luminance of the mean irradiance over what records cover, each by its area; 0 of none.
 double mean_irradiance_lx(std::span<const IrradianceRecord> records);

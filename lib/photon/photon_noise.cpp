@@ -1,5 +1,10 @@
 #include "photon/photon_noise.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
 #include "core/parallel.h"
 
 namespace phos {
@@ -8,6 +13,33 @@ namespace {
 constexpr std::size_t kChunk = 1 << 16;
 
 constexpr std::uint8_t kMostBounces = 255;
+
+/// Photons of more than 16 to 32 times the median are not usual ones.
+constexpr int kUsualBinaryOrders = 4;
+
+/// Photons by the binary order of what they carry.
+class Orders {
+ public:
+  void add(double lm) {
+    if (lm > 0)
+      ++count_[static_cast<std::size_t>(std::clamp(std::ilogb(lm), -kLargest, kLargest) + kLargest)];
+  }
+  void join(const Orders& other) {
+    for (std::size_t i = 0; i < count_.size(); ++i) count_[i] += other.count_[i];
+  }
+  /// The largest that is usual, lm.
+  double most_lm() const {
+    std::uint64_t all = 0, below = 0;
+    for (const std::uint64_t n : count_) all += n;
+    std::size_t median = 0;
+    while (median + 1 < count_.size() && 2 * (below += count_[median]) < all) ++median;
+    return std::ldexp(1, static_cast<int>(median) - kLargest + kUsualBinaryOrders + 1);
+  }
+
+ private:
+  static constexpr int kLargest = 200;
+  std::array<std::uint64_t, 2 * kLargest + 1> count_{};
+};
 
 struct Sums {
   double photons = 0, flux = 0, squares = 0, before = 0;
@@ -18,14 +50,28 @@ struct Sums {
 
 PhotonNoise photon_noise(const PhotonMap& photons, bool with_direct) {
   const std::uint32_t first = with_direct ? 0 : 1;
+  const auto counts = [&](std::size_t i) {
+    return with_direct || photons.path[i] != static_cast<std::uint8_t>(PhotonPath::direct);
+  };
+  const double most_lm = parallel_reduce<Orders>(
+                             photons.size(), kChunk, {},
+                             [&](std::size_t begin, std::size_t end) {
+                               Orders orders;
+                               for (std::size_t i = begin; i < end; ++i)
+                                 if (counts(i)) orders.add(static_cast<double>(luminance(photons.flux[i])));
+                               return orders;
+                             },
+                             [](Orders& all, const Orders& part) { all.join(part); })
+                             .most_lm();
   const Sums all = parallel_reduce<Sums>(
       photons.size(), kChunk, {},
       [&](std::size_t begin, std::size_t end) {
         Sums s;
         for (std::size_t i = begin; i < end; ++i) {
-          if (!with_direct && photons.path[i] == static_cast<std::uint8_t>(PhotonPath::direct)) continue;
+          if (!counts(i)) continue;
           const auto flux = static_cast<double>(luminance(photons.flux[i]));
-          s.photons += 1, s.flux += flux, s.squares += flux * flux;
+          s.photons += 1;
+          if (flux <= most_lm) s.flux += flux, s.squares += flux * flux;
           s.last += photons.bounce[i] == kMostBounces - 1, s.beyond += photons.bounce[i] == kMostBounces;
           if (photons.bounce[i] > first) s.before += photons.bounce[i] - first;
         }

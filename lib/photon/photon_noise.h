@@ -8,8 +8,10 @@
 namespace phos {
 
 struct PhotonNoise {
-  double photons = 0;    ///< that count
-  double photon_lm = 0;  ///< luminance that one of them carries, weighted by itself: sum of squares / sum
+  double photons = 0;  ///< that count
+  /// Luminance that a usual one of them carries, weighted by itself: sum of squares / sum, lm. The few that
+  /// carry far more than the median are left out: with portals, they are of places out of doors.
+  double photon_lm = 0;
   /// Photons of one path are not independent: sum over paths of N (N - 1), over the square of all photons.
   double pairs = 0;
   /// Relative variance that all light over many places has in common: that of the number of photons that

@@ -8,9 +8,7 @@ namespace {
 
 constexpr std::int64_t kPilotSide = 128;  // pixels, of the longer side
 constexpr std::int64_t kPilotRays = 64;   // to one lamp; to each of many fewer
-constexpr std::int64_t kFewest = 16, kMost = 4096;
-/// What gloss and coats change is signed: dots are left where few rays tell.
-constexpr std::int64_t kFewestOfGloss = 64;
+constexpr std::int64_t kMost = 4096;
 constexpr double kKept = 0.98;  // of the differences, the smallest
 /// Light of a pixel, of the mean, below which noise shows no more.
 constexpr double kLeastLight = 0.1;
@@ -80,14 +78,14 @@ NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, Rend
   found.direct = noise_of(image, "direct", light, kLeastLight * mean);
   found.gloss = noise_of(image, "glossy", light, kLeastLight * mean);
   const double share = *render.noise / std::sqrt(2.);
-  const auto rays_for = [&](double noise, std::int64_t sent, std::int64_t fewest) {
+  const auto rays_for = [&](double noise, std::int64_t sent) {
     const double wanted = std::ceil(static_cast<double>(sent) * (noise / share) * (noise / share));
     found.enough = found.enough && wanted <= static_cast<double>(kMost);
     return static_cast<std::int64_t>(
-        std::clamp(wanted, static_cast<double>(fewest), static_cast<double>(kMost)));
+        std::clamp(wanted, static_cast<double>(sent), static_cast<double>(kMost)));
   };
-  render.light_samples = rays_for(found.direct, pilot.light_samples, std::min(kFewest, pilot.light_samples));
-  render.gloss_samples = rays_for(found.gloss, pilot.gloss_samples, kFewestOfGloss);
+  render.light_samples = rays_for(found.direct, pilot.light_samples);
+  render.gloss_samples = rays_for(found.gloss, pilot.gloss_samples);
   return found;
 }
 

@@ -130,12 +130,12 @@ void declare_options(Options& options, RenderOptions& r) {
                   "at least); or "
                   "shadow maps per area light (or environment)",
                   {1, 65536});
-  options.number(
-      "noise", r.noise, "FRACTION",
-      "chooses --light-samples and --gloss-samples: as many as it takes for a root mean square "
-      "noise of direct light and gloss of this part of the pixel's light, or of a tenth of the "
-      "picture's mean where that is more (0.02: 2 %), as two small pictures tell; 16 (of gloss 64) to 4096",
-      {1e-4, 1}, Recorded::if_given);
+  options.number("noise", r.noise, "FRACTION",
+                 "chooses --light-samples and --gloss-samples: as many as it takes for a root mean square "
+                 "noise of direct light and gloss of this part of the pixel's light, or of a tenth of the "
+                 "picture's mean where that is more (0.02: 2 %), as two small pictures tell; 64 (fewer to "
+                 "each of many lamps) to 4096",
+                 {1e-4, 1}, Recorded::if_given);
   options.choice<EnvironmentBy>(
       "environment-mode", r.environment,
       {{"traced", EnvironmentBy::traced}, {"hsh", EnvironmentBy::hsh}, {"sh", EnvironmentBy::sh}},

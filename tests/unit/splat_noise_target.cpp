@@ -47,7 +47,7 @@ TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
   EXPECT_NEAR(static_cast<double>(fine.light_samples), 64 * found.direct * found.direct / (0.02 * 0.02 / 2),
               1);
   EXPECT_LT(coarse.light_samples, fine.light_samples);
-  EXPECT_GE(coarse.light_samples, 16);
+  EXPECT_EQ(coarse.light_samples, 64);
   EXPECT_EQ(fine.gloss_samples, 64);
 
   RenderOptions impossible;
