@@ -52,24 +52,6 @@ void require_finite(const Image& image) {
                   "channel " + *channels[c].first + " has a non-finite value; please report this scene");
 }
 
-void require_one_choice(const Options& options, const RenderOptions& render) {
-  if (!render.noise) return;
-  for (const char* name : {"light-samples", "gloss-samples"})
-    if (options.given(name))
-      throw Error(ExitCode::usage, "--noise", text("chooses the number of rays; leave out --", name));
-  if (render.direct == DirectBy::shadow_map)
-    throw Error(ExitCode::usage, "--noise", "is of shadow rays; give --direct traced or interleaved");
-}
-
-void tell_of_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target) {
-  if (!render.noise) return;
-  tool.stat("pilot noise, direct", target.direct);
-  tool.stat("pilot noise, gloss", target.gloss);
-  tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
-                " rays of gloss are sent"));
-  if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -169,7 +151,7 @@ int main(int argc, char** argv) {
       return gloss_of_picture(rays, caches, render, allow_mismatch, tool.counters());
     }();
     if (gloss.projected) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
-    tell_of_noise(
+    report_noise(
         tool, render,
         choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));
     Rendering rendering =

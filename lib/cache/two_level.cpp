@@ -73,7 +73,7 @@ EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, 
   std::nth_element(noisy.begin(), middle, noisy.end(),
                    [](const OfRecord& a, const OfRecord& b) { return a.photon_lm() < b.photon_lm(); });
   const double most_lm = kUsual * middle->photon_lm();
-  // In an order that nth_element() has no say in: that of what they carry.
+  // Sums run in one order everywhere: nth_element() leaves another in each library.
   std::sort(noisy.begin(), noisy.end(), [](const OfRecord& a, const OfRecord& b) {
     return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a.light < b.light;
   });

@@ -48,9 +48,11 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
-    const RayScene rays(scene_);
-    check_cameras(rays);
-    check_sky(rays);
+    if (!scene_.camera.empty()) {
+      const RayScene rays(scene_);
+      check_cameras(rays);
+      check_sky(rays);
+    }
     check_lamps();
     check_materials();
     check_tangents();

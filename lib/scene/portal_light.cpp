@@ -11,7 +11,7 @@ namespace {
 constexpr float kStray = 0.1f, kStrayOfSpots = 0.5f;
 /// A piece is not taken for darker than this part of what the environment is on the mean: its middle may be.
 constexpr float kLeastLuminance = 0.05f;
-/// Chance of portals behind blinds, of that of the gaps: of light that does not come by these.
+/// A portal behind a blind is chosen so often for each time that a gap is: light may come beside the gaps.
 constexpr float kBesideGaps = 0.1f;
 
 }  // namespace
@@ -52,7 +52,7 @@ float PortalLight::share_behind_blinds(const PortalPiece& piece, const Vec3& fro
   return static_cast<float>(behind) / static_cast<float>(std::size(kPlaces));
 }
 
-/// What promise pieces have by light through blinds is theirs no more, but for a part of what the gaps have.
+/// Portals behind blinds lose their promise to the gaps, but for a tenth of what the gaps promise.
 void PortalLight::prefer_gaps(const Vec3& from, std::vector<float>& promise) const {
   float gaps = 0, behind = 0;
   for (std::size_t k = piece_.size(); k < promise.size(); ++k) gaps += promise[k];

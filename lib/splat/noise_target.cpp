@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace phos {
 namespace {
 
@@ -87,6 +89,15 @@ NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, Rend
   render.light_samples = rays_for(found.direct, pilot.light_samples);
   render.gloss_samples = rays_for(found.gloss, pilot.gloss_samples);
   return found;
+}
+
+void require_one_choice(const Options& given, const RenderOptions& render) {
+  if (!render.noise) return;
+  for (const char* name : {"light-samples", "gloss-samples"})
+    if (given.given(name))
+      throw Error(ExitCode::usage, "--noise", text("chooses the number of rays; leave out --", name));
+  if (render.direct == DirectBy::shadow_map)
+    throw Error(ExitCode::usage, "--noise", "is of shadow rays; give --direct traced or interleaved");
 }
 
 }  // namespace phos

@@ -22,4 +22,7 @@ struct NoiseTarget {
 NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, RenderOptions& render,
                         std::span<const BrdfTable> brdfs, const GlossCache* gloss);
 
+/// Throws Error(usage) where `noise` comes with a number of rays, or with shadow maps.
+void require_one_choice(const Options& given, const RenderOptions& render);
+
 }  // namespace phos

@@ -71,4 +71,13 @@ void report_picture(Tool& tool, const RenderOptions& render, const Rendering& re
   tell_of_records(tool, render, rendering);
 }
 
+void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target) {
+  if (!render.noise) return;
+  tool.stat("pilot noise, direct", target.direct);
+  tool.stat("pilot noise, gloss", target.gloss);
+  tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
+                " rays of gloss are sent"));
+  if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
+}
+
 }  // namespace phos

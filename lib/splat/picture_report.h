@@ -2,6 +2,7 @@
 #pragma once
 
 #include "file/tool.h"
+#include "splat/noise_target.h"
 #include "splat/picture_gloss.h"
 #include "splat/render.h"
 
@@ -11,5 +12,8 @@ namespace phos {
 /// of --misses and --gloss-misses, "" where not given) do not hold it; and what an overlay shows.
 void report_picture(Tool& tool, const RenderOptions& render, const Rendering& rendering,
                     const PictureGloss& gloss, const std::string& misses, const std::string& gloss_misses);
+
+/// How many rays an asked noise takes, and whether that is too many; nothing where none was asked.
+void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target);
 
 }  // namespace phos

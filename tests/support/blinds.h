@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "support/scenes.h"
+#include "support/daylight.h"
 
 namespace phos::test {
 
@@ -51,10 +51,7 @@ struct BlindRoom {
     add_quad(scene, {0, 0, 0}, {0, 2.7f, 0}, {0, 0, 5});
     add_quad(scene, {4, 0, 0}, {0, 0, 5}, {0, 2.7f, 0});
     add_quad(scene, {0, 0, 5}, {0, 2.7f, 0}, {4, 0, 0});
-    add_quad(scene, {0, 0, 0}, {4, 0, 0}, {0, 0.9f, 0});
-    add_quad(scene, {0, 2.4f, 0}, {4, 0, 0}, {0, 0.3f, 0});
-    add_quad(scene, {0, 0.9f, 0}, {1, 0, 0}, {0, 1.5f, 0});
-    add_quad(scene, {3, 0.9f, 0}, {1, 0, 0}, {0, 1.5f, 0});
+    add_wall_with_hole(scene, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2.7f, 0.9f, 2.4f}, {4, 1, 3});
     if (!window) add_quad(scene, {1, 0.9f, 0}, {2, 0, 0}, {0, 1.5f, 0});
     begin_instance(scene, "blind", black);
     for (int k = 0; k < slats; ++k) {

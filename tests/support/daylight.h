@@ -34,6 +34,16 @@ inline Scene under_an_edge(float height_m, float half_side_m) {
   return scene;
 }
 
+/// A wall from `corner` along unit `a` and `b`, of sides a_m and b_m, with a hole from a_m.y to a_m.z and
+/// from b_m.y to b_m.z: x of both is the side.
+inline void add_wall_with_hole(Scene& scene, const Vec3& corner, const Vec3& a, const Vec3& b,
+                               const Vec3& a_m, const Vec3& b_m) {
+  add_quad(scene, corner, a_m.y * a, b_m.x * b);
+  add_quad(scene, corner + a_m.z * a, (a_m.x - a_m.z) * a, b_m.x * b);
+  add_quad(scene, corner + a_m.y * a, (a_m.z - a_m.y) * a, b_m.y * b);
+  add_quad(scene, corner + a_m.y * a + b_m.z * b, (a_m.z - a_m.y) * a, (b_m.x - b_m.z) * b);
+}
+
 /// A room of 5 x 3 x 4 m (x, y, z), with a hole in the wall at z = 4: x from 2 to 3, y from 1 to 2; perhaps
 /// with a pane in it that changes nothing.
 inline Scene room_with_window(float albedo, bool pane = false, bool hole = true) {
@@ -46,10 +56,7 @@ inline Scene room_with_window(float albedo, bool pane = false, bool hole = true)
   add_quad(scene, {0, 0, 0}, {5, 0, 0}, {0, 3, 0});
   add_quad(scene, {0, 0, 0}, {0, 3, 0}, {0, 0, 4});
   add_quad(scene, {5, 0, 0}, {0, 0, 4}, {0, 3, 0});
-  add_quad(scene, {0, 0, 4}, {0, 1, 0}, {5, 0, 0});
-  add_quad(scene, {0, 2, 4}, {0, 1, 0}, {5, 0, 0});
-  add_quad(scene, {0, 1, 4}, {0, 1, 0}, {2, 0, 0});
-  add_quad(scene, {3, 1, 4}, {0, 1, 0}, {2, 0, 0});
+  add_wall_with_hole(scene, {0, 0, 4}, {0, 1, 0}, {1, 0, 0}, {3, 1, 2}, {5, 2, 3});
   if (!hole) add_quad(scene, {2, 1, 4}, {0, 1, 0}, {1, 0, 0});
   if (pane) {
     const std::uint32_t glass = add_lambert(scene, "glass", 1);

@@ -1,4 +1,4 @@
-// Blinds: which are found, and what of the sky a place sees between their slats.
+// Blinds: which ones are found, and which part of the sky a place sees between their slats.
 #include <gtest/gtest.h>
 
 #include "core/random.h"

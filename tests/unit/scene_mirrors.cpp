@@ -142,8 +142,7 @@ TEST(ImageBounds, LeaveOutNoImageThatIsSeen) {
       EXPECT_NEAR(light.value.x, last.reflectance * 1000 / (d * d), 1e-3f * light.value.x);
     }
   }
-  // At each of the three places between them: chains of 1 to 37 reflections, the first of which is off either
-  // mirror.
+  // At each of the three places between the mirrors: chains of 1 to 37 reflections, either mirror first.
   EXPECT_EQ(seen, 3 * 2 * 37u);
   EXPECT_GT(left_out, 0u) << "from behind a mirror";
 }

@@ -8,7 +8,7 @@
 namespace phos::test {
 namespace {
 
-/// A square lamp over a floor, half of it behind a screen: partly seen everywhere.
+/// A square lamp over a floor. A screen hides a part of the lamp from each place.
 Scene half_hidden() {
   Scene scene;
   begin_instance(scene, "floor", add_lambert(scene, "grey", 0.5f));
