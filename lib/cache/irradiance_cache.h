@@ -129,6 +129,10 @@ inline constexpr float kFrontTolerance = 0.01f;
 inline float over_limit_m(float distance_m, float radius_m) {
   return std::max(distance_m, kFrontTolerance * radius_m);
 }
+/// How far p lies off a record's plane, on either side, in units of its radius.
+inline float height_over(const IrradianceRecord& r, const Vec3& p) {
+  return std::fabs(glm::dot(p - r.position, r.normal)) / r.radius_m;
+}
 /// An extrapolated irradiance is at most this many times the record's.
 inline constexpr float kGrowthLimit = 2;
 
@@ -239,8 +243,9 @@ class RecordTree {
   /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
-  /// Adds the records valid at p, n; finish() is the caller's.
-  void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;
+  /// Adds the records valid at p, n that are no farther from it across their planes than `most_height`
+  /// (height_over()); finish() is the caller's.
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
   /// A tree of the same records. Each reaches `factor` times as far, in every direction (all_around) or along
   /// its tangent plane only (along_plane): then a place may be no farther off that plane than in this tree.
   enum class Widen { all_around, along_plane };

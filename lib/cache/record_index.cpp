@@ -120,9 +120,9 @@ bool RecordLookup::covered(const Vec3& p, const Vec3& n) const {
   return found;
 }
 
-void RecordLookup::add(const Vec3& p, const Vec3& n, Interpolated& sum) const {
+void RecordLookup::add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
   visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
-    sum.add(r, w, p, n);
+    if (height_over(r, p) <= most_height) sum.add(r, w, p, n);
     return true;
   });
 }

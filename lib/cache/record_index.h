@@ -56,7 +56,8 @@ class RecordLookup {
   bool stored() const { return made_.children.empty(); }
   bool covered(const Vec3& p, const Vec3& n) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
-  void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;  ///< as RecordTree's
+  /// As RecordTree's.
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
 
  private:
   template <class Visit>

@@ -220,9 +220,9 @@ RecordIndex RecordTree::index() const {
   return index;
 }
 
-void RecordTree::add(const Vec3& p, const Vec3& n, Interpolated& sum) const {
+void RecordTree::add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
   impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
-    sum.add(r, w, p, n);
+    if (height_over(r, p) <= most_height) sum.add(r, w, p, n);
     return true;
   });
 }

@@ -161,6 +161,10 @@ void add_caustics(const Sensors& sensors, const RayScene& rays,
   });
 }
 
+/// How high over a record a sensor may be that it serves, of its radius. Gradients of surface records tell of
+/// light along the surface: what a sensor in the air over a desk or the edge of a screen sees is not theirs.
+float most_height(double accuracy) { return static_cast<float>(0.2 * accuracy); }
+
 }  // namespace
 
 void declare_options(Options& options, SensorOptions& s) {
@@ -213,8 +217,8 @@ void SensorCaches::require_light(bool direct, const std::shared_ptr<const Causti
 
 Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
   Interpolated sum;
-  for (const RecordLookup& lookup : lookups_) lookup.add(p, n, sum);
-  for (const InMemory& cache : trees_) cache.tree.add(p, n, sum);
+  for (const RecordLookup& lookup : lookups_) lookup.add(p, n, sum, most_height(lookup.accuracy()));
+  for (const InMemory& cache : trees_) cache.tree.add(p, n, sum, most_height(cache.accuracy));
   sum.finish();
   return sum;
 }

@@ -83,6 +83,7 @@ class SensorCaches {
   bool holds_direct() const { return holds_direct_; }
   /// Caustic photons of the first, where records hold no caustic light; null: they hold it, or there is none.
   const std::shared_ptr<const CausticPhotons>& caustics() const { return caustics_; }
+  /// Of the records valid there, but for those whose surface lies clearly below or above the point.
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// That at which tree() is read; there must be a cache.
   double accuracy() const;

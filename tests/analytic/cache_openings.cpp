@@ -144,6 +144,21 @@ TEST(Openings, AreReadToTheErrorAskedFor) {
   EXPECT_NEAR(mean / n, 1, 0.003);
 }
 
+/// Portals of a house with eaves stand in its window, and not at the edge of the eaves (22 m2 about 1 m2 of
+/// window), though places on the soffit see so little of the sky that they count as within.
+TEST(Openings, OfAHouseWithEavesLieInItsWall) {
+  Scene scene = room_with_window(0.5f);
+  begin_instance(scene, "eaves", 0);
+  add_quad(scene, {0, 3, 4}, {5, 0, 0}, {0, 0, 1.2f});
+  begin_instance(scene, "ground", 0);
+  add_quad(scene, {-20, -0.01f, -20}, {0, 0, 40}, {40, 0, 0});
+  surround(scene, sky_of("clear", "180,45", kOpen_lx, 0.2));
+  scene.portal = find_portals(RayScene(scene), "auto");
+  EXPECT_GE(area_m2(scene.portal), 1);
+  EXPECT_LE(area_m2(scene.portal), 4);
+  for (const Portal& p : scene.portal) EXPECT_LE(p.corner.z, 4.01f);
+}
+
 /// A slot, an opening in a corner, one of a hand's size: found whole, and with little about them, also on a
 /// ground beside which the room is small.
 TEST(Openings, OfAnyShapeAreFoundWhole) {

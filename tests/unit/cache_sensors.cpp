@@ -4,10 +4,10 @@
 #include <set>
 
 #include "cache/direct_light.h"
-#include "scene/inside_solid.h"
 #include "cache/sensor_grid.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "scene/inside_solid.h"
 #include "support/scenes.h"
 
 namespace phos::test {
@@ -220,6 +220,20 @@ TEST(Sensors, TableAndSummary) {
 
   EXPECT_EQ(summarise({}).dump(), "{\"number\":0}");
   EXPECT_EQ(summarise(std::vector<Reading>(3)).find("U0"), nullptr);
+}
+
+/// A record of a surface says nothing of the air over it.
+TEST(SensorCaches, SurfacesServeNoSensorsInTheAir) {
+  IrradianceCache cache;
+  cache.accuracy = 0.2;
+  IrradianceRecord record;
+  record.normal = {0, 1, 0}, record.irradiance = Rgb(100), record.radius_m = record.distance_m = 1;
+  cache.records.push_back(record);
+  SensorCaches caches({}, nullptr);
+  caches.add(cache, "memory");
+  const auto light = [&](const Vec3& p) { return caches.interpolate(p, {0, 1, 0}); };
+  EXPECT_EQ(light({0.3f, 0.05f, 0}).irradiance, Rgb(100));
+  for (const float height : {-0.2f, 0.2f, 0.4f}) EXPECT_EQ(light({0, height, 0}).weight, 0) << height;
 }
 
 }  // namespace
