@@ -7,7 +7,7 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
-#include "scene/join_bands.h"
+#include "scene/spectral/join_bands.h"
 
 using namespace phos;
 

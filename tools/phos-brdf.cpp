@@ -1,11 +1,11 @@
 // Projects the glossy materials of a scene on hemispherical harmonics.
-#include "cache/brdf_bases.h"
-#include "cache/brdf_report.h"
-#include "cache/brdf_table.h"
 #include "file/atomic_file.h"
 #include "file/tool.h"
-#include "scene/describe.h"
+#include "radiance/brdf/bases.h"
+#include "radiance/brdf/report.h"
+#include "radiance/brdf/table.h"
 #include "scene/load.h"
+#include "scene/report/describe.h"
 
 using namespace phos;
 

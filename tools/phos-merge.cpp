@@ -1,10 +1,10 @@
 // Joins the shards of one run to the file of the whole run.
 #include <optional>
 
-#include "cache/irradiance_parts.h"
 #include "file/tool.h"
 #include "photon/photon_file.h"
 #include "photon/photon_map.h"
+#include "place/parts.h"
 
 using namespace phos;
 

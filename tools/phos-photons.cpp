@@ -7,7 +7,7 @@
 #include "photon/trace.h"
 #include "scene/load.h"
 #include "scene/rays.h"
-#include "scene/sky_access.h"
+#include "scene/sky/access.h"
 
 namespace {
 

@@ -4,10 +4,10 @@
 #include "file/atomic_file.h"
 #include "file/frames.h"
 #include "file/tool.h"
-#include "image/csv_plot.h"
+#include "image/plot/csv_plot.h"
 #include "image/show.h"
 #include "image/video.h"
-#include "scene/goniometric.h"
+#include "scene/luminaire/goniometric.h"
 
 namespace phos {
 namespace {

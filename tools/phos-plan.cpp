@@ -1,18 +1,18 @@
 // phos-plan: scene + error or seconds -> the pipeline that gives it, as a script; or carried out.
 #include <cstdio>
 
-#include "cache/gloss_report.h"
-#include "cache/typical_distance.h"
 #include "core/parallel.h"
 #include "file/tool.h"
 #include "file/write_text.h"
+#include "place/typical_distance.h"
+#include "plan/direct.h"
+#include "plan/options.h"
+#include "plan/run.h"
+#include "plan/text.h"
+#include "plan/usual.h"
+#include "radiance/gloss_report.h"
 #include "scene/load.h"
 #include "scene/picture.h"
-#include "study/plan_direct.h"
-#include "study/plan_options.h"
-#include "study/plan_run.h"
-#include "study/plan_text.h"
-#include "study/plan_usual.h"
 
 int main(int argc, char** argv) {
   using namespace phos;

@@ -1,13 +1,13 @@
 // Places radiance records on glossy surfaces and estimates them.
 #include <sstream>
 
-#include "cache/gloss_report.h"
-#include "cache/points_on_surfaces.h"
-#include "cache/radiance_placement.h"
-#include "cache/radiance_report.h"
-#include "cache/record_ways.h"
-#include "cache/typical_distance.h"
+#include "estimate/record_ways.h"
 #include "file/tool.h"
+#include "place/points_on_surfaces.h"
+#include "place/radiance_placement.h"
+#include "place/radiance_report.h"
+#include "place/typical_distance.h"
+#include "radiance/gloss_report.h"
 #include "scene/load.h"
 #include "splat/make_estimator.h"
 

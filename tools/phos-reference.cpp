@@ -9,9 +9,9 @@
 #include "image/without_errors.h"
 #include "reference/measure_points.h"
 #include "reference/render.h"
-#include "scene/film.h"
 #include "scene/inside_solid.h"
 #include "scene/load.h"
+#include "scene/motion/film.h"
 
 namespace {
 

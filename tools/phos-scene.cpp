@@ -1,11 +1,11 @@
 #include <cstdio>
 
-#include "cache/gloss_report.h"
 #include "file/tool.h"
-#include "scene/describe.h"
-#include "scene/lint.h"
+#include "radiance/gloss_report.h"
 #include "scene/load.h"
-#include "scene/photometric_file.h"
+#include "scene/luminaire/photometric_file.h"
+#include "scene/report/describe.h"
+#include "scene/report/lint.h"
 
 using namespace phos;
 

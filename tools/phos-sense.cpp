@@ -2,18 +2,18 @@
 #include <cstdio>
 #include <limits>
 
-#include "cache/daylight_factor.h"
-#include "cache/direct_reader.h"
-#include "cache/sensor_grid.h"
-#include "cache/sensors.h"
+#include "direct/direct_reader.h"
 #include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "file/tool.h"
 #include "reference/measure_points.h"
-#include "scene/daylight.h"
-#include "scene/film.h"
 #include "scene/load.h"
-#include "temporal/film_inputs.h"
+#include "scene/motion/film.h"
+#include "scene/sky/daylight.h"
+#include "sense/daylight_factor.h"
+#include "sense/grid.h"
+#include "sense/sensors.h"
+#include "temporal/film/inputs.h"
 
 using namespace phos;
 

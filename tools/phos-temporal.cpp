@@ -1,11 +1,11 @@
 // phos-temporal: an animated scene -> records that live through its frames.
-#include "cache/gloss_report.h"
-#include "cache/typical_distance.h"
 #include "file/tool.h"
+#include "place/typical_distance.h"
+#include "radiance/gloss_report.h"
 #include "scene/load.h"
 #include "splat/irradiance_inputs.h"
-#include "temporal/film_inputs.h"
-#include "temporal/film_report.h"
+#include "temporal/film/inputs.h"
+#include "temporal/film/report.h"
 #include "temporal/make_film.h"
 
 using namespace phos;

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/comma_list.h"
 #include "core/error.h"
-#include "core/likeness.h"
-#include "core/named_files.h"
+#include "core/text/comma_list.h"
+#include "core/text/likeness.h"
+#include "core/text/named_files.h"
 
 namespace phos {
 

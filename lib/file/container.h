@@ -1,4 +1,4 @@
-// The one container of every cache: safetensors layout, with phos metadata (DESIGN "Files").
+// The one container of every cache: safetensors layout, with phos metadata.
 #pragma once
 
 #include <array>
@@ -66,7 +66,7 @@ struct Tensor {
   std::uint64_t elements() const;
 };
 
-/// What a file says about how it was made (the __metadata__ of DESIGN). Nothing volatile.
+/// What a file says about how it was made (its __metadata__). Nothing volatile.
 struct Provenance {
   std::string kind;   ///< "photons", "irradiance", ...
   int version = 1;    ///< of the kind's layout

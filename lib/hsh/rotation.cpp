@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "hsh/turn.h"
-#include "hsh/turn_kernel.h"
+#include "hsh/turn/kernel.h"
+#include "hsh/turn/turn.h"
 
 namespace phos {
 namespace {

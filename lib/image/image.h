@@ -14,8 +14,8 @@
 
 namespace phos {
 
-/// Planar float channels of one size, row 0 at the top. Names follow DESIGN ("R", "indirect.R", "normal.X",
-/// "Z"). Light is photometric RGB (cd/m2, or lx for illuminance.Y), linear Rec.709.
+/// Planar float channels of one size, row 0 at the top. Names are "R", "indirect.R", "normal.X", "Z" and so
+/// on. Light is photometric RGB (cd/m2, or lx for illuminance.Y), linear Rec.709.
 class Image {
  public:
   Image() = default;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/sampling.h"
-#include "scene/passage.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/passage.h"
+#include "scene/material/sharp_materials.h"
 
 namespace phos {
 namespace {

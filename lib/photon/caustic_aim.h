@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 #include "photon/emission.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
 namespace phos {

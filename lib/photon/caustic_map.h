@@ -10,8 +10,8 @@
 
 #include "core/vector.h"
 #include "file/container.h"
-#include "photon/kd_tree.h"
 #include "photon/photon_map.h"
+#include "photon/tree/kd_tree.h"
 
 namespace phos {
 
@@ -70,7 +70,7 @@ class CausticMap {
   void landed(const Vec3& p, const Vec3& n, std::size_t k, float above_m, float below_m, float& radius_m,
               Worker& worker, std::vector<CausticHit>& hits) const;
   /// Stretches that cross the disc of `radius_m` about p from its front, the side n faces, nearest first
-  /// (FORMULAS-glass G7.1: each counts whole, without a cosine). Of more than `most` the nearest, and
+  /// (docs/methods.md#g7-1: each counts whole, without a cosine). Of more than `most` the nearest, and
   /// `radius_m` becomes the distance of the next. Passes over all photons.
   void crossing(const Vec3& p, const Vec3& n, std::size_t most, float& radius_m,
                 std::vector<CausticHit>& hits) const;

@@ -10,7 +10,7 @@ namespace phos {
 namespace {
 
 constexpr double kLeastHull = 1e-9;      // of R^2: below it the hull is degenerate
-constexpr double kLeastCoverage = 0.25;  // of the hull by surface (C2)
+constexpr double kLeastCoverage = 0.25;  // of the hull by surface (docs/methods.md#c2)
 constexpr int kNarrow = 8;               // a surface that fills less than 1/8 of its zone
 constexpr int kSectors = 8;
 constexpr int kCells = 2 * kSectors;  // two rings of equal area
@@ -158,8 +158,8 @@ double strip_fraction(const Edge& edge, double least, float radius_m, const OnSu
   return strip * on / all;
 }
 
-/// C3: variance over mean of the counts, where the zone is lit and surface, far above Poisson and large in
-/// itself.
+/// docs/methods.md#c3: variance over mean of the counts, where the zone is lit and surface, far above Poisson
+/// and large in itself.
 bool is_clustered(const Cells& counts, const Cells& share) {
   double n = 0, sum = 0, squares = 0;
   for (std::size_t i = 0; i < kCells; ++i) {

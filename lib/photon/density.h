@@ -15,17 +15,18 @@ namespace phos {
 /// everywhere.
 using OnSurface = std::function<bool(const Vec2& offset_m)>;
 
-/// FORMULAS C2: which estimator the photons of a zone called for.
+/// Which estimator (docs/methods.md#c2) the photons of a zone called for.
 enum class ZoneKind : std::uint8_t {
   few,     ///< too few photons, or all on a line: sum of flux over the surface in the zone
   full,    ///< lit everywhere: the same (it has the smallest variance)
-  hull,    ///< a border, a shadow edge or a hole: photons strictly inside the hull, over the hull's area (C1)
+  hull,    ///< a border, a shadow edge or a hole: photons strictly inside the hull, over the hull's area
+           ///< (docs/methods.md#c1)
   dark,    ///< the centre lies in the dark beside a lit region: zero
   kernel,  ///< kernel_irradiance
 };
 
-/// Weight of a photon by its distance r from the middle of a disc of radius R (FORMULAS C4). Each integrates
-/// to one over the disc.
+/// Weight of a photon by its distance r from the middle of a disc of radius R (docs/methods.md#c4). Each
+/// integrates to one over the disc.
 enum class Kernel {
   disc,          ///< 1/(pi R2): all alike
   epanechnikov,  ///< 2/(pi R2) (1 - r2/R2)
@@ -49,7 +50,7 @@ struct ZoneEstimate {
   Vec2 centroid_m{0};     ///< of that area, from the zone's centre: where `irradiance` holds to first order
   float edge_m = kInfinity;  ///< distance to the nearest edge of the lit region if surface goes on beyond it
   bool degenerate = false;   ///< enough photons, but no hull
-  bool clustered = false;    ///< far from uniform where it is lit: a smaller zone is called for (C3)
+  bool clustered = false;    ///< far from uniform: a smaller zone is called for (docs/methods.md#c3)
   bool probed = false;
   bool centred = true;   ///< the centre is within the area: no border of the lit region leaves it out
   bool partial = false;  ///< part of the disc, or of the hull, is not surface
@@ -72,8 +73,8 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
 /// The classical estimate: flux under a kernel, over the whole disc of `radius_m` as if all of it were lit
 /// surface. That is wrong at borders and shadow edges (at a straight border half of the light is lost); it
 /// is here for comparison. Where `radius_m` is the distance of the k-th photon, that photon must not be
-/// among them: the k - 1 nearer ones give the (k - 1)/(pi r_k^2) that has no bias (C4). Error of Poisson
-/// photons.
+/// among them: the k - 1 nearer ones give the (k - 1)/(pi r_k^2) that has no bias (docs/methods.md#c4). Error
+/// of Poisson photons.
 ZoneEstimate kernel_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
                                Kernel kernel, DensityScratch& scratch);
 
@@ -84,8 +85,8 @@ double kernel_weight(Kernel kernel, double r);
 /// Fraction of a disc that lies beyond a chord at signed distance h (in radii) from the centre.
 double cap_fraction(double h);
 
-/// Mean distance to the surroundings from photons, m (FORMULAS C6): harmonic, weighted by solid angle over
-/// the cells of a 4 x 13 grid (by flux below 50 photons), and never more than the flux-weighted one.
+/// Mean distance to the surroundings from photons, m (docs/methods.md#c6): harmonic, weighted by solid angle
+/// over the cells of a 4 x 13 grid (by flux below 50 photons), and never more than the flux-weighted one.
 /// `directions` are local (z = normal), `weights` any measure of flux. Infinity if there is none, or if all
 /// come from infinitely far.
 float mean_distance_m(std::span<const Vec3> directions, std::span<const float> weights,

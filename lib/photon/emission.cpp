@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/sampling.h"
-#include "scene/environment.h"
 #include "scene/load.h"
+#include "scene/sky/environment.h"
 
 namespace phos {
 namespace {

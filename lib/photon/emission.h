@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 #include "photon/portals.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
 namespace phos {

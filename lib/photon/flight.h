@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "photon/photon_map.h"
-#include "scene/mirror_planes.h"
+#include "scene/mirror/planes.h"
 #include "scene/rays.h"
 
 namespace phos {

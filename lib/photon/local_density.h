@@ -31,7 +31,7 @@ struct LocalDensity {
   Rgb stderr_lx() const { return glm::sqrt(noise_lx * noise_lx + bias_lx * bias_lx); }
 };
 
-/// Sum of flux over the area of a disc whose radius follows the light (FORMULAS-glass G7.2). Among nested
+/// Sum of flux over the area of a disc whose radius follows the light (docs/methods.md#g7-2). Among nested
 /// discs, each of half the area of the one before, it is the second largest one at most, and the largest one
 /// that agrees with all smaller ones within their noise (intersection of confidence intervals, Goldenshluger
 /// and Nemirovski 1997, Katkovnik 1999): an edge, a fold or a focus that the disc meets makes it smaller.

@@ -3,7 +3,7 @@
 #include <tuple>
 #include <vector>
 
-#include "scene/ask_texels.h"
+#include "scene/texture/ask_texels.h"
 
 namespace phos {
 namespace {

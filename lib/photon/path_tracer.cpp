@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/mirror_images.h"
-#include "scene/passage.h"
+#include "scene/material/passage.h"
+#include "scene/mirror/images.h"
 
 namespace phos {
 namespace {

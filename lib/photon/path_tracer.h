@@ -11,7 +11,7 @@
 #include "photon/emission.h"
 #include "photon/flight.h"
 #include "photon/portal_split.h"
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "scene/rays.h"
 
 namespace phos {

@@ -7,9 +7,9 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
-#include "photon/kd_tree.h"
 #include "photon/photon_file.h"
-#include "photon/space_order.h"
+#include "photon/tree/kd_tree.h"
+#include "photon/tree/space_order.h"
 
 namespace phos {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "scene/bsdf.h"
-#include "scene/portal_piece.h"
+#include "scene/material/bsdf.h"
+#include "scene/opening/portal_piece.h"
 
 namespace phos {
 

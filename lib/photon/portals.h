@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/vector.h"
-#include "scene/environment.h"
-#include "scene/portal.h"
+#include "scene/opening/portal.h"
+#include "scene/sky/environment.h"
 
 namespace phos {
 

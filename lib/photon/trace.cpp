@@ -13,7 +13,7 @@
 #include "photon/path_batch.h"
 #include "photon/path_tracer.h"
 #include "photon/photon_file.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/sharp_materials.h"
 
 namespace phos {
 namespace {

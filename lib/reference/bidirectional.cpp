@@ -6,8 +6,8 @@
 
 #include "core/sampling.h"
 #include "reference/roulette.h"
-#include "scene/passage.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/passage.h"
+#include "scene/material/sharp_materials.h"
 
 namespace phos {
 namespace {

@@ -9,7 +9,7 @@
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/sensor_disc.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/sharp_materials.h"
 
 namespace phos {
 namespace {

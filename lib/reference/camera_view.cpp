@@ -37,7 +37,7 @@ EyeStart CameraView::start(const Vec3& direction) const {
   return start;
 }
 
-bool CameraView::see(const Vec3& point, Sight& sight) const {
+bool CameraView::see(const Vec3& point, PixelSight& sight) const {
   const DVec3 way = DVec3(point) - DVec3(origin_);
   const double depth = glm::dot(way, DVec3(forward_));
   if (!(depth > 0)) return false;

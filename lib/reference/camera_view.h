@@ -4,12 +4,12 @@
 #include <cstddef>
 
 #include "reference/bidirectional.h"
-#include "scene/camera_rays.h"
+#include "scene/camera.h"
 
 namespace phos {
 
 /// Which way a point is seen.
-struct Sight {
+struct PixelSight {
   std::size_t pixel = 0;
   Vec3 towards{0};  ///< the eye, unit
   float distance_m = 0;
@@ -26,7 +26,7 @@ class CameraView {
   /// Of the pixel's rays (uniform over it), along this one.
   EyeStart start(const Vec3& direction) const;
   /// False where no pixel sees the point, with nothing in the way.
-  bool see(const Vec3& point, Sight& sight) const;
+  bool see(const Vec3& point, PixelSight& sight) const;
 
  private:
   CameraRays rays_;

@@ -44,7 +44,7 @@ class CentralMoments {
 /// Kurtosis over the number of samples, m4 / m2^2 / N: 1/k where k equal hits make all of the light. Above
 /// this, mean +- 2 standard errors does not hold the truth in 95 of 100 runs. It tells 94 to 100 of 100 runs
 /// with up to 10 hits or with Pareto tails of index 1.5 or less, and wrongly 5 of 100 harmless ones; it sees
-/// no light that no sample found (FORMULAS-glass G6.4, measured with 4096 samples).
+/// no light that no sample found (docs/methods.md#g6-4, measured with 4096 samples).
 inline constexpr double kFewBright = 0.05;
 
 /// Is the interval of the mean to be trusted? Not where few samples make the spread, nor where all were 0.

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/eye_path_tracer.h"
 #include "reference/light_starts.h"
-#include "reference/path_tracer.h"
 #include "reference/path_weights.h"
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 
 namespace phos {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/sampling.h"
-#include "scene/environment.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/sharp_materials.h"
+#include "scene/sky/environment.h"
 
 namespace phos {
 namespace {

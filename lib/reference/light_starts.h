@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
 namespace phos {

@@ -1,7 +1,7 @@
 #include "reference/method.h"
 
-#include "scene/sharp_materials.h"
-#include "scene/unsampled.h"
+#include "scene/material/sharp_materials.h"
+#include "scene/report/unsampled.h"
 
 namespace phos {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
-#include "scene/light_ways.h"
+#include "scene/report/light_ways.h"
 
 namespace phos {
 

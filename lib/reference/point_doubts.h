@@ -5,7 +5,7 @@
 
 #include "file/tool.h"
 #include "reference/point_irradiance.h"
-#include "scene/unsampled.h"
+#include "scene/report/unsampled.h"
 
 namespace phos {
 

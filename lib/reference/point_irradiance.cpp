@@ -34,7 +34,7 @@ float rounding_error_m(const Scene& scene, const Vec3& p) {
   return 32 * std::numeric_limits<float>::epsilon() * size;
 }
 
-Partial sample_range(const PathTracer& tracer, const SurfacePoint& sensor, const PointOptions& options,
+Partial sample_range(const EyePathTracer& tracer, const SurfacePoint& sensor, const PointOptions& options,
                      std::uint64_t begin, std::uint64_t end) {
   Partial part;
   for (std::uint64_t s = begin; s < end; ++s) {
@@ -62,7 +62,7 @@ SurfacePoint sensor_at(const Scene& scene, const Vec3& p, const Vec3& n) {
 
 PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
                                     const Vec3& n, const PointOptions& options) {
-  const PathTracer tracer(rays, luminaires, options.path);
+  const EyePathTracer tracer(rays, luminaires, options.path);
   const SurfacePoint sensor = sensor_at(rays.scene(), p, n);
   const auto join = [](Partial& sum, const Partial& part) {
     sum.red.merge(part.red), sum.green.merge(part.green), sum.blue.merge(part.blue);

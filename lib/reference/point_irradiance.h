@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/counters.h"
-#include "reference/path_tracer.h"
+#include "reference/eye_path_tracer.h"
 
 namespace phos {
 

@@ -11,8 +11,8 @@
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/sample_shares.h"
-#include "scene/bsdf.h"
-#include "scene/sharp_materials.h"
+#include "scene/material/bsdf.h"
+#include "scene/material/sharp_materials.h"
 
 namespace phos {
 
@@ -108,7 +108,7 @@ class Renderer {
   void add_surfaces(Image& image) const;
 
   const RayScene& rays_;
-  PathTracer tracer_;
+  EyePathTracer tracer_;
   const Camera& camera_;
   const ReferenceOptions& options_;
   std::vector<Pixel> pixels_;
@@ -187,7 +187,7 @@ std::vector<PathSample> Renderer::splats(const LightPass& light) const {
       [&](std::size_t first, std::size_t last) {
         std::vector<Splat> part;
         for (std::size_t i = first; i < last; ++i) {
-          Sight sight;
+          PixelSight sight;
           if (!both_->view.see(vertices[i].point.position, sight)) continue;
           const PathSample sample =
               both_->eyes.splat(vertices[i], sight.towards, sight.distance_m, sight.start);

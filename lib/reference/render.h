@@ -8,8 +8,8 @@
 #include "core/counters.h"
 #include "core/options.h"
 #include "image/image.h"
+#include "reference/eye_path_tracer.h"
 #include "reference/method.h"
-#include "reference/path_tracer.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 

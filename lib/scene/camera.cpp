@@ -1,6 +1,6 @@
-#include <cmath>
+#include "scene/camera.h"
 
-#include "scene/camera_rays.h"
+#include <cmath>
 
 namespace phos {
 

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
-#include "scene/passage.h"
+#include "scene/material/passage.h"
 
 namespace phos {
 namespace {

@@ -4,19 +4,19 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "core/named_files.h"
+#include "core/text/named_files.h"
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
-#include "scene/daylight.h"
-#include "scene/environment.h"
-#include "scene/find_blinds.h"
-#include "scene/find_portals.h"
-#include "scene/gltf_document.h"
-#include "scene/gltf_load.h"
-#include "scene/obj_lights.h"
-#include "scene/obj_load.h"
-#include "scene/portal_sight.h"
-#include "scene/to_bands.h"
+#include "scene/gltf/document.h"
+#include "scene/gltf/load.h"
+#include "scene/obj/lights.h"
+#include "scene/obj/load.h"
+#include "scene/opening/find_blinds.h"
+#include "scene/opening/find_portals.h"
+#include "scene/opening/portal_sight.h"
+#include "scene/sky/daylight.h"
+#include "scene/sky/environment.h"
+#include "scene/spectral/to_bands.h"
 
 namespace phos {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/options.h"
-#include "scene/band_options.h"
-#include "scene/daylight_options.h"
-#include "scene/luminaire_options.h"
+#include "scene/luminaire/options.h"
 #include "scene/scene.h"
+#include "scene/sky/daylight_options.h"
+#include "scene/spectral/band_options.h"
 
 namespace phos {
 

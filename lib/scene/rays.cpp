@@ -11,10 +11,11 @@
 #include "core/interrupt.h"
 #include "core/last_words.h"
 #include "core/parallel.h"
+#include "scene/material/filled_glass.h"
+#include "scene/material/passage.h"
 #include "scene/offset.h"
-#include "scene/passage.h"
 #include "scene/shading_frame.h"
-#include "scene/visible_share.h"
+#include "scene/texture/visible_share.h"
 
 namespace phos {
 
@@ -157,7 +158,8 @@ struct RayScene::Impl {
   std::uint32_t triangle(unsigned geometry, unsigned primitive) const {
     return triangle_of[geometry].empty() ? primitive : triangle_of[geometry][primitive];
   }
-  unsigned geometry_of(std::uint32_t triangle, const std::vector<std::uint8_t>& straight) const;
+  unsigned geometry_of(std::uint32_t triangle, const std::vector<std::uint8_t>& straight,
+                       const std::vector<std::uint8_t>& filled) const;
   bool has_panes() const { return !triangle_of[kPane].empty(); }
   static void filter(const RTCFilterFunctionNArguments* args);
   static void pane_filter(const RTCFilterFunctionNArguments* args);
@@ -280,12 +282,14 @@ void RayScene::Impl::attach(unsigned id, const std::vector<std::uint32_t>* trian
   throw_if_failed();
 }
 
-/// Plane faces of solid glass may have parallel ones behind them.
-unsigned RayScene::Impl::geometry_of(std::uint32_t triangle,
-                                     const std::vector<std::uint8_t>& straight) const {
+/// Plane faces of solid glass may have parallel ones behind them. `straight` tells of materials, `filled` of
+/// triangles.
+unsigned RayScene::Impl::geometry_of(std::uint32_t triangle, const std::vector<std::uint8_t>& straight,
+                                     const std::vector<std::uint8_t>& filled) const {
   const Facet& f = facet[triangle];
   const Material& m = scene.material[f.material];
-  if (straight[f.material] || (m.model == Model::dielectric && f.flat)) return kPane;
+  const bool block = !filled.empty() && filled[triangle];
+  if (straight[f.material] || (m.model == Model::dielectric && f.flat && !block)) return kPane;
   return m.alpha_mode == Material::Alpha::mask ? kMasked : kOpaque;
 }
 
@@ -296,8 +300,10 @@ void RayScene::Impl::build() {
   rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
   std::vector<std::uint8_t> straight;  // per material
   for (const Material& m : scene.material) straight.push_back(passes_straight(scene, m));
+  const std::vector<std::uint8_t> filled = find_filled_glass(scene);
   std::vector<std::uint32_t> triangles[kGeometries];
-  for (std::uint32_t i = 0; i < scene.triangle.size(); ++i) triangles[geometry_of(i, straight)].push_back(i);
+  for (std::uint32_t i = 0; i < scene.triangle.size(); ++i)
+    triangles[geometry_of(i, straight, filled)].push_back(i);
   if (triangles[kOpaque].size() == scene.triangle.size()) {
     if (!scene.triangle.empty()) attach(kOpaque, nullptr);
   } else {

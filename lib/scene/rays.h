@@ -73,7 +73,7 @@ class RayScene {
   /// The same for each of several rays that run side by side, faster; hits of rays that escape stay as they
   /// are. Same bits.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-  /// Is there anything that light passes straight through (scene/passage.h)?
+  /// Is there anything that light passes straight through (scene/material/passage.h)?
   bool has_panes() const;
   /// Nearest hit on what does not pass the ray straight, and the crossings before it, in order. False if
   /// there is no such hit; `crossings` are then all there are.

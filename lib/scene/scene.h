@@ -11,10 +11,10 @@
 
 #include "core/json.h"
 #include "core/vector.h"
-#include "scene/blind.h"
-#include "scene/fitting.h"
+#include "scene/luminaire/fitting.h"
 #include "scene/note.h"
-#include "scene/portal.h"
+#include "scene/opening/blind.h"
+#include "scene/opening/portal.h"
 
 namespace phos {
 
@@ -81,7 +81,7 @@ struct Material {
   /// texture.
   Rgb tint{1};
   /// thin_dielectric: internal transmittance of one passage along the normal; its transmittance is that of
-  /// the pane (scene/pane.h), or `curve` where there is one, times `tint`.
+  /// the pane (scene/material/pane.h), or `curve` where there is one, times `tint`.
   Rgb inside{1};
   std::shared_ptr<const TransmittanceCurve> curve;
   /// dielectric: what is absorbed inside of it, per m: light falls as exp(-absorption length); infinity: none
@@ -207,7 +207,7 @@ struct Animation {
 };
 
 /// What the components of Rgb are: red, green and blue (number 0), or one of the triplets of so many bands
-/// of wavelength (scene/bands.h).
+/// of wavelength (scene/spectral/bands.h).
 struct BandTriplet {
   int number = 0, triplet = 0;
   bool operator==(const BandTriplet&) const = default;

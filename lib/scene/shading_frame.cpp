@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace phos {
 

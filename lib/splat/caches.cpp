@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "temporal/film_inputs.h"
+#include "temporal/film/inputs.h"
 
 namespace phos {
 

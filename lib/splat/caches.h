@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "cache/brdf_table.h"
-#include "cache/irradiance_cache.h"
-#include "cache/radiance_cache.h"
 #include "file/container.h"
+#include "radiance/brdf/table.h"
+#include "radiance/cache.h"
+#include "record/irradiance_cache.h"
 #include "scene/scene.h"
 
 namespace phos {

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "splat/gbuffer_pixel.h"
 
 namespace phos {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/vector.h"
-#include "scene/camera_rays.h"
+#include "scene/camera.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 

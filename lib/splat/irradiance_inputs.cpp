@@ -3,8 +3,8 @@
 #include "core/error.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
-#include "scene/sharp_materials.h"
-#include "temporal/film_inputs.h"
+#include "scene/material/sharp_materials.h"
+#include "temporal/film/inputs.h"
 
 namespace phos {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "cache/brdf_table.h"
-#include "cache/irradiance_cache.h"
-#include "cache/radiance_cache.h"
-#include "cache/record_options.h"
+#include "estimate/record_options.h"
 #include "file/tool.h"
 #include "photon/photon_map.h"
+#include "radiance/brdf/table.h"
+#include "radiance/cache.h"
+#include "record/irradiance_cache.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 

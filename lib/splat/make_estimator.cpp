@@ -1,11 +1,11 @@
 #include "splat/make_estimator.h"
 
-#include "cache/gather.h"
-#include "cache/radiance_density.h"
-#include "cache/radiance_gather.h"
-#include "cache/record_maker.h"
 #include "core/error.h"
-#include "splat/hemisphere_raster.h"
+#include "estimate/density.h"
+#include "estimate/gather.h"
+#include "estimate/radiance_density.h"
+#include "estimate/radiance_gather.h"
+#include "splat/gl/hemisphere_raster.h"
 
 namespace phos {
 namespace {
@@ -58,7 +58,7 @@ ChosenEstimator::ChosenEstimator(const RayScene& rays, const EstimateInputs& inp
   switch (options.estimate) {
     case Estimate::hull:
     case Estimate::kernel:
-      estimator_ = std::make_unique<RecordMaker>(*inputs.photons, rays, options, seed);
+      estimator_ = std::make_unique<DensityEstimator>(*inputs.photons, rays, options, seed);
       break;
     case Estimate::gather:
       estimator_ = std::make_unique<GatherEstimator>(rays, lights_, coarse_.source(), options, seed);

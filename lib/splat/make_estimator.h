@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "cache/estimator.h"
-#include "cache/radiance_placement.h"
-#include "cache/record_options.h"
-#include "cache/two_level.h"
-#include "scene/luminaires.h"
+#include "estimate/estimator.h"
+#include "estimate/record_options.h"
+#include "place/radiance_placement.h"
+#include "place/two_level.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 #include "splat/irradiance_inputs.h"
 

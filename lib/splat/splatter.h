@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "cache/irradiance_cache.h"
+#include "record/irradiance_cache.h"
+#include "splat/cpu/gloss_splatter.h"
 #include "splat/gbuffer.h"
-#include "splat/gloss_splatter.h"
 
 namespace phos {
 

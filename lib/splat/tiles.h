@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cache/irradiance_cache.h"
+#include "record/irradiance_cache.h"
 #include "splat/gbuffer.h"
 #include "splat/projection.h"
 

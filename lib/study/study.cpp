@@ -1,14 +1,14 @@
 #include "study/study.h"
 
 #include "core/error.h"
+#include "core/text/quantity.h"
 #include "file/folder.h"
 #include "file/write_text.h"
 #include "scene/note.h"
-#include "study/html.h"
-#include "study/plan.h"
-#include "study/results.h"
-#include "study/results_plots.h"
-#include "study/study_check.h"
+#include "study/html/page.h"
+#include "study/results/plots.h"
+#include "study/results/results.h"
+#include "study/spec/check.h"
 
 namespace phos {
 

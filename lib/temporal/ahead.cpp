@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "cache/direct_light.h"
-#include "cache/gather.h"
 #include "core/error.h"
 #include "core/random.h"
-#include "scene/anchor.h"
+#include "direct/direct_light.h"
+#include "estimate/gather.h"
+#include "scene/motion/anchor.h"
 #include "temporal/reprojection.h"
 
 namespace phos {

@@ -1,15 +1,15 @@
-// What a record will be one frame on, estimated when it is made (thesis 5.2.4).
+// What a record will be one frame on, estimated when it is made (docs/methods.md#f6).
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "cache/estimator.h"
-#include "cache/record_options.h"
-#include "scene/film.h"
-#include "scene/luminaires.h"
+#include "estimate/estimator.h"
+#include "estimate/record_options.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/motion/film.h"
 #include "scene/rays.h"
-#include "temporal/film_options.h"
+#include "temporal/film/options.h"
 
 namespace phos {
 
@@ -18,7 +18,7 @@ namespace phos {
 struct AheadOptions {
   LookAhead look = LookAhead::reproject;
   double share = 0.125;      ///< of what rays hit, where the lamps are asked again at most; in (0, 1]
-  double most_holes = 0.03;  ///< of the hemisphere; where more came to light, the next frame is traced (F6)
+  double most_holes = 0.03;  ///< of the hemisphere; above it the next frame is traced (docs/methods.md#f6)
   /// The record ahead has gradients and a radius of its own. Else, by reprojection, it is the record as it
   /// is, at its place one frame on, but for its irradiance: a third of the cost. (Of radiance records all is
   /// always had.)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cache/radiance_cache.h"
 #include "core/error.h"
+#include "radiance/cache.h"
 #include "temporal/change.h"
 
 namespace phos {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "cache/estimator.h"
-#include "cache/growth.h"
-#include "scene/anchor.h"
-#include "temporal/film_cache.h"
+#include "estimate/estimator.h"
+#include "place/growth.h"
+#include "scene/motion/anchor.h"
+#include "temporal/film/cache.h"
 #include "temporal/survey.h"
 
 namespace phos {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "cache/gather.h"
-#include "cache/radiance_density.h"
-#include "cache/radiance_gather.h"
-#include "cache/record_maker.h"
 #include "core/error.h"
+#include "estimate/density.h"
+#include "estimate/gather.h"
+#include "estimate/radiance_density.h"
+#include "estimate/radiance_gather.h"
 
 namespace phos {
 
@@ -62,7 +62,7 @@ const Estimator& FrameLight::irradiance(Counters& counters) {
   switch (r.estimate) {
     case Estimate::hull:
     case Estimate::kernel:
-      irradiance_ = std::make_unique<RecordMaker>(photons(counters), rays(), r, options_.seed);
+      irradiance_ = std::make_unique<DensityEstimator>(photons(counters), rays(), r, options_.seed);
       break;
     case Estimate::gather:
       irradiance_ =
@@ -76,8 +76,8 @@ const Estimator& FrameLight::irradiance(Counters& counters) {
 
 const Estimator& FrameLight::source_records(Counters& counters) {
   if (!source_records_)
-    source_records_ = std::make_unique<RecordMaker>(photons(counters), rays(),
-                                                    coarse_options(options_.records), options_.seed);
+    source_records_ = std::make_unique<DensityEstimator>(photons(counters), rays(),
+                                                         coarse_options(options_.records), options_.seed);
   return *source_records_;
 }
 

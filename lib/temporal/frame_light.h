@@ -5,16 +5,16 @@
 #include <memory>
 #include <string>
 
-#include "cache/estimator.h"
-#include "cache/radiance_placement.h"
-#include "cache/two_level.h"
+#include "estimate/estimator.h"
 #include "photon/photon_map.h"
 #include "photon/trace.h"
-#include "scene/film.h"
-#include "scene/luminaires.h"
+#include "place/radiance_placement.h"
+#include "place/two_level.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/motion/film.h"
 #include "scene/rays.h"
-#include "temporal/film_cache.h"
-#include "temporal/film_options.h"
+#include "temporal/film/cache.h"
+#include "temporal/film/options.h"
 
 namespace phos {
 

@@ -6,9 +6,10 @@
 #include <iterator>
 #include <type_traits>
 
-#include "cache/record_check.h"
 #include "core/error.h"
 #include "file/hash.h"
+#include "radiance/check.h"
+#include "record/check.h"
 
 namespace phos {
 namespace {

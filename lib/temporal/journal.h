@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "cache/estimator.h"
 #include "core/error.h"
+#include "estimate/estimator.h"
 
 namespace phos {
 

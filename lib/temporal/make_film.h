@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cache/brdf_table.h"
-#include "cache/gloss_tables.h"
-#include "temporal/film_maker.h"
+#include "radiance/brdf/table.h"
+#include "radiance/gloss_tables.h"
+#include "temporal/film/maker.h"
 
 namespace phos {
 

@@ -1,11 +1,11 @@
-// A sampled hemisphere one frame on: what it saw, moved (thesis 5.2.4, FORMULAS F6).
+// A sampled hemisphere one frame on: what it saw, moved (docs/methods.md#f6).
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "cache/hemisphere.h"
+#include "estimate/hemisphere/hemisphere.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
 

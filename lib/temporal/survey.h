@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "scene/film.h"
+#include "scene/motion/film.h"
 
 namespace phos {
 
 struct FilmSurvey {
   FrameRange frames;
   std::vector<std::string> scene_hash;  ///< of each frame
-  /// Runs of frames without a jump in between (scene/film.h), in order: all frames together.
+  /// Runs of frames without a jump in between (scene/motion/film.h), in order: all frames together.
   std::vector<FrameRange> shots;
   std::vector<bool> moved;     ///< by instance: at any of the frames
   bool light_changes = false;  ///< from any frame to another

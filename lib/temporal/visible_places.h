@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cache/placement.h"
+#include "place/placement.h"
 #include "temporal/frame_light.h"
 
 namespace phos {

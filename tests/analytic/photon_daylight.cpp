@@ -6,8 +6,8 @@
 #include "photon/emission.h"
 #include "photon/portals.h"
 #include "photon/trace.h"
-#include "scene/find_portals.h"
-#include "scene/sky_access.h"
+#include "scene/opening/find_portals.h"
+#include "scene/sky/access.h"
 #include "support/daylight.h"
 
 namespace phos::test {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "reference/point_irradiance.h"
-#include "scene/bands.h"
-#include "scene/colour_rendering.h"
-#include "scene/to_bands.h"
+#include "scene/spectral/bands.h"
+#include "scene/spectral/colour_rendering.h"
+#include "scene/spectral/to_bands.h"
 #include "support/run.h"
 #include "support/scenes.h"
 

@@ -55,7 +55,7 @@ TEST(Reference, SeesTheSunInAMirror) {
   surround(scene, sky);
   const RayScene rays(scene);
   const Luminaires lights(scene);
-  const PathTracer tracer(rays, lights);
+  const EyePathTracer tracer(rays, lights);
   const double radius = glm::radians(0.533 / 2),
                disc = 50000 / (std::numbers::pi * std::pow(std::sin(radius), 2));
   const double around = 1000 / std::numbers::pi;

@@ -1,7 +1,7 @@
 // Path tracing of scenes in an environment, against what can be said of their light without tracing.
 #include <gtest/gtest.h>
 
-#include "reference/path_tracer.h"
+#include "reference/eye_path_tracer.h"
 #include "reference/point_irradiance.h"
 #include "support/environment.h"
 
@@ -26,7 +26,7 @@ void expect_near(const PointIrradiance& found, const DVec3& truth, double roundi
 DVec3 luminance_along(const Scene& scene, const Ray& ray, int samples) {
   const RayScene rays(scene);
   const Luminaires lights(scene);
-  const PathTracer tracer(rays, lights);
+  const EyePathTracer tracer(rays, lights);
   DVec3 sum(0);
   for (int s = 0; s < samples; ++s) {
     RandomStream random(1, Stage::reference, static_cast<std::uint64_t>(s));
@@ -149,7 +149,7 @@ TEST(Background, IsSeenStraightAndInMirrors) {
   surround(scene, map);
   const RayScene rays(scene);
   const Luminaires lights(scene);
-  const PathTracer tracer(rays, lights);
+  const EyePathTracer tracer(rays, lights);
   RandomStream random(1, Stage::reference, 1);
   const Vec3 up = normalized_or_zero({0.3f, 0.8f, 0.5f}), down(up.x, -up.y, up.z);
   const PathSample straight = tracer.luminance({Vec3(0, 2, 0), up}, random);

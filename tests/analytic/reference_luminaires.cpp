@@ -87,7 +87,7 @@ TEST(MeasuredLuminaire, ABlackRoomReceivesItsLumens) {
     const Scene scene = measured_room(file);
     const RayScene rays(scene);
     const Luminaires lights(scene);
-    const PathTracer tracer(rays, lights, {1, false});
+    const EyePathTracer tracer(rays, lights, {1, false});
     double sum = 0, square = 0;
     constexpr int kPoints = 40000;
     for (int k = 0; k < kPoints; ++k) {

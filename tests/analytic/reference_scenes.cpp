@@ -77,7 +77,7 @@ TEST(ReferenceAnalytic, BlackEmittersKeepDirectLightOnly) {
 /// wants.
 void check_mean(const AnalyticScene& s, std::int64_t n, double relative) {
   const Lit lit(s.scene);
-  const PathTracer tracer(lit.rays, lit.luminaires);
+  const EyePathTracer tracer(lit.rays, lit.luminaires);
   std::vector<double> cdf;
   double area = 0;
   for (std::uint32_t t = 0; t < s.scene.triangle.size(); ++t) cdf.push_back(area += area_m2(s.scene, t));

@@ -2,11 +2,11 @@
 // tests/support/scenes.h).
 #include <gtest/gtest.h>
 
-#include "cache/shading.h"
-#include "scene/lamp_form.h"
+#include "estimate/shading.h"
+#include "scene/lamp/form.h"
 #include "scene/picture.h"
-#include "splat/edge_light.h"
-#include "splat/interleaved.h"
+#include "splat/direct/edge_light.h"
+#include "splat/direct/interleaved.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {

@@ -1,8 +1,8 @@
 // Pictures of scenes in an environment: what is behind them, and the light on them by every way there is.
 #include <gtest/gtest.h>
 
-#include "splat/interleaved.h"
-#include "splat/render.h"
+#include "splat/direct/interleaved.h"
+#include "splat/picture/render.h"
 #include "support/environment.h"
 #include "support/splat_scenes.h"
 

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "splat/gbuffer.h"
-#include "splat/render.h"
+#include "splat/picture/render.h"
 #include "support/gloss_scenes.h"
 #include "support/radiance_records.h"
 

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "hsh/projection.h"
-#include "splat/environment_harmonics.h"
-#include "splat/render.h"
+#include "splat/direct/environment_harmonics.h"
+#include "splat/picture/render.h"
 #include "support/environment.h"
 #include "support/one_material.h"
 #include "support/splat_scenes.h"

@@ -1,7 +1,7 @@
 // Light through thin walls in pictures, with the leak test and without.
 #include <gtest/gtest.h>
 
-#include "splat/render.h"
+#include "splat/picture/render.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {

@@ -1,9 +1,9 @@
 // Direct light of measured luminaires at visible points: shadow rays, shared ones, and shadow maps.
 #include <gtest/gtest.h>
 
-#include "cache/direct_light.h"
-#include "cache/shading.h"
-#include "splat/interleaved.h"
+#include "direct/direct_light.h"
+#include "estimate/shading.h"
+#include "splat/direct/interleaved.h"
 #include "support/luminaires.h"
 #include "support/splat_scenes.h"
 

@@ -1,9 +1,10 @@
-// Irradiance by drawing the hemisphere, against closed forms and against gathered rays (thesis table 4.1).
+// Irradiance by drawing the hemisphere, against closed forms and against gathered rays (Gautron 2006,
+// table 4.1; docs/methods.md#r1).
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "splat/hemisphere_raster.h"
-#include "splat/raster_plane.h"
+#include "splat/gl/hemisphere_raster.h"
+#include "splat/gl/raster_plane.h"
 #include "support/raster.h"
 #include "support/scenes.h"
 

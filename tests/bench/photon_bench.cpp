@@ -10,9 +10,9 @@
 
 #include "core/parallel.h"
 #include "file/tool.h"
-#include "photon/kd_tree.h"
 #include "photon/photon_map.h"
 #include "photon/trace.h"
+#include "photon/tree/kd_tree.h"
 #include "scene/load.h"
 #include "scene/rays.h"
 

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/random.h"
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "support/one_material.h"
 
 namespace phos {

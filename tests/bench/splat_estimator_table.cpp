@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "cache/record_maker.h"
 #include "core/parallel.h"
+#include "estimate/density.h"
 #include "splat/make_estimator.h"
 #include "support/records.h"
 
@@ -109,7 +109,7 @@ void print_row(const char* method, const std::string& scene, const std::vector<E
 /// its value at the check, lx. 0 for other records.
 double curvature_lx(const test::AnalyticScene& s, const test::Check& check, const Estimator::Worker& worker,
                     Kernel kernel) {
-  const auto* made = dynamic_cast<const RecordMaker::Scratch*>(&worker);
+  const auto* made = dynamic_cast<const DensityEstimator::Scratch*>(&worker);
   if (!made || made->zone.kind != ZoneKind::kernel) return 0;
   constexpr int kRings = 20, kSpokes = 16;  // of equal area
   const auto ring = [](int i) { return std::sqrt((i + 0.5) / kRings); };

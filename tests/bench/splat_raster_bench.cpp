@@ -1,5 +1,6 @@
-// Thesis table 4.1: root mean square error of irradiance drawn on one plane, for each treatment of its
-// border, against gathered rays; and the time of a record. Places are where rays from the first camera land.
+// Gautron 2006, table 4.1 (docs/methods.md#r1): root mean square error of irradiance drawn on one plane, for
+// each treatment of its border, against gathered rays; and the time of a record. Places are where rays from
+// the first camera land.
 //   PHOS_RASTER_SCENE=sibenik-flat.glb PHOS_RASTER_PLACES=10000 splat_raster_bench
 #include <benchmark/benchmark.h>
 
@@ -9,7 +10,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "scene/load.h"
-#include "splat/hemisphere_raster.h"
+#include "splat/gl/hemisphere_raster.h"
 #include "support/raster.h"
 
 namespace {

@@ -1,6 +1,6 @@
-// How well the irradiance of the next frame is known when a record of 512 rays is made (thesis 5.2.4, table
-// 5.1), at places that the camera sees in frames spread over three animations. The truth of a change is that
-// by 16384 other rays, the same in both frames. CSV, by scene and way of looking ahead:
+// How well the irradiance of the next frame is known when a record of 512 rays is made (docs/methods.md#f6;
+// Gautron 2006, table 5.1), at places that the camera sees in frames spread over three animations. The truth
+// of a change is that by 16384 other rays, the same in both frames. CSV, by scene and way of looking ahead:
 //   mean, median, most, rms   error of the expected change, in parts of the next frame's irradiance, %
 //   same                      root mean square difference to the next frame by the same 512 rays, %
 //   rate, true rate           mean relative change over the frame as expected, and in truth, %
@@ -13,12 +13,12 @@
 #include <map>
 #include <optional>
 
-#include "cache/gather.h"
-#include "cache/two_level.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "estimate/gather.h"
 #include "photon/trace.h"
-#include "scene/film.h"
+#include "place/two_level.h"
+#include "scene/motion/film.h"
 #include "temporal/ahead.h"
 #include "temporal/change.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "photon/trace.h"
-#include "scene/lint.h"
+#include "scene/report/lint.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "image/image.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "support/environment.h"
 
 using namespace phos;

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/anchor.h"
-#include "scene/lint.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/motion/anchor.h"
+#include "scene/report/lint.h"
 #include "support/animated.h"
 #include "support/jumps.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "scene/bsdf.h"
 #include "scene/load.h"
+#include "scene/material/bsdf.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/merl_bytes.h"

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/origin.h"
-#include "scene/film.h"
 #include "scene/load.h"
+#include "scene/motion/film.h"
 #include "scene/point_table.h"
 #include "support/far_model.h"
 #include "support/limits.h"

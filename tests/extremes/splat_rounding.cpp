@@ -1,9 +1,9 @@
 // Errors that pictures state are differences of nearly equal sums: what is left where nothing varies.
 #include <gtest/gtest.h>
 
-#include "cache/blend.h"
 #include "core/random.h"
-#include "splat/layers.h"
+#include "record/blend.h"
+#include "splat/picture/layers.h"
 #include "support/rounding.h"
 
 namespace phos::test {

@@ -3,9 +3,10 @@
 
 #include <cstdlib>
 
-#include "cache/record_check.h"
-#include "splat/hemisphere_raster.h"
-#include "splat/render.h"
+#include "radiance/check.h"
+#include "record/check.h"
+#include "splat/gl/hemisphere_raster.h"
+#include "splat/picture/render.h"
 #include "support/raster.h"
 #include "support/splat_records.h"
 #include "support/splat_scenes.h"

@@ -4,11 +4,11 @@
 #include <cstring>
 #include <filesystem>
 
-#include "cache/brdf_table.h"
-#include "cache/irradiance_parts.h"
 #include "core/random.h"
 #include "image/formats.h"
 #include "photon/photon_map.h"
+#include "place/parts.h"
+#include "radiance/brdf/table.h"
 #include "support/films.h"
 #include "support/gltf.h"
 #include "support/run.h"

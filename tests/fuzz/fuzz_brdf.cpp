@@ -1,5 +1,5 @@
 // Lobes of materials.
-#include "cache/brdf_table.h"
+#include "radiance/brdf/table.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

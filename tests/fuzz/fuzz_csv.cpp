@@ -1,9 +1,9 @@
 // Tables: comma-separated values, points of sensors, spectra, and plots of columns.
 #include "file/csv.h"
-#include "image/csv_plot.h"
+#include "image/plot/csv_plot.h"
 #include "reading.h"
 #include "scene/point_table.h"
-#include "scene/spectrum.h"
+#include "scene/spectral/spectrum.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace phos;

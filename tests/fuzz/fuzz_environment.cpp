@@ -1,6 +1,6 @@
 // Light from all around, from OpenEXR or Radiance .hdr: any map that is read can be sampled.
 #include "reading.h"
-#include "scene/environment.h"
+#include "scene/sky/environment.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace phos;

@@ -1,7 +1,7 @@
 // Irradiance records, with their index where they have one, and parts of a run.
-#include "cache/irradiance_parts.h"
-#include "cache/record_index.h"
+#include "place/parts.h"
 #include "reading.h"
+#include "record/index.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "cache/radiance_cache.h"
 #include "file/hash.h"
+#include "radiance/cache.h"
 #include "random_choice.h"
 #include "reading.h"
 #include "temporal/journal.h"

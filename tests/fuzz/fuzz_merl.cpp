@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "reading.h"
-#include "scene/merl.h"
+#include "scene/material/merl.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Scenes in OBJ with their materials and lights: one input, cut where a line says which file begins.
 #include "reading.h"
 #include "scene/load.h"
-#include "scene/obj_lights.h"
+#include "scene/obj/lights.h"
 
 namespace {
 

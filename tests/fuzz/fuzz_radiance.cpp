@@ -1,5 +1,5 @@
 // Radiance records.
-#include "cache/radiance_cache.h"
+#include "radiance/cache.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

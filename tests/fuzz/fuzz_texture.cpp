@@ -1,6 +1,6 @@
 // Pictures on surfaces: PNG, JPEG, BMP and TGA.
 #include "reading.h"
-#include "scene/load_textures.h"
+#include "scene/texture/load_textures.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace phos;

@@ -1,7 +1,7 @@
 // Files of studies: their TOML, and what a study says of itself before it asks the programs for their
 // options.
 #include "reading.h"
-#include "study/study_file.h"
+#include "study/spec/study_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace phos;

@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "reading.h"
-#include "scene/goniometric.h"
-#include "scene/hang_luminaire.h"
-#include "scene/photometric_lines.h"
+#include "scene/luminaire/goniometric.h"
+#include "scene/luminaire/hang.h"
+#include "scene/luminaire/photometric_lines.h"
 
 namespace phos::fuzz {
 

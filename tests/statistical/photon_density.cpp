@@ -136,7 +136,8 @@ TEST(Borders, KernelsLoseWhatTheClosedFormSays) {
 }
 
 /// The hull's bias at a border and on the lit side of a shadow: within its interval, and 1 % for the error of
-/// the probed area and for zones that are wrongly taken for fully lit (C2: a cap of some photons is missed).
+/// the probed area and for zones that are wrongly taken for fully lit (docs/methods.md#c2: a cap of some
+/// photons is missed).
 TEST(Borders, TheHullLosesNothing) {
   std::uint64_t item = 4000;
   for (const test::ZoneEdge edge : {test::ZoneEdge::border, test::ZoneEdge::shadow}) {

@@ -1,5 +1,5 @@
-// How often the interval of a mean is trusted, and how often it then holds the truth: rules of FORMULAS-glass
-// G6.2 and G6.4, against shares that were measured elsewhere with 1500 runs of 4096 samples.
+// How often the interval of a mean is trusted, and how often it then holds the truth: rules of
+// docs/methods.md#g6-2 and #g6-4, against shares that were measured elsewhere with 1500 runs of 4096 samples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "reference/central_moments.h"
 #include "reference/moments.h"
-#include "scene/unsampled.h"
+#include "scene/report/unsampled.h"
 
 namespace phos {
 namespace {

@@ -1,7 +1,7 @@
 // Each reflection model's samples follow its density.
 #include <gtest/gtest.h>
 
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "support/chi2.h"
 #include "support/one_material.h"
 

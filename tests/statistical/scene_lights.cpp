@@ -1,7 +1,7 @@
 // Directions towards area lights and an environment follow the density that is stated for them.
 #include <gtest/gtest.h>
 
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "support/chi2.h"
 #include "support/environment.h"
 #include "support/quad.h"

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "cache/radiance_cache.h"
-#include "cache/radiance_density.h"
-#include "cache/radiance_gather.h"
-#include "cache/sensors.h"
-#include "cache/two_level.h"
+#include "estimate/radiance_density.h"
+#include "estimate/radiance_gather.h"
 #include "file/csv.h"
+#include "place/two_level.h"
+#include "radiance/cache.h"
 #include "scene/load.h"
+#include "sense/sensors.h"
 #include "support/records.h"
 #include "support/run.h"
 
@@ -174,7 +174,7 @@ class CalibratedScene {
       for (const Estimate estimate : {Estimate::hull, Estimate::kernel}) {
         RecordOptions options = of_photons(known_.quantity);
         options.estimate = estimate;
-        const RecordMaker maker(lit.photons, *lit.rays, options, seed);
+        const DensityEstimator maker(lit.photons, *lit.rays, options, seed);
         blended(estimate == Estimate::hull ? "hull" : "kernel", maker, lit, options, seen, seed, table);
       }
     }
@@ -243,7 +243,7 @@ class CalibratedScene {
 
   void sensors(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
     const RecordOptions options = of_photons(Quantity::indirect);
-    const RecordMaker maker(lit.photons, *lit.rays, options, seed);
+    const DensityEstimator maker(lit.photons, *lit.rays, options, seed);
     SensorCaches caches({}, nullptr);
     caches.add(placed(maker, lit, options, seed), "cache");
     Sensors sensors;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/daylight.h"
+#include "scene/sky/daylight.h"
 #include "support/environment.h"
 
 namespace phos::test {

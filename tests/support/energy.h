@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "cache/lobe_projection.h"
-#include "cache/radiance_cache.h"
 #include "core/parallel.h"
 #include "hsh/quadrature.h"
-#include "scene/bsdf.h"
+#include "radiance/brdf/lobe_projection.h"
+#include "radiance/cache.h"
+#include "scene/material/bsdf.h"
 #include "support/records.h"
 
 namespace phos::test {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/environment.h"
+#include "scene/sky/environment.h"
 #include "support/scenes.h"
 
 namespace phos::test {

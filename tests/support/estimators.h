@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "cache/estimator.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "estimate/estimator.h"
 #include "scene/rays.h"
 
 namespace phos::test {

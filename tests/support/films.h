@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/indexed_file.h"
 #include "support/radiance_records.h"
-#include "temporal/film_cache.h"
+#include "temporal/film/cache.h"
 
 namespace phos::test {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "cache/gather.h"
-#include "cache/irradiance_cache.h"
 #include "core/float_traps.h"
+#include "estimate/gather.h"
+#include "record/irradiance_cache.h"
 #include "support/scenes.h"
 
 namespace phos::test {

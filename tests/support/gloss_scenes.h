@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cache/gloss_cache.h"
 #include "core/random.h"
+#include "radiance/gloss_cache.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "splat/cpu/gloss_splatter.h"
 #include "splat/gbuffer.h"
-#include "splat/gloss_splatter.h"
 #include "support/gloss_scenes.h"
 
 namespace phos::test {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "cache/radiance_cache.h"
+#include "radiance/cache.h"
 #include "support/estimators.h"
 #include "support/one_material.h"
 #include "support/scenes.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cache/gradients.h"
-#include "cache/hemisphere.h"
 #include "core/random.h"
+#include "estimate/hemisphere/hemisphere.h"
+#include "estimate/zone/gradients.h"
 
 namespace phos::test {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "cache/record_index.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "record/index.h"
 #include "support/run.h"
 
 namespace phos::test {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/film.h"
+#include "scene/motion/film.h"
 
 namespace phos::test {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "scene/hang_luminaire.h"
-#include "scene/photometric_file.h"
+#include "scene/luminaire/hang.h"
+#include "scene/luminaire/photometric_file.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/vector.h"
-#include "scene/merl.h"
+#include "scene/material/merl.h"
 
 namespace phos::test {
 

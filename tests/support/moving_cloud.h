@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "cache/hemisphere.h"
 #include "core/random.h"
+#include "estimate/hemisphere/hemisphere.h"
 #include "scene/scene.h"
 #include "temporal/reprojection.h"
 

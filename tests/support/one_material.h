@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "scene/scene.h"
 #include "support/merl_bytes.h"
 

@@ -14,7 +14,7 @@ inline std::uint32_t add_opal(Scene& scene, float kd, float kt) {
 }
 
 /// A sheet of 2 x 2 m, 1.5 m over a black floor, a point lamp 1 m over the sheet's middle. What the sheet
-/// sends down: L = kt I h / (pi (h2 + r2)^1.5), E = int L cos2 / d2 dA (FORMULAS-glass G3.5).
+/// sends down: L = kt I h / (pi (h2 + r2)^1.5), E = int L cos2 / d2 dA (docs/methods.md#g3-5).
 struct OpalUnderALamp {
   static constexpr float kHeight = 1.5f, kIntensity_cd = 1000, kKt = 0.5f;
   Scene scene;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cache/cosine_fit.h"
-#include "cache/lobe_projection.h"
+#include "estimate/harmonics/cosine_fit.h"
+#include "radiance/brdf/lobe_projection.h"
 #include "support/gradient_scenes.h"
 #include "support/radiance_scenes.h"
 #include "support/reflections.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "splat/gbuffer.h"
-#include "splat/render.h"
+#include "splat/picture/render.h"
 #include "support/calibration.h"
 
 namespace phos::test {
@@ -63,7 +63,7 @@ class CalibratedPicture {
                     photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);
     };
     if (estimate == Estimate::hull) {
-      place(RecordMaker(lit.photons, *lit.rays, options, seed));
+      place(DensityEstimator(lit.photons, *lit.rays, options, seed));
     } else {
       const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
       place(GatherEstimator(*lit.rays, lights_, coarse.source(), options, seed));

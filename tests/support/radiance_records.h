@@ -4,11 +4,11 @@
 #include <functional>
 #include <vector>
 
-#include "cache/radiance_cache.h"
 #include "core/random.h"
 #include "core/sampling.h"
 #include "file/container.h"
 #include "hsh/projection.h"
+#include "radiance/cache.h"
 
 namespace phos::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cache/radiance_record.h"
+#include "estimate/radiance_record.h"
 #include "hsh/projection.h"
 #include "support/gradient_scenes.h"
 

@@ -1,7 +1,7 @@
 // How drawn hemispheres and the gathered ones that judge them are made.
 #pragma once
 
-#include "cache/record_options.h"
+#include "estimate/record_options.h"
 #include "scene/scene.h"
 
 namespace phos::test {

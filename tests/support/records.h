@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "cache/placement.h"
-#include "cache/record_maker.h"
+#include "estimate/density.h"
 #include "photon/trace.h"
+#include "place/placement.h"
 #include "support/golden_table.h"
 #include "support/scenes.h"
 
@@ -47,7 +47,7 @@ inline PlacementReport place_at_photons(IrradianceCache& cache, const PhotonMap&
                                         const RayScene& rays, const RecordOptions& resolved,
                                         const PlacementOptions& placement, std::uint64_t seed,
                                         Counters& counters) {
-  const RecordMaker maker(photons, rays, resolved, seed);
+  const DensityEstimator maker(photons, rays, resolved, seed);
   return place_records(cache, maker, rays, resolved, placement,
                        photon_candidates(photons, resolved.paths, seed, placement.max_candidates), counters);
 }
@@ -57,7 +57,7 @@ inline PlacementReport place_at_points(IrradianceCache& cache, const PhotonMap& 
                                        const RecordOptions& resolved, const PlacementOptions& placement,
                                        std::uint64_t seed, std::span<const SurfaceSample> points,
                                        Counters& counters) {
-  const RecordMaker maker(photons, rays, resolved, seed);
+  const DensityEstimator maker(photons, rays, resolved, seed);
   return place_records(cache, maker, rays, resolved, placement, point_candidates(points), counters);
 }
 

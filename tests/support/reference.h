@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
 namespace phos::test {

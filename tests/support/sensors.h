@@ -1,8 +1,8 @@
 // Sensors read in memory.
 #pragma once
 
-#include "cache/sensors.h"
 #include "core/error.h"
+#include "sense/sensors.h"
 #include "support/indexed_file.h"
 #include "support/scenes.h"
 

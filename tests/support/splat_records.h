@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "cache/irradiance_cache.h"
 #include "core/random.h"
+#include "record/irradiance_cache.h"
 #include "splat/splatter.h"
 
 namespace phos::test {

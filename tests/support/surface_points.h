@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "cache/irradiance_cache.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "record/irradiance_cache.h"
 #include "scene/rays.h"
 
 namespace phos::test {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "cache/gather.h"
-#include "scene/film.h"
+#include "estimate/gather.h"
+#include "scene/motion/film.h"
 #include "support/gathered.h"
 
 namespace phos::test {

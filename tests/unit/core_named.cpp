@@ -1,9 +1,9 @@
 // Lists in one word: NAME=FILE, names, items, with commas and "=" in them.
 #include <gtest/gtest.h>
 
-#include "core/comma_list.h"
-#include "core/named_files.h"
 #include "core/options.h"
+#include "core/text/comma_list.h"
+#include "core/text/named_files.h"
 #include "support/complaint.h"
 #include "support/run.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/likeness.h"
+#include "core/text/likeness.h"
 #include "support/complaint.h"
 #include "support/every_option.h"
 

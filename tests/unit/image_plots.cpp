@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "image/csv_plot.h"
+#include "image/plot/csv_plot.h"
 
 namespace phos {
 namespace {

@@ -131,7 +131,7 @@ TEST(LocalDensity, OnePhotonAndMany) {
   EXPECT_TRUE(is_finite(all_at_one_place.irradiance) && is_finite(all_at_one_place.stderr_lx()));
 }
 
-/// FORMULAS-glass G7.1: in light of radiance L from everywhere, E = pi L is the sum of flux over the disc's
+/// docs/methods.md#g7-1: in light of radiance L from everywhere, E = pi L is the sum of flux over the disc's
 /// area, without a cosine (with it: 2/3 of that).
 TEST(CausticMap, CrossingsCountWithoutACosine) {
   CausticPhotons photons;

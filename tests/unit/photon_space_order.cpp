@@ -1,5 +1,5 @@
 // Morton's order, where it is known, and where points coincide, are few, or far apart.
-#include "photon/space_order.h"
+#include "photon/tree/space_order.h"
 
 #include <gtest/gtest.h>
 

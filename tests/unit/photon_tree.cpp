@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "photon/kd_tree.h"
+#include "photon/tree/kd_tree.h"
 
 namespace phos {
 namespace {

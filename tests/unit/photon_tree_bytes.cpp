@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "photon/kd_tree.h"
+#include "photon/tree/kd_tree.h"
 
 namespace phos {
 namespace {

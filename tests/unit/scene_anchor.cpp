@@ -5,8 +5,8 @@
 
 #include "core/random.h"
 #include "core/sampling.h"
-#include "scene/anchor.h"
-#include "scene/film.h"
+#include "scene/motion/anchor.h"
+#include "scene/motion/film.h"
 #include "support/animated.h"
 #include "support/scenes.h"
 

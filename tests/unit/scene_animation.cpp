@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/animation.h"
 #include "scene/load.h"
+#include "scene/motion/animation.h"
 #include "support/gltf.h"
 #include "support/run.h"
 

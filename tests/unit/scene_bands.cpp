@@ -1,11 +1,11 @@
 // Colour matching, bands, and the spectra of RGB colours.
-#include "scene/bands.h"
+#include "scene/spectral/bands.h"
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "image/primaries.h"
-#include "scene/spectral_reflectance.h"
+#include "scene/spectral/reflectance.h"
 #include "support/run.h"
 
 namespace phos::test {

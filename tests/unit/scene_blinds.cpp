@@ -3,7 +3,7 @@
 
 #include "core/random.h"
 #include "core/sampling.h"
-#include "scene/find_blinds.h"
+#include "scene/opening/find_blinds.h"
 #include "support/blinds.h"
 #include "support/environment.h"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "scene/bsdf.h"
-#include "scene/microfacet.h"
+#include "scene/material/bsdf.h"
+#include "scene/material/microfacet.h"
 #include "support/one_material.h"
 
 using namespace phos;

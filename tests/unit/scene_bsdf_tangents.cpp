@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/bsdf.h"
-#include "scene/lint.h"
 #include "scene/load.h"
+#include "scene/material/bsdf.h"
 #include "scene/rays.h"
+#include "scene/report/lint.h"
 #include "scene/shading_frame.h"
 #include "support/gltf.h"
 #include "support/run.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/bsdf.h"
-#include "scene/gltf_coats.h"
+#include "scene/gltf/coats.h"
 #include "scene/load.h"
+#include "scene/material/bsdf.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/run.h"

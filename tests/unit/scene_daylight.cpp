@@ -1,5 +1,5 @@
 // Skies against closed forms and quadrature, the sun's place against an almanac, and what is refused.
-#include "scene/daylight.h"
+#include "scene/sky/daylight.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "scene/sky_perez.h"
-#include "scene/sun_position.h"
+#include "scene/sky/perez.h"
+#include "scene/sky/sun_position.h"
 #include "support/complaint.h"
 
 namespace phos::test {

@@ -1,5 +1,5 @@
 // Environment maps: where their texels lie, what they add up to, and what is refused.
-#include "scene/environment.h"
+#include "scene/sky/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "image/image.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "support/environment.h"
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 // docs/scenes.md says what phos makes of scene files, from the table that the loaders use.
 #include <gtest/gtest.h>
 
-#include "scene/scene_features.h"
+#include "scene/report/features.h"
 #include "support/run.h"
 
 namespace phos {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/error.h"
-#include "scene/animation.h"
+#include "scene/motion/animation.h"
 #include "scene/rays.h"
 #include "support/animated.h"
 #include "support/jumps.h"

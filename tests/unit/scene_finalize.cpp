@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/describe.h"
-#include "scene/lint.h"
 #include "scene/load.h"
+#include "scene/report/describe.h"
+#include "scene/report/lint.h"
 #include "support/run.h"
 
 namespace phos {

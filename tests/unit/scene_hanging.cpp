@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "scene/film.h"
-#include "scene/lint.h"
+#include "scene/motion/film.h"
+#include "scene/report/lint.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/luminaires.h"

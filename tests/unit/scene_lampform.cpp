@@ -3,9 +3,9 @@
 
 #include "core/random.h"
 #include "core/sampling.h"
-#include "scene/lamp_form.h"
+#include "scene/lamp/form.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/load.h"
-#include "scene/luminaires.h"
 
 using namespace phos;
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "scene/light_ways.h"
-#include "scene/unsampled.h"
+#include "scene/report/light_ways.h"
+#include "scene/report/unsampled.h"
 #include "support/scenes.h"
 
 namespace phos {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/lint.h"
 #include "scene/load.h"
+#include "scene/report/lint.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/run.h"

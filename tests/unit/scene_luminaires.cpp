@@ -1,6 +1,6 @@
 // What lights send to a point, and with which density.
 #include "core/sampling.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 
 #include <gtest/gtest.h>
 

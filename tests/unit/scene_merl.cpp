@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "scene/bsdf.h"
-#include "scene/describe.h"
-#include "scene/lint.h"
 #include "scene/load.h"
+#include "scene/material/bsdf.h"
+#include "scene/report/describe.h"
+#include "scene/report/lint.h"
 #include "support/gltf.h"
 #include "support/merl_bytes.h"
 #include "support/one_material.h"

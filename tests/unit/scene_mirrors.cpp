@@ -1,8 +1,8 @@
 // Flat mirrors, chains of them, and the images of lamps.
 #include <gtest/gtest.h>
 
-#include "scene/mirror_images.h"
-#include "scene/mirror_sight.h"
+#include "scene/mirror/images.h"
+#include "scene/mirror/sight.h"
 #include "support/scenes.h"
 
 namespace phos::test {

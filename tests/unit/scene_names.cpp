@@ -1,8 +1,8 @@
 // Names of the scene that options give, with commas and "=" in them, or unlike by case only.
 #include <gtest/gtest.h>
 
-#include "scene/find_portals.h"
 #include "scene/load.h"
+#include "scene/opening/find_portals.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/run.h"

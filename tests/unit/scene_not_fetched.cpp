@@ -4,7 +4,7 @@
 #include "file/csv.h"
 #include "image/image.h"
 #include "scene/load.h"
-#include "scene/photometric_file.h"
+#include "scene/luminaire/photometric_file.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/run.h"

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "scene/load.h"
-#include "scene/passage.h"
+#include "scene/material/passage.h"
 #include "support/run.h"
 
 namespace phos {

@@ -3,7 +3,7 @@
 
 #include "core/random.h"
 #include "core/sampling.h"
-#include "scene/bsdf.h"
+#include "scene/material/bsdf.h"
 #include "support/opal.h"
 
 namespace phos::test {

@@ -1,5 +1,5 @@
 // Panes against closed forms and tables of other programs (Born and Wolf 1.5; golden values by quadrature).
-#include "scene/pane.h"
+#include "scene/material/pane.h"
 
 #include <gtest/gtest.h>
 

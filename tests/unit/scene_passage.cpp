@@ -1,5 +1,5 @@
 // Rays that go straight through panes.
-#include "scene/passage.h"
+#include "scene/material/passage.h"
 
 #include <gtest/gtest.h>
 
@@ -158,7 +158,7 @@ TEST(Passage, ParallelFacesOfSolidGlassAreAPane) {
 }
 
 /// A lamp over a plate of 100 mm, in all 1.1 m away: the closed form is 1.0590 of the straight one on the
-/// axis (FORMULAS of the first passage: I (1-R)^2 / (h + d / n)^2).
+/// axis (docs/methods.md#g1-7, first passage: I (1-R)^2 / (h + d / n)^2).
 TEST(Passage, LampsOverPlatesAreNearer) {
   const Scene scene = plate(0.1f, false);
   const RayScene rays(scene);
@@ -211,6 +211,44 @@ TEST(Passage, PacketsAreAsSingleRays) {
   std::vector<Rgb> shares(many.size());
   rays.transmittance(many, shares);
   for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(shares[i], rays.transmittance(many[i])) << i;
+}
+
+/// Faces outwards, or inwards.
+void add_block(Scene& scene, const Vec3& lo, const Vec3& hi, bool outwards) {
+  const Vec3 size = hi - lo;
+  for (int a = 0; a < 3; ++a) {
+    Vec3 u(0), v(0);
+    u[(a + 1) % 3] = size[(a + 1) % 3], v[(a + 2) % 3] = size[(a + 2) % 3];
+    Vec3 far_side = lo;
+    far_side[a] = hi[a];
+    add_quad(scene, lo, outwards ? v : u, outwards ? u : v);
+    add_quad(scene, far_side, outwards ? u : v, outwards ? v : u);
+  }
+}
+
+/// Light passes a cube of glass, and the walls of a glass case, by parallel faces, but no block with a thing
+/// in it: bent, it goes elsewhere within.
+TEST(Passage, BlocksWithThingsInThemAreNoPlates) {
+  enum class Kind { empty, filled, showcase };
+  const auto through = [](Kind kind) {
+    Scene scene;
+    begin_instance(scene, "floor", add_lambert(scene, "floor", 0.5f));
+    add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+    scene.material.push_back(glass(Model::dielectric));
+    scene.material.back().double_sided = false;
+    begin_instance(scene, "glass", 1);
+    add_block(scene, Vec3(-0.5f, 0.5f, -0.5f), Vec3(0.5f, 1.5f, 0.5f), true);
+    if (kind == Kind::showcase) add_block(scene, Vec3(-0.4f, 0.6f, -0.4f), Vec3(0.4f, 1.4f, 0.4f), false);
+    if (kind != Kind::empty) {
+      begin_instance(scene, "thing", 0);
+      add_block(scene, Vec3(-0.3f, 0.9f, -0.3f), Vec3(0, 1.1f, 0), true);
+    }
+    finalize(scene);
+    return straight_down(scene, 2, 1.9f);
+  };
+  EXPECT_NEAR(through(Kind::empty), kClear, 1e-4);
+  EXPECT_EQ(through(Kind::filled), 0);
+  EXPECT_NEAR(through(Kind::showcase), kClear * kClear, 0.03);
 }
 
 }  // namespace phos::test

@@ -1,5 +1,5 @@
 // Readers of LM-63 and EULUMDAT: what files say, and what is wrong with them.
-#include "scene/photometric_file.h"
+#include "scene/luminaire/photometric_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Distributions of luminous intensity: what lies between the nodes, their flux, and where they shine.
-#include "scene/photometry.h"
+#include "scene/luminaire/photometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Colour rendering against published indices.
 #include <gtest/gtest.h>
 
-#include "scene/colour_rendering.h"
+#include "scene/spectral/colour_rendering.h"
 #include "support/run.h"
 
 namespace phos::test {

@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "scene/describe.h"
 #include "scene/load.h"
+#include "scene/report/describe.h"
 #include "support/run.h"
 
 namespace phos {

@@ -1,5 +1,5 @@
 // Spectra and their files.
-#include "scene/spectrum.h"
+#include "scene/spectral/spectrum.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Texture filtering, wrapping and transforms.
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Scenes in bands: lumens stay, what is grey stays grey, spectra go where they belong, and what is refused.
-#include "scene/to_bands.h"
+#include "scene/spectral/to_bands.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/bands.h"
-#include "scene/environment.h"
-#include "scene/merl.h"
-#include "scene/spectral_reflectance.h"
+#include "scene/material/merl.h"
+#include "scene/sky/environment.h"
+#include "scene/spectral/bands.h"
+#include "scene/spectral/reflectance.h"
 #include "support/complaint.h"
 #include "support/gltf.h"
 #include "support/luminaires.h"

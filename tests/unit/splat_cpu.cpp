@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
-#include "splat/cpu_splatter.h"
+#include "splat/cpu/splatter_kernel.h"
 #include "splat/tiles.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"

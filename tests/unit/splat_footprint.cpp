@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/random.h"
-#include "splat/cpu_splatter.h"
+#include "splat/cpu/splatter_kernel.h"
 #include "splat/splatter.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
-#include "splat/gloss_kernel.h"
+#include "splat/cpu/gloss_kernel.h"
 #include "splat/splatter.h"
 #include "support/gloss_view.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/sampling.h"
 #include "scene/load.h"
-#include "splat/lamp_rays.h"
+#include "splat/direct/lamp_rays.h"
 
 using namespace phos;
 
@@ -43,7 +43,7 @@ TEST(LampRays, CoverAllPatchesOfALampThatIsNearlyAParallelogram) {
     p.position = scene.bounds.centre() + Vec3(0.3f, 0.3f, 0.1f) * scene.bounds.size();
     p.normal = p.geometric_normal = Vec3(0, 1, 0);
     LampRays lamp_rays(lamps);
-    Sight sight;
+    LampVisibility sight;
     for (int k = 0; k < kSide * kSide; ++k) {
       const Vec2 u((static_cast<float>(k % kSide) + 0.5f) / kSide,
                    (static_cast<float>(k / kSide) + 0.5f) / kSide);

@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
-#include "splat/edges.h"
-#include "splat/layers.h"
-#include "splat/render.h"
+#include "splat/picture/edges.h"
+#include "splat/picture/layers.h"
+#include "splat/picture/render.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {

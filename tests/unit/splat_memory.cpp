@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "splat/picture_memory.h"
+#include "splat/picture/memory.h"
 
 namespace phos::test {
 namespace {

@@ -1,5 +1,5 @@
 // Numbers of rays that follow from an asked noise.
-#include "splat/noise_target.h"
+#include "splat/picture/noise_target.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Records drawn over a picture: where, which, and in what colours.
 #include <gtest/gtest.h>
 
-#include "splat/overlay.h"
+#include "splat/picture/overlay.h"
 #include "support/scenes.h"
 
 namespace phos::test {

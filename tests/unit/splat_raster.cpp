@@ -1,9 +1,9 @@
 // The plane above a record: what its pixels stand for, and that what they show is what rays find.
 #include <gtest/gtest.h>
 
-#include "cache/direct_light.h"
-#include "splat/hemisphere_raster.h"
-#include "splat/raster_plane.h"
+#include "direct/direct_light.h"
+#include "splat/gl/hemisphere_raster.h"
+#include "splat/gl/raster_plane.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "splat/render.h"
+#include "splat/picture/render.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {

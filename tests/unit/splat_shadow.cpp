@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "core/random.h"
-#include "scene/luminaires.h"
+#include "scene/lamp/luminaires.h"
 #include "splat/splatter.h"
 #include "support/scenes.h"
 

@@ -1,15 +1,15 @@
 // Study files: what they mean, and how wrong ones are refused.
-#include "study/study_file.h"
+#include "study/spec/study_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "core/error.h"
-#include "study/settings.h"
-#include "study/study_check.h"
-#include "study/study_tools.h"
-#include "study/study_values.h"
+#include "study/spec/check.h"
+#include "study/spec/settings.h"
+#include "study/spec/tools.h"
+#include "study/spec/values.h"
 #include "support/run.h"
 
 namespace phos {

@@ -1,14 +1,14 @@
 // What a study makes of its measurements, by hand.
-#include "core/markup.h"
-#include "study/results.h"
+#include "core/text/markup.h"
+#include "study/results/results.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "file/csv.h"
-#include "study/html_text.h"
-#include "study/results_plots.h"
+#include "study/html/text.h"
+#include "study/results/plots.h"
 
 namespace phos {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "study/effects.h"
-#include "study/pareto.h"
+#include "study/results/effects.h"
+#include "study/results/pareto.h"
 #include "study/statistics.h"
 
 namespace phos {

@@ -1,5 +1,5 @@
 // Which commands a study runs, what they share, in which order, and what it remembers of them.
-#include "study/study_work.h"
+#include "study/work.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "core/error.h"
-#include "study/study_journal.h"
-#include "study/study_run.h"
+#include "study/journal.h"
+#include "study/run.h"
 #include "support/run.h"
 
 namespace phos {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cache/radiance_gather.h"
-#include "cache/record_maker.h"
+#include "estimate/density.h"
+#include "estimate/radiance_gather.h"
 #include "photon/trace.h"
 #include "support/moving_rooms.h"
 #include "support/two_frames.h"
@@ -180,7 +180,8 @@ TEST(Ahead, OfPhotons) {
     return PhotonMap::build(std::move(traced), totals);
   };
   const PhotonMap photons[] = {photons_of(room.rays[0]), photons_of(room.rays[1])};
-  const RecordMaker now(photons[0], room.rays[0], options, 1), next(photons[1], room.rays[1], options, 1);
+  const DensityEstimator now(photons[0], room.rays[0], options, 1),
+      next(photons[1], room.rays[1], options, 1);
   const Made made = room.make(now, next, kOnPlatform);
   ASSERT_TRUE(made.ahead);
   expect_same(made.record, alone(now, kOnPlatform).record);

@@ -16,7 +16,7 @@ namespace {
 TEST(ChangeRate, IsTheNormOfTheDifference) {
   EXPECT_DOUBLE_EQ(change_rate(Rgb(3, 4, 0), Rgb(3, 4, 0), 1e-3), 0);
   EXPECT_NEAR(change_rate(Rgb(3, 4, 0), Rgb(3, 4, 1), 1e-3), 0.2, 1e-7);
-  // Ratios of coefficients (thesis 5.7) would call the first of these static, the second infinite.
+  // Ratios of coefficients (docs/methods.md#f2) would call the first of these static, the second infinite.
   EXPECT_NEAR(change_rate(std::vector<float>{10, -3}, std::vector<float>{10, 3}, 1e-3), 6 / std::sqrt(109.0),
               1e-6);
   EXPECT_NEAR(change_rate(std::vector<float>{10, 0}, std::vector<float>{10, 0.01f}, 1e-3), 1e-3, 1e-6);
@@ -89,7 +89,8 @@ Light light_of(const std::string& scene) {
   return [](double t) { return 10 * (1 + std::sin(2 * std::numbers::pi * t / 40)) / 2; };
 }
 
-/// Lives of F4 over 80 frames, of at most 20, against the table of an independent program.
+/// Lives by rate (docs/methods.md#f4) over 80 frames, of at most 20, against the table of an independent
+/// program.
 TEST(LifeOf, GivesTheRecordsOfTheTable) {
   const auto rows = test::golden("F_lifespan.csv");
   ASSERT_EQ(rows.size(), 9u);

@@ -6,12 +6,12 @@
 #include <map>
 
 #include "core/error.h"
-#include "scene/lamp_form.h"
+#include "scene/lamp/form.h"
 #include "support/films.h"
 #include "support/golden_table.h"
 #include "support/run.h"
 #include "temporal/change.h"
-#include "temporal/film_inputs.h"
+#include "temporal/film/inputs.h"
 
 namespace phos {
 namespace {
@@ -182,7 +182,7 @@ TEST(CacheAt, HasThoseThatLiveThen) {
   }
 }
 
-/// FORMULAS F1, with a floor: what is there must count where it is alone.
+/// docs/methods.md#f1, with a floor: what is there must count where it is alone.
 TEST(CacheAt, WeightsFallWithAgeUnlessInterpolated) {
   for (const TemporalGradients gradients : kAllGradients) {
     FilmRecord r = still(10, 18);
@@ -334,7 +334,7 @@ TEST(CacheAt, LeavesOutWhatHasNoSurface) {
   EXPECT_EQ(cache_at(film, 11, Scene()).records.size(), 1u);
 }
 
-/// FORMULAS F5: at the frame where one record ends and the next begins they say the same.
+/// docs/methods.md#f5: at the frame where one record ends and the next begins they say the same.
 TEST(ChangeBetween, LeadsToTheNextRecord) {
   const Scene first = one_triangle(), second = one_triangle(1, kTurn, kMove);
   const IrradianceCache random = test::random_cache(2);

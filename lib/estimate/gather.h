@@ -1,0 +1,51 @@
+// Irradiance records by rays over the hemisphere (final gathering).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "direct/lamp_sampler.h"
+#include "estimate/caustic_light.h"
+#include "estimate/estimator.h"
+#include "estimate/hemisphere/hemisphere.h"
+#include "estimate/hemisphere/hemisphere_estimator.h"
+#include "estimate/hit_light.h"
+#include "estimate/record_options.h"
+#include "estimate/shading.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
+/// standard error is at most error x its value, or all of options.rays are spent (counted). With paths = all,
+/// direct light at the record is added from samples of the lamps. A record whose rays found no light at all
+/// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
+/// what the rays hit tell; 0 where none was.
+/// The error stated is that of the rays (standard_error_of) and of the source (SourceNoise); the latter is
+/// what records about each other share. options.error is asked of the rays alone. What is not in it: how the
+/// source is smoothed over its zones, and the noise of its gloss.
+class GatherEstimator : public HemisphereEstimator {
+ public:
+  GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                  const RecordOptions& resolved, std::uint64_t seed);
+  ~GatherEstimator() override;
+  std::unique_ptr<Worker> make_worker() const override;
+  Made make(const RecordSite& site, Worker& worker) const override;
+  std::vector<SeenPass> last_seen(const Worker& worker) const override;
+  Made record_from(const RecordSite& site, std::span<const Hemisphere> passes, Worker& worker) const override;
+
+  /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
+  void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
+              Measure measure = Measure::projected) const;
+  /// What the worker's last sample() of a pass found; `h` is the hemisphere that it filled.
+  static SeenPass seen(const Worker& worker, std::uint32_t pass, const Hemisphere& h);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos

@@ -1,0 +1,230 @@
+#include "estimate/record_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "estimate/adoption.h"
+
+namespace phos {
+namespace {
+
+const Names<Estimate> kEstimates{{"hull", Estimate::hull},
+                                 {"kernel", Estimate::kernel},
+                                 {"gather", Estimate::gather},
+                                 {"raster", Estimate::raster}};
+const Names<Quantity> kQuantities{{"indirect", Quantity::indirect}, {"all", Quantity::all}};
+const Names<GradientMode> kGradients{{"auto", GradientMode::automatic},
+                                     {"analytic", GradientMode::analytic},
+                                     {"hybrid", GradientMode::hybrid},
+                                     {"ward-heckbert", GradientMode::ward_heckbert},
+                                     {"krivanek", GradientMode::krivanek},
+                                     {"hemisphere", GradientMode::hemisphere},
+                                     {"positional", GradientMode::positional},
+                                     {"blend", GradientMode::blend},
+                                     {"none", GradientMode::none}};
+const Names<RadiusRule> kRadii{{"harmonic", RadiusRule::harmonic}, {"least", RadiusRule::least}};
+const Names<Footprint> kFootprints{{"circle", Footprint::circle},
+                                   {"circle-min", Footprint::circle_min},
+                                   {"circle-harmonic", Footprint::circle_harmonic},
+                                   {"adaptive", Footprint::adaptive}};
+const Names<LeakTest> kLeakTests{{"none", LeakTest::none}, {"ray", LeakTest::ray}};
+const Names<Kernel> kKernels{
+    {"disc", Kernel::disc}, {"epanechnikov", Kernel::epanechnikov}, {"cone", Kernel::cone}};
+const Names<GatherFrom> kSources{{"cache", GatherFrom::cache}, {"photons", GatherFrom::photons}};
+const Names<RasterBorder> kBorders{
+    {"none", RasterBorder::none}, {"coverage", RasterBorder::coverage}, {"stretch", RasterBorder::stretch}};
+
+}  // namespace
+
+const char* name_of(GradientMode mode) { return name_in(kGradients, mode).c_str(); }
+
+bool of_photons_alone(const RecordOptions& records) {
+  return records.estimate == Estimate::hull || records.estimate == Estimate::kernel;
+}
+
+void RecordOptions::resolve(TypicalDistance typical) {
+  const auto known = [](float m) { return m > 0 && std::isfinite(m) ? static_cast<double>(m) : 0.25; };
+  const double least = known(typical.least_m), most = known(typical.most_m);
+  if (!min_radius_m) min_radius_m = std::min(least / 25, max_radius_m.value_or(HUGE_VAL));
+  if (!max_radius_m)
+    max_radius_m = std::max(most / (footprint == Footprint::adaptive ? 2 : 1), *min_radius_m);
+  if (*min_radius_m > *max_radius_m) {
+    throw Error(
+        ExitCode::usage, "--min-radius",
+        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
+  }
+  source_max_radius_m = std::min(*max_radius_m, std::max(most / 4, *min_radius_m));
+  if (gather_bounces == 0) {
+    throw Error(ExitCode::usage, "--gather-bounces",
+                "0 leaves no indirect light; give 1 for surfaces lit by lamps alone, or -1 for all");
+  }
+  if (footprint != Footprint::circle && estimate != Estimate::gather)
+    throw Error(ExitCode::usage, "--footprint",
+                text(name_in(kFootprints, footprint), " follows from gathered rays; give --estimate gather"));
+  if (footprint == Footprint::circle_min) radius = RadiusRule::least;
+  if (footprint == Footprint::circle_harmonic) radius = RadiusRule::harmonic;
+  using G = GradientMode;
+  const bool photons = of_photons_alone(*this);
+  const std::vector<G> allowed =
+      photons ? std::vector<G>{G::analytic, G::hemisphere, G::positional, G::blend, G::none}
+      : estimate == Estimate::gather
+          ? std::vector<G>{G::hybrid, G::analytic, G::ward_heckbert, G::krivanek, G::none}
+          : std::vector<G>{G::analytic, G::none};
+  if (gradients == G::automatic) gradients = allowed.front();
+  if (std::find(allowed.begin(), allowed.end(), gradients) != allowed.end()) return;
+  std::string names;
+  for (const G g : allowed) names += text(names.empty() ? "" : ", ", name_of(g));
+  throw Error(ExitCode::usage, "--gradients",
+              text(name_of(gradients), " cannot be had from --estimate ", name_in(kEstimates, estimate),
+                   "; it gives ", names));
+}
+
+void declare_reach_options(Options& options, RecordOptions& r) {
+  options.number("accuracy", r.accuracy, "A",
+                 "error allowed in interpolation: a record serves points within A times its radius",
+                 {1e-3, 1, false});
+  options.number("min-radius", r.min_radius_m, "METRES",
+                 "smallest radius (default: a 25th of the typical distance, which is the median, over lit or "
+                 "seen places, of the harmonic mean distance to what surrounds a place)",
+                 kPositive);
+  options.number(
+      "max-radius", r.max_radius_m, "METRES",
+      "largest radius (default: the typical distance, or half of it with --footprint adaptive); the "
+      "coarse records that rays read are limited to a quarter of the typical distance",
+      kPositive);
+  options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
+                           "ray: a record serves a point only if the two can see each other");
+}
+
+void declare_photon_options(Options& options, RecordOptions& r) {
+  options.integer("near-photons", r.near_photons, "N",
+                  "photons of the first query, for the distance to surroundings", {8, 4096});
+  options.integer("min-photons", r.min_photons, "N",
+                  "photons that a zone should hold at least, as far as the surroundings allow; records are "
+                  "no closer to each other than half such a zone",
+                  {1, 1e6});
+  options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7});
+  options.integer("distance-rays", r.distance_rays, "N",
+                  "rays that look for dark surroundings; 0: photons alone", {0, 4096});
+  options.integer("probes", r.probes, "N", "short rays that look for the surface where a zone is in doubt",
+                  {16, 65536});
+}
+
+void declare_gather_options(Options& options, RecordOptions& r) {
+  options.integer("rays", r.rays, "N",
+                  "rays of a hemisphere, at most: those of whole rings (12, 27, 52, 80, ...)", {12, 1048576});
+  options.integer("gather-bounces", r.gather_bounces, "N",
+                  "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
+  options.choice<GatherFrom>(
+      "gather-from", r.gather_from, kSources,
+      "indirect light where rays land: a coarse cache made from the photons first, or the "
+      "photons there (ten times the work); a cache among the inputs is read instead; where rays land nearer "
+      "than half a zone's radius, another ray is followed from there, unless lamps without area meet mirrors "
+      "or glass");
+  options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
+  options.integer("source-photons", r.source_photons, "N",
+                  "photons that a zone of the coarse cache should hold at least", {16, 1e6});
+  options.choice<RadiusRule>("radius", r.radius, kRadii,
+                             "radius from the harmonic mean or the least distance");
+}
+
+const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
+
+void declare_options(Options& options, RecordOptions& r) {
+  options.section("Records");
+  options.choice<Estimate>(
+      "estimate", r.estimate, kEstimates,
+      "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+  declare_reach_options(options, r);
+  options.choice<Quantity>("paths", r.paths, kQuantities,
+                           "light that counts: indirect leaves out what comes straight from a lamp");
+  options.choice<GradientMode>(
+      "gradients", r.gradients, kGradients,
+      "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
+      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
+  options.section("Estimates from photons");
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
+  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
+                  {1, 64});
+  declare_photon_options(options, r);
+  options.section("Estimates from rays");
+  declare_gather_options(options, r);
+  options.number("error", r.error, "E",
+                 "relative standard error at which a record has rays enough (default: all --rays are spent)",
+                 kPositive);
+  options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
+                  {1, 65536});
+}
+
+void declare_footprint_options(Options& options, RecordOptions& r) {
+  options.section("Zones of records");
+  options.choice<Footprint>(
+      "footprint", r.footprint, kFootprints,
+      "what a record serves: a disc; with --estimate gather also a disc by the least distance, one by the "
+      "harmonic mean that shrinks where records about it say otherwise, or eight axes of their own lengths "
+      "with the change of light along each (half the records, each at more cost; drawn on the CPU)",
+      Recorded::unless_default);
+  options.number(
+      "rho", r.rho, "R",
+      "of adaptive footprints: relative error of light along an axis, which is halved until it is met; at "
+      "most 0.05 where direct light is cached, or shadows are missed",
+      {1e-3, 1, false}, Recorded::unless_default);
+  options.choice<Quantity>(
+      "direct", r.paths, {{"traced", Quantity::indirect}, {"cached", Quantity::all}},
+      "light straight from the lamps: traced where it is seen, or cached in the records (the "
+      "same as --paths all); pays for many or large lamps, with --footprint adaptive",
+      Recorded::no);
+}
+
+void require_one_light(const Options& given) {
+  if (given.given("direct") && given.given("paths"))
+    throw Error(ExitCode::usage, "--direct", "says what --paths says; give one of the two");
+}
+
+void declare_raster_options(Options& options, RecordOptions& r) {
+  options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
+                  {8, 1024});
+  options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
+                               "what stands for directions beyond the plane: nothing, the plane's own mean "
+                               "(coverage), or its border pixels (stretch)");
+}
+
+void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {
+  const Adoption from(given, earlier);
+  from.choice("gradients", r.gradients, kGradients);
+  from.choice_unless(Footprint::circle, "footprint", r.footprint, kFootprints);
+  from.number_unless(RecordOptions().rho, "rho", r.rho);
+  adopt_all_but_gradients(r, from);
+}
+
+void adopt_all_but_gradients(RecordOptions& r, const Adoption& from) {
+  from.choice("estimate", r.estimate, kEstimates);
+  from.number("accuracy", r.accuracy);
+  from.number("min-radius", r.min_radius_m);
+  from.number("max-radius", r.max_radius_m);
+  from.choice("paths", r.paths, kQuantities, "direct");
+  from.choice("leak-test", r.leak_test, kLeakTests);
+  from.choice("kernel", r.kernel, kKernels);
+  from.integer("hemisphere-rings", r.hemisphere_rings);
+  from.integer("near-photons", r.near_photons);
+  from.integer("min-photons", r.min_photons);
+  from.integer("max-photons", r.max_photons);
+  from.integer("distance-rays", r.distance_rays);
+  from.integer("probes", r.probes);
+  from.integer("rays", r.rays);
+  from.number("error", r.error);
+  from.integer("gather-bounces", r.gather_bounces);
+  from.choice("gather-from", r.gather_from, kSources);
+  from.number("source-accuracy", r.source_accuracy);
+  from.integer("source-photons", r.source_photons);
+  from.choice("radius", r.radius, kRadii);
+  from.integer("light-samples", r.light_samples);
+  from.integer("raster-side", r.raster_side);
+  from.choice("raster-border", r.raster_border, kBorders);
+}
+
+}  // namespace phos

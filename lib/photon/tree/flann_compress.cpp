@@ -1,0 +1,136 @@
+#include "photon/tree/flann_compress.h"
+
+#define LZ4_HC_STATIC_LINKING_ONLY
+#include <lz4.h>
+#include <lz4hc.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "photon/tree/build.h"
+
+namespace phos {
+namespace {
+
+constexpr std::size_t kBlock = 64 * 1024;
+constexpr int kLevel = 9;  // of FLANN
+
+/// The last end of a value of a tree that is not behind a place.
+class ValueEnds {
+ public:
+  explicit ValueEnds(std::span<const std::byte> contents) : size_(contents.size()) {
+    std::uint64_t points;
+    std::memcpy(&points, contents.data(), sizeof points);
+    nodes_ = kTreeOrder + sizeof(std::int32_t) * static_cast<std::size_t>(points);
+  }
+  std::size_t last_before(std::size_t place) const {
+    if (place >= size_) return size_;
+    if (place <= nodes_) return place - (place - kTreeOrder) % 4;
+    const std::size_t in_node = (place - nodes_) % kTreeNode;
+    return place - in_node % 4;
+  }
+
+ private:
+  std::size_t size_, nodes_;
+};
+
+/// Ends of the blocks; of the first the header takes its part.
+std::vector<std::size_t> block_ends(std::span<const std::byte> contents, std::size_t header_bytes) {
+  const ValueEnds values(contents);
+  std::vector<std::size_t> ends;
+  for (std::size_t end = 0; end < contents.size();) {
+    end = values.last_before(end + kBlock - (end == 0 ? header_bytes : 0));
+    ends.push_back(end);
+  }
+  return ends;
+}
+
+/// FLANN keeps two blocks in turn in the halves of one buffer. LZ4 then has, of what came before a block,
+/// what lies just before it in memory, or else as far as the half that the block takes has not overwritten
+/// it. Only 64 KiB can be referred to.
+class Blocks {
+ public:
+  Blocks(std::span<const std::byte> contents, std::size_t header_bytes)
+      : contents_(contents), header_bytes_(header_bytes), ends_(block_ends(contents, header_bytes)) {}
+
+  std::size_t count() const { return ends_.size(); }
+
+  /// A length (of all but the first) and a block.
+  std::vector<std::byte> compressed(std::size_t i) const {
+    const std::span<const std::byte> block = contents_.subspan(begin(i), size(i));
+    std::vector<std::byte> before(known_before(i));
+    std::memcpy(before.data(), block.data() - before.size(), before.size());
+    const bool goes_on = i % 2 == 1 && is_full(i - 1);  // in FLANN's buffer, and so in `before`
+    if (goes_on) {
+      before.insert(before.end(), block.begin(), block.end());
+      return compressed({before.data(), before.size() - block.size()},
+                        before.data() + before.size() - block.size(), block.size(), i > 0);
+    }
+    return compressed(before, block.data(), block.size(), i > 0);
+  }
+
+ private:
+  std::size_t begin(std::size_t i) const { return i == 0 ? 0 : ends_[i - 1]; }
+  std::size_t size(std::size_t i) const { return ends_[i] - begin(i); }
+  bool is_full(std::size_t i) const { return size(i) + (i == 0 ? header_bytes_ : 0) == kBlock; }
+
+  std::size_t known_before(std::size_t i) const {
+    if (i == 0) return 0;
+    std::size_t known = size(i - 1);
+    // Of the block before that, what this one leaves of it.
+    if (i % 2 == 0 && is_full(i - 2)) known += kBlock - size(i);
+    return std::min(known, kBlock);
+  }
+
+  static std::vector<std::byte> compressed(std::span<const std::byte> before, const std::byte* block,
+                                           std::size_t size, bool with_length) {
+    const std::unique_ptr<LZ4_streamHC_t, int (*)(LZ4_streamHC_t*)> lz4(LZ4_createStreamHC(),
+                                                                        LZ4_freeStreamHC);
+    if (!lz4) throw std::bad_alloc();
+    LZ4_resetStreamHC_fast(lz4.get(), kLevel);
+    if (!before.empty())
+      LZ4_loadDictHC(lz4.get(), reinterpret_cast<const char*>(before.data()),
+                     static_cast<int>(before.size()));
+    const std::size_t front = with_length ? sizeof(std::uint64_t) : 0;
+    std::vector<std::byte> out(front + LZ4_COMPRESSBOUND(kBlock));
+    const int n = LZ4_compress_HC_continue(lz4.get(), reinterpret_cast<const char*>(block),
+                                           reinterpret_cast<char*>(out.data() + front),
+                                           static_cast<int>(size), LZ4_COMPRESSBOUND(kBlock));
+    PHOS_CHECK(n > 0, "LZ4 cannot compress ", size, " bytes");
+    const auto length = static_cast<std::uint64_t>(n);
+    if (with_length) std::memcpy(out.data(), &length, sizeof length);
+    out.resize(front + static_cast<std::size_t>(n));
+    out.shrink_to_fit();
+    return out;
+  }
+
+  std::span<const std::byte> contents_;
+  std::size_t header_bytes_;
+  std::vector<std::size_t> ends_;
+};
+
+}  // namespace
+
+std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents) {
+  const Blocks blocks(contents, header.size());
+  std::vector<std::vector<std::byte>> compressed(blocks.count());
+  parallel_for(blocks.count(), 1, [&](std::size_t i) { compressed[i] = blocks.compressed(i); });
+  std::vector<std::size_t> place(blocks.count() + 1, header.size());
+  for (std::size_t i = 0; i < compressed.size(); ++i) place[i + 1] = place[i] + compressed[i].size();
+  std::vector<std::byte> stream(place.back() + sizeof(std::uint64_t));  // no length: the end
+  std::copy(header.begin(), header.end(), stream.begin());
+  const std::uint64_t first = compressed.front().size();
+  std::memcpy(stream.data() + header.size() - sizeof first, &first, sizeof first);
+  parallel_for(compressed.size(), 8, [&](std::size_t i) {
+    std::copy(compressed[i].begin(), compressed[i].end(),
+              stream.begin() + static_cast<std::ptrdiff_t>(place[i]));
+  });
+  return stream;
+}
+
+}  // namespace phos

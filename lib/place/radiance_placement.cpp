@@ -1,0 +1,80 @@
+#include "place/radiance_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/error.h"
+#include "estimate/adoption.h"
+
+namespace phos {
+namespace {
+
+const Names<Estimate> kEstimates{{"gather", Estimate::gather}, {"hull", Estimate::hull}};
+const Names<RadianceGradient> kGradients{{"hybrid", RadianceGradient::hybrid},
+                                         {"analytic", RadianceGradient::analytic},
+                                         {"numeric", RadianceGradient::numeric},
+                                         {"none", RadianceGradient::none}};
+
+}  // namespace
+
+void declare_options(Options& options, RadianceOptions& r) {
+  options.section("Records");
+  options.choice<Estimate>(
+      "estimate", r.records.estimate, kEstimates,
+      "how radiance is estimated: rays over the hemisphere lit where they land, or photons over their convex "
+      "hull");
+  declare_reach_options(options, r.records);
+  options.choice<RadianceGradient>(
+      "gradients", r.gradients, kGradients,
+      "how the light's change with the place is found: from each ray, with the "
+      "edges of what hides it (hybrid; photons show none) or without (analytic), "
+      "or by moved rays");
+  options.section("Estimates from photons");
+  declare_photon_options(options, r.records);
+  options.section("Estimates from rays");
+  declare_gather_options(options, r.records);
+}
+
+void adopt_options(RadianceOptions& r, const Options& given, const Container& earlier) {
+  const Adoption from(given, earlier);
+  from.choice("gradients", r.gradients, kGradients);
+  adopt_all_but_gradients(r.records, from);
+}
+
+std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables& tables,
+                                        const RadianceEstimatorOf& estimator_of, const RayScene& rays,
+                                        const RecordOptions& resolved, const PlacementOptions& placement,
+                                        PlacementSource source, Counters& counters) {
+  std::vector<RadianceRun> runs;
+  for (const int order : tables.orders()) {
+    IrradianceCache own;
+    own.accuracy = cache.accuracy;
+    for (const RadianceRecord& r : cache.records)
+      if (r.order() == order) own.records.push_back(irradiance_of(r));
+    source.wanted = [&tables, order](std::uint32_t material) { return tables.order(material) == order; };
+    RadianceRun& run = runs.emplace_back(RadianceRun{order, {}});
+    run.report = place(own, *estimator_of(order), rays, resolved, placement, source, counters);
+    std::vector<RadianceRecord>& made = run.report.radiance;
+    PHOS_CHECK(made.size() == run.report.kept, made.size(), " of ", run.report.kept, " hold radiance");
+    std::move(made.begin(), made.end(), std::back_inserter(cache.records));
+    made.clear();
+  }
+  return runs;
+}
+
+void require_same_orders(const RadianceCache& earlier, const GlossTables& tables, const std::string& path) {
+  const std::vector<int> wanted = tables.orders();
+  for (const RadianceRecord& r : earlier.records) {
+    if (std::find(wanted.begin(), wanted.end(), r.order()) != wanted.end()) continue;
+    std::string all;
+    for (const int order : wanted) all += text(all.empty() ? "" : ", ", order);
+    throw Error(ExitCode::mismatch, path,
+                text("holds records of order ", r.order(), ", and materials want ",
+                     all.empty() ? "none" : "those of order " + all,
+                     "; give the .brdf file and --gloss that it was made with, or make a new file without "
+                     "--add-to"));
+  }
+}
+
+}  // namespace phos

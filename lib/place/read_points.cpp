@@ -1,0 +1,16 @@
+// Places of records from text.
+#include "file/atomic_file.h"
+#include "place/placement.h"
+#include "scene/point_table.h"
+
+namespace phos {
+
+std::vector<SurfaceSample> read_points(const std::string& path, const DVec3& origin_m) {
+  const PointTable table = parse_points(read_text(path), path, origin_m);
+  std::vector<SurfaceSample> points;
+  for (std::size_t i = 0; i < table.position.size(); ++i)
+    points.push_back({table.position[i], table.normal[i]});
+  return points;
+}
+
+}  // namespace phos

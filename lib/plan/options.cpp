@@ -1,0 +1,173 @@
+#include "plan/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "file/folder.h"
+#include "scene/opening/find_portals.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+void declare_options(Options& options, PlanOptions& p) {
+  using Of = PlanOptions::Of;
+  options.section("Goal");
+  options.text("error", p.error, "E", "error at most: 5% or 0.05");
+  options.number("seconds", p.seconds, "S", "time of the pipeline at most, without the pilot; 0: no bound",
+                 kNotNegative);
+  options.choice<Of>("quantity", p.quantity, {{"image", Of::image}, {"lux", Of::lux}, {"both", Of::both}},
+                     "what is wanted: a picture, lux at sensors, or both");
+  options.text("camera", p.camera, "NAME", "camera of the scene; the first one if not given");
+  options.integer("width", p.width, "PIXELS", "width; 0: from the height and the camera's aspect",
+                  {0, 65536});
+  options.integer("height", p.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
+                  {0, 65536});
+  options.section("Sensors");
+  options.file("sensors", p.points,
+               "CSV with the columns x,y,z,nx,ny,nz and perhaps id, or six numbers a line");
+  options.number("grid", p.grid.spacing_m, "METRES", "or a grid of this spacing, on a mesh or a workplane",
+                 kPositive);
+  options.text("mesh", p.grid.mesh, "NAME", "with --grid: the node whose surfaces carry it");
+  options.number("workplane", p.grid.height_m, "METRES",
+                 "with --grid: height of a horizontal plane over the floor", kNotNegative);
+  options.number("margin", p.grid.margin_m, "METRES", "with --grid: least distance to walls and edges",
+                 kNotNegative);
+  options.choice<Axis>("up", p.grid.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
+                       "which way is up, for a workplane");
+  options.section("Plan");
+  options.choice<PlanDirect>(
+      "direct", p.direct,
+      {{"auto", PlanDirect::automatic}, {"cached", PlanDirect::cached}, {"traced", PlanDirect::traced}},
+      text("light straight from the lamps: in the records, or by shadow rays; auto tries both for a picture "
+           "with ",
+           kManyLamps,
+           " lamps of an extent or more (the environment is one), takes "
+           "twice the pilot, and keeps the records where they promise a third of the time or of the error"));
+  options.choice<PlanRecords>(
+      "estimate", p.records,
+      {{"auto", PlanRecords::automatic}, {"gather", PlanRecords::gather}, {"hull", PlanRecords::hull}},
+      "records by rays that read a coarse cache, or of the photons about them; auto: of photons where lamps "
+      "light surfaces by mirrors, curved glass or sharp gloss so that rays would not find it");
+  options.number(
+      "pilot-seconds", p.pilot_s, "S",
+      "time for the pilot, about: half of it goes into references, and what they cannot tell is not known. "
+      "Without --run, a pilot that takes more than three times as long, and 20 s, is given up, and the plan "
+      "has the settings that are usual for the error. 0: no pilot, those settings at once",
+      kNotNegative);
+  options.flag("sh", p.script, "print a shell script (this is usual)");
+  options.flag("json", p.json, "print JSON");
+  options.file("output,o", p.output, "where the plan goes (else stdout); with --run, the folder of all files",
+               FileUse::written);
+  options.section("Run");
+  options.flag(
+      "run", p.run,
+      "carry the plan out in the folder of -o, measure it, and correct it until the error is met or the "
+      "time is spent; exit code 1 if it is not met");
+  options.number(
+      "reference-seconds", p.reference_s, "S",
+      "with --run: the two references that it is measured by may take so long, and better ones, where "
+      "they cannot tell whether the error is met, three times as long; 0: as long as the pipeline, or "
+      "60 if that is more",
+      kNotNegative);
+  options.integer("rounds", p.rounds, "N", "with --run: times that the pipeline is run, at most", {1, 100});
+}
+
+double read_error(const std::string& word) {
+  char* end = nullptr;
+  double value = std::strtod(word.c_str(), &end);
+  while (*end == ' ') ++end;
+  const bool percent = *end == '%';
+  if (percent) ++end, value /= 100;
+  if (end == word.c_str() || *end != '\0' || !(std::isgreater(value, 0) && value <= 1))
+    throw Error(ExitCode::usage, "--error",
+                "'" + word + "' is no error; give a share between 0 and 100 %: 5% or 0.05");
+  return value;
+}
+
+PlanGoal goal_of(const Options& options, const PlanOptions& p) {
+  PlanGoal goal;
+  if (options.given("error")) goal.error = read_error(p.error);
+  if (p.seconds > 0) goal.seconds = p.seconds;
+  if (!goal.error && !goal.seconds)
+    throw Error(ExitCode::usage, "", "nothing is asked for; give --error 5% or --seconds 60");
+  if (p.json && p.script) throw Error(ExitCode::usage, "--json", "and --sh exclude each other; give one");
+  if (p.run && p.output.empty())
+    throw Error(ExitCode::usage, "--run", "needs a folder for its files: -o folder");
+  if (p.run) check_folder(p.output);
+  if (p.run && (p.json || p.script))
+    throw Error(ExitCode::usage, "--run",
+                "writes plan.sh and plan.json into its folder; leave out --sh and --json");
+  if (p.run && !(p.pilot_s > 0))
+    throw Error(ExitCode::usage, "--pilot-seconds",
+                "0 leaves nothing to correct a run by; leave out --run, or give some seconds");
+  for (const char* name : {"reference-seconds", "rounds"})
+    if (!p.run && options.given(name))
+      throw Error(ExitCode::usage, text("--", name), "belongs to --run; leave it out");
+  return goal;
+}
+
+PlanTask task_of(const Options& options, const PlanOptions& p, const std::string& scene,
+                 const SceneOptions& scene_options) {
+  const GridOptions& grid = p.grid;
+  PlanTask task;
+  task.scene = scene;
+  const auto add = [](std::vector<std::string>& words, const char* name, const std::string& value) {
+    words.insert(words.end(), {name, value});
+  };
+  std::vector<std::string>& words = task.scene_words;
+  if (scene_options.time_s) add(words, "--time", shortest(*scene_options.time_s));
+  if (scene_options.frame) add(words, "--frame", shortest(*scene_options.frame));
+  if (!scene_options.environment.empty()) add(words, "--environment", scene_options.environment);
+  if (scene_options.environment_rotation_deg)
+    add(words, "--environment-rotation", shortest(*scene_options.environment_rotation_deg));
+  if (scene_options.environment_scale)
+    add(words, "--environment-scale", shortest(*scene_options.environment_scale));
+  for (const std::string& word : daylight_words(scene_options.daylight)) words.push_back(word);
+  if (!scene_options.portals.empty()) add(words, "--portals", scene_options.portals);
+  for (const std::string& word : luminaire_words(scene_options.luminaires)) words.push_back(word);
+  for (const std::string& word : band_words(scene_options.bands)) words.push_back(word);
+  task.image = p.quantity != PlanOptions::Of::lux, task.lux = p.quantity != PlanOptions::Of::image;
+  if (task.lux && p.direct == PlanDirect::cached)
+    throw Error(ExitCode::usage, "--direct",
+                "cached is for pictures: sensors always send shadow rays; leave it out");
+  for (const char* name : {"camera", "width", "height"})
+    if (!task.image && options.given(name))
+      throw Error(ExitCode::usage, text("--", name),
+                  "belongs to a picture; leave it out, or give --quantity both");
+  for (const char* name : {"sensors", "grid", "mesh", "workplane", "margin", "up"})
+    if (!task.lux && options.given(name))
+      throw Error(ExitCode::usage, text("--", name), "sets out sensors; give --quantity lux or both too");
+  task.camera = p.camera, task.width = p.width, task.height = p.height;
+  if (!task.lux) return task;
+  if (p.points.empty() && !grid.spacing_m)
+    throw Error(
+        ExitCode::usage, "--quantity",
+        "lux is measured at sensors: give --sensors points.csv, or --grid with --workplane or --mesh");
+  if (!p.points.empty() && grid.spacing_m)
+    throw Error(ExitCode::usage, "--sensors", "and --grid exclude each other; give one");
+  if (grid.spacing_m && grid.mesh.empty() == !grid.height_m)
+    throw Error(ExitCode::usage, "--grid",
+                "lies either on --workplane METRES or on --mesh NAME; give one of them");
+  task.points = p.points;
+  if (!p.points.empty()) return task;
+  add(task.grid, "--grid", shortest(*grid.spacing_m));
+  if (!grid.mesh.empty()) add(task.grid, "--mesh", grid.mesh);
+  if (grid.height_m) add(task.grid, "--height", shortest(*grid.height_m));
+  if (grid.margin_m > 0) add(task.grid, "--margin", shortest(grid.margin_m));
+  if (grid.up != Axis::y) add(task.grid, "--up", grid.up == Axis::x ? "x" : "z");
+  return task;
+}
+
+void add_portals(PlanTask& task, const Scene& scene, Needs& needs) {
+  constexpr const char* kPortals = "portals";
+  if (!scene.environment || !scene.portal.empty()) return;
+  const std::size_t found = portals_about_rooms(RayScene(scene)).size();
+  if (found == 0)
+    return needs.unwanted.push_back({kPortals, "the light from outside comes by no opening of a room"});
+  needs.wanted.push_back({kPortals, text("light from outside comes by ", found, " openings of rooms")});
+  task.scene_words.insert(task.scene_words.end(), {"--portals", "auto"});
+}
+
+}  // namespace phos

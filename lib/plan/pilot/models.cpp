@@ -1,0 +1,178 @@
+// The terms of a pilot's models, and figures that follow from them.
+#include <algorithm>
+#include <cmath>
+
+#include "file/csv.h"
+#include "plan/pilot/pilot.h"
+#include "record/irradiance_cache.h"
+
+namespace phos {
+namespace {
+
+using K = Knob;
+
+constexpr double kRoom = 1.25;  ///< records have, at least, over those that were counted
+
+Posynomial sum_of(std::vector<Monomial> terms) { return Posynomial(std::move(terms)); }
+
+/// What the coarse cache blurs near edges and contacts: a strip as wide as its zones. Sponza, 400 pixels
+/// wide, 40,000 to 10 million photons: what falls with them goes as their number to a power of -0.58.
+const Monomial kZoneBlur{"blur of photons' zones", {{K::photons, -0.5}}};
+const Monomial kInterpolation{"interpolation between records", {{K::accuracy, 2}}};
+/// Records that a place reads share their noise, less than in proportion to their number. Five scenes, 64
+/// rays, accuracies 0.56 to 0.1: what noise is left goes as that number to a power of -0.7 to -0.9, and from
+/// 0.2 down, where places read no more of them, it stays.
+const std::pair<Knob, double> kBlended{K::read, -0.8};
+const Monomial kPhotonNoise{"noise of photons", {{K::photons, -1}}};
+/// Of records of photons alone: a zone that has as many as it may hold has no more where there are more.
+const Monomial kZoneNoise{"noise of full zones", {{K::photons, -0.1}}};
+constexpr const char* kTextures = "textures and shadows within pixels";
+const Monomial kUnmended{"what no setting mends", {}};
+
+}  // namespace
+
+double RecordCount::at(double a) const {
+  if (!(count > 0)) return 0;
+  const double odds = count / (most - count) * std::pow(a / accuracy, -power);
+  return most * odds / (1 + odds);
+}
+
+RecordCount count_of(double a, double n, double finer, double more, double most) {
+  RecordCount count{n, a, 0, std::max(most, kRoom * std::max(n, more))};
+  const auto odds = [&](double records) { return records / (count.most - records); };
+  if (n > 0 && more > n) count.power = std::log(odds(more) / odds(n)) / std::log(a / finer);
+  return count;
+}
+
+double records_read(double a) { return std::pow(reading_accuracy(a) / a, 2); }
+
+double ReferenceCost::resolution(double samples) const {
+  // Two references of variance v each: the mean over n places of the product of their errors deviates by v /
+  // sqrt(n).
+  return std::sqrt(2 * variance / samples / std::sqrt(std::max(places, 1.0)));
+}
+
+double ReferenceCost::samples(double resolution) const {
+  return 2 * variance / (resolution * resolution) / std::sqrt(std::max(places, 1.0));
+}
+
+PlanModel image_error_model(const PlanTask& task, double detail) {
+  // Samples at edges share the rays of their pixel: what each adds falls with the square of its own few, its
+  // share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under an
+  // edge, whose mean varies as n^-1.5. Where a surface curves, each sample of a pixel sees that edge
+  // elsewhere, and its few rays find it as independent ones do. staircase2's chrome, mean squares in 10^-4:
+  // one sample of 4, 16, 64, 128 rays 84, 13, 1.3, 0.3; 32 samples that share 32, 128, 256 rays 9.2, 1.6,
+  // 0.75; 128 that share 128 3.4. Half shadows narrower than a pixel of the pilot: of four scenes, 92 and 400
+  // pixels wide, the noise at 400 is 0.35 to 0.78 of that at 92.
+  const std::pair<Knob, double> narrow{K::pixels, -0.1};
+  std::vector<Monomial> direct = {
+      {"noise of shadow rays", {narrow, {K::light_rays, -1}}},
+      {"noise of shadow rays, fast part", {narrow, {K::light_rays, -2}}},
+      {"noise of shadow rays at edges", {{K::light_rays, -2}, {K::edge_samples, 1}, {K::pixels, -0.5}}}};
+  std::vector<Monomial> gloss;
+  if (task.gloss) {
+    direct.push_back({"noise of lamps that gloss rays find", {{K::gloss_rays, -1.5}}});
+    direct.push_back({"noise of lamps that gloss rays find, curved surfaces",
+                      {{K::gloss_rays, -1}, {K::pixel_samples, 0.4}}});
+    gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
+             {"noise of edges in gloss", {{K::gloss_rays, -1.5}}},
+             {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}},
+             {"noise of records seen in gloss", {kBlended, {K::rays, -1}}}};
+  }
+  if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
+  std::vector<Monomial> indirect = {{"noise of gathered rays", {kBlended, {K::rays, -1}}},
+                                    {"noise of gathered rays, fast part", {kBlended, {K::rays, -1.5}}},
+                                    kPhotonNoise};
+  if (task.by_photons) indirect = {kPhotonNoise, kZoneNoise};
+  const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},
+      // Finer pixels show more of a texture.
+      textures{kTextures, {{K::pixel_samples, -1}, {K::pixels, -detail}}},
+      blur{"shadows that pixels share", {{K::light_rays, -1}, {K::pixels, -0.5}}};
+  PlanModel model{
+      {{"direct light, noise", sum_of(direct)},
+       {"direct light and gloss, bias", sum_of({edges, textures, blur})},
+       {"indirect light, noise", sum_of(indirect)},
+       {"indirect light, bias", sum_of({edges, textures, kInterpolation, kZoneBlur, kUnmended})}}};
+  if (!gloss.empty()) model.part.emplace_back("gloss, noise", sum_of(gloss));
+  return model;
+}
+
+void add_missed_detail(PlanModel& image_error, double detail, double sampled, double growth) {
+  const double missed = std::pow(growth, detail - std::clamp(sampled, 0.0, detail)) - 1;
+  if (!(missed > 0)) return;
+  for (auto& [name, p] : image_error.part)
+    p.extend(kTextures, {"textures within pixels, fast part", {{K::pixel_samples, -2}, {K::pixels, -detail}}},
+             missed);
+}
+
+PlanModel lux_error_model(const PlanTask& task) {
+  // Each sensor has a record, and reads its neighbours' too: as many as lie within the accuracy that it reads
+  // at, whose square read x accuracy^2 is. What 0.25 leaves of 0.5's blending is 1.04 (a box with two blocks)
+  // to 1.9 (an empty one) times the noise.
+  const auto reading = [](double power) {
+    return std::vector<std::pair<Knob, double>>{{K::read, power}, {K::accuracy, 2 * power}};
+  };
+  const auto rays = [&](double power) {
+    std::vector<std::pair<Knob, double>> powers = reading(-0.3);
+    powers.emplace_back(K::rays, power);
+    return powers;
+  };
+  std::vector<Monomial> indirect = {
+      {"noise of gathered rays", rays(-1)}, {"noise of gathered rays, fast part", rays(-1.5)}, kPhotonNoise};
+  if (task.by_photons) indirect = {kPhotonNoise, kZoneNoise};
+  return {{{"direct light, noise", sum_of({{"noise of shadow rays", {{K::sensor_rays, -1}}}})},
+           {"direct light, bias", sum_of({kUnmended})},
+           {"indirect light, noise", sum_of(indirect)},
+           {"indirect light, bias",
+            sum_of({{"interpolation between records", reading(1)}, kZoneBlur, kUnmended})}}};
+}
+
+PlanModel time_model(const PlanTask& task) {
+  PlanModel model;
+  std::vector<Monomial> records = {
+      {"start", {}}, {"places", {{K::pixels, 1}}}, {"records", {{K::records, 1}}}};
+  if (!task.by_photons) records.push_back({"their rays", {{K::records, 1}, {K::rays, 1}}});
+  model.part = {{"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
+                {"coarse records",
+                 // Many photons lie in zones that have one already: up to 1.3 million, seconds follow their
+                 // number to a power of 0.47 (Sponza) to 0.66 (Cornell box).
+                 sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}})},
+                {"records", sum_of(records)}};
+  if (task.image) {
+    std::vector<Monomial> terms = {{"start", {}},
+                                   {"pixels", {{K::pixels, 1}}},
+                                   {"scene, drawn for each pixel sample", {{K::pixel_samples, 1}}},
+                                   {"pixel samples", {{K::pixels, 1}, {K::pixel_samples, 1}}},
+                                   {"edges", {{K::pixels, 0.75}, {K::edge_samples, 1}}},
+                                   {"shadow rays", {{K::pixels, 1}, {K::light_rays, 1}}}};
+    if (task.gloss) terms.push_back({"gloss rays", {{K::pixels, 1}, {K::gloss_rays, 1}}});
+    model.part.emplace_back("picture", sum_of(terms));
+  }
+  if (task.image && task.lux)  // made anew when records for the sensors are added
+    model.part.emplace_back("coarse records, again", *std::as_const(model).find("coarse records"));
+  if (task.lux)
+    model.part.emplace_back("lux", sum_of({{"start", {}}, {"shadow rays", {{K::sensor_rays, 1}}}}));
+  return model;
+}
+
+std::string thinned_rows(const std::string& csv, const std::string& where,
+                         const std::vector<std::string>& columns, std::size_t most, std::size_t* rows) {
+  const CsvTable table = parse_csv(csv, where);
+  std::vector<std::size_t> kept;
+  std::string out;
+  for (const std::string& name : columns) {
+    kept.push_back(table.column(name, where));
+    out.append(out.empty() ? "" : ",").append(name);
+  }
+  out += '\n';
+  const std::size_t n = table.rows.size(), count = std::min(n, most);
+  if (rows) *rows = n;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<std::string>& row = table.rows[count > 1 ? i * (n - 1) / (count - 1) : 0];
+    for (std::size_t c = 0; c < kept.size(); ++c) out.append(c > 0 ? "," : "").append(row[kept[c]]);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace phos

@@ -1,0 +1,85 @@
+// The runs of a pilot: files in a folder that goes with it, times, and what two of a kind tell.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "plan/pilot/picture_detail.h"
+#include "plan/pilot/pilot.h"
+#include "plan/reference_doubts.h"
+#include "plan/separate.h"
+#include "study/command.h"
+#include "study/scratch_folder.h"
+
+namespace phos {
+
+struct ReferenceRun {
+  double seconds = 0;   ///< of one of the pair
+  double places = 0;    ///< pixels, sensors
+  double variance = 0;  ///< of one, as ReferenceCost has it
+  ReferenceDoubts doubts;
+};
+
+/// Relative to the mean of the whole.
+struct SeparatedLayers {
+  Separated whole, indirect;
+  /// Straight from the lamps, and what is neither that nor indirect (gloss, mirrors): their noise alone.
+  Separated direct, gloss;
+};
+
+class PilotRuns {
+ public:
+  PilotRuns(const PlanTask& task, const PilotOptions& options);
+
+  /// Makes a pair; the last pair judges. Throws Error(bad_input) where everything is dark.
+  ReferenceRun references(bool lux, double samples);
+  /// Photons and records, twice.
+  void make_caches(const Knobs& knobs);
+  /// Two pictures of those caches; `direct`: with all light, else indirect light alone.
+  SeparatedLayers pictures(const Knobs& knobs, bool direct);
+  SeparatedLayers lux_tables(const Knobs& knobs);
+  /// Records that the whole task takes, at each accuracy.
+  std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
+  /// The picture that is meant, in its own size, of the last records that were counted, with few and with
+  /// more samples of pixels: edges are a smaller share of more pixels. Returns the power, as detail()'s, with
+  /// which what the few miss within pixels shrinks from the pilot's own size to this one.
+  double time_pictures(const Knobs& few, const Knobs& more);
+
+  /// The knobs with the pilot's own number of pixels.
+  Knobs sized(Knobs knobs) const;
+  /// What was measured of a part of the time model.
+  const std::vector<Observation>& times(const std::string& part) { return times_[part]; }
+  std::size_t sensors() const { return sensors_; }
+  /// Pixels of the whole picture over the pilot's.
+  double growth() const { return pixels_of(task_) / pixels_of(small_); }
+  /// Of the references' pictures.
+  double detail() const { return detail_power(reference_[0], reference_[1]); }
+
+ private:
+  static double pixels_of(const PlanTask& task) { return static_cast<double>(task.width * task.height); }
+  /// Every program is run here.
+  CommandRun require(const Command& command) const;
+  CommandRun timed(const std::string& part, const Knobs& knobs, const Command& command);
+  double records_run(const Knobs& knobs, const Command& command);
+  std::string name(const char* kind, std::size_t which) const;
+  void set_out_sensors();
+  std::vector<double> lux_of(const std::string& path, const char* column) const;
+
+  const PlanTask task_;
+  PlanTask small_;
+  PilotOptions options_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  CommandRunner runner_;
+  ScratchFolder folder_;
+  std::map<std::string, std::vector<Observation>> times_;
+  std::map<double, bool> traced_;  ///< photons that are there
+  Knobs made_{};                   ///< of the caches
+  Image reference_[2];
+  std::vector<double> lux_reference_[2];
+  double image_mean_ = 0, lux_mean_ = 0;
+  std::size_t sensors_ = 0;
+};
+
+}  // namespace phos

@@ -1,0 +1,32 @@
+// What references say that they cannot tell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "scene/report/light_ways.h"
+
+namespace phos {
+
+/// Of the --stats of phos-reference: ways of light that it did not sample ("unsampled"), and places whose
+/// light rests on too few bright paths ("untrusted").
+class ReferenceDoubts {
+ public:
+  /// Of one more run, over so many places.
+  void add(const Json& stats, double places);
+  /// Have too many places too few bright paths? More samples may mend that.
+  bool too_few_bright() const { return untrusted_share_ > kFewUntrusted; }
+  /// For people, one each; none: what the references say can be trusted.
+  std::vector<std::string> lines() const;
+
+  /// As many are flagged where the interval is still good (Pareto tails of index 2.5 and above,
+  /// docs/methods.md#g6-4).
+  static constexpr double kFewUntrusted = 0.1;
+
+ private:
+  std::vector<LightWay> unsampled_;
+  double untrusted_share_ = 0;
+};
+
+}  // namespace phos

@@ -1,0 +1,31 @@
+// What the light of a scene requires, and what it does not, each with a reason.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/json.h"
+#include "radiance/gloss_report.h"
+#include "scene/report/describe.h"
+#include "scene/report/light_ways.h"
+
+namespace phos {
+
+struct Needs {
+  bool lit = false;            ///< there is a lamp
+  bool gloss = false;          ///< something glossy, a mirror or glass: rays of the picture follow it
+  bool specular = false;       ///< mirrors or smooth glass among them
+  std::vector<LightWay> ways;  ///< of lamps to surfaces, by mirrors, curved glass or sharp gloss
+  bool animated = false;
+  std::int64_t frames = 0;
+  std::vector<Requirement> wanted;    ///< what the plan makes, and why
+  std::vector<Requirement> unwanted;  ///< what it leaves out, and why
+};
+
+/// `gloss`: gloss_report() of the scene. A picture is one view: gloss is traced, and what radiance records
+/// could serve is said.
+Needs plan_needs(const Scene& scene, const Json& gloss);
+
+Json to_json(const Needs& needs);
+
+}  // namespace phos

@@ -1,0 +1,183 @@
+#include "plan/task.h"
+
+#include <cmath>
+
+namespace phos {
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
+
+Words of_scene(const PlanTask& task, const std::string& scene) {
+  Words words{scene};
+  add(words, task.scene_words);
+  return words;
+}
+
+Words view(const PlanTask& task) {
+  Words words;
+  if (!task.camera.empty()) words = {"--camera", task.camera};
+  add(words, {"--width", std::to_string(task.width), "--height", std::to_string(task.height)});
+  return words;
+}
+
+Words estimated(const PlanTask& task, const Knobs& k) {
+  const Words accuracy{"--accuracy", knob_word(k, Knob::accuracy)};
+  Words words{"--estimate", task.by_photons ? "hull" : "gather"};
+  add(words, accuracy);
+  if (!task.by_photons) add(words, {"--rays", knob_word(k, Knob::rays)});
+  return words;
+}
+
+/// Of accuracy times the typical distance: smallest radius of records of a picture, so that what they leave
+/// out falls with their noise. On Sponza, 400 pixels wide, 0.057 of the distance leaves 4.5e-4, 2.7e-4
+/// and 1.9e-4 of the mean's square, in mean square, by 7.7, 8.6 and 12.1 s of records of accuracy 0.4, 0.28
+/// and 0.14; half of that radius 2.1e-4, 1.4e-4 and 1.4e-4 by 8.9, 10.1 and 13.1 s; the noise of their 128
+/// rays is 14e-4, 7e-4 and 4e-4.
+constexpr double kLeastRadius = 1 / 8.;
+
+}  // namespace
+
+std::string knob_word(const Knobs& knobs, Knob knob) {
+  const double v = knobs[at(knob)];
+  return knob == Knob::accuracy ? shortest(v) : std::to_string(std::llround(v));
+}
+
+Command seeded(Command command, std::uint64_t seed) {
+  if (seed != 0) add(command.arguments, {"--seed", std::to_string(seed)});
+  return command;
+}
+
+Command photons_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {"--photons", knob_word(knobs, Knob::photons)});
+  return {"phos-photons", words, out};
+}
+
+Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                             const std::string& photons, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {photons, "--place", "view"});
+  add(words, view(task));
+  add(words, estimated(task, knobs));
+  if (task.cached_direct)
+    add(words, {"--direct", "cached", "--footprint", "adaptive"});
+  else if (task.typical_m > 0)
+    add(words, {"--min-radius",
+                shortest(static_cast<float>(kLeastRadius * knobs[at(Knob::accuracy)]) * task.typical_m)});
+  if (task.pixels_of_final < 1)
+    add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
+  return {"phos-irradiance", words, out};
+}
+
+Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                               const std::string& photons, const std::string& points,
+                               const std::string& add_to, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {photons});
+  // Photons tell nothing in free air: records of them lie on surfaces, and phos-sense makes those in the air.
+  if (!task.by_photons) add(words, {"--at", points, "--place", "given"});
+  if (add_to.empty())
+    add(words, estimated(task, knobs));  // else they are those of the file
+  else
+    add(words, {"--add-to", add_to});
+  return {"phos-irradiance", words, out};
+}
+
+namespace {
+
+Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene, const std::string& cache,
+              const Words& light, const std::string& out) {
+  Words words = of_scene(task, scene);
+  words.push_back(cache);
+  add(words, view(task));
+  const std::int64_t samples = std::llround(knobs[at(Knob::pixel_samples)]),
+                     asked = std::llround(knobs[at(Knob::edge_samples)]) - samples;
+  const std::int64_t more = asked + asked % 2;  // in pairs about the pixel's centre
+  add(words, {"--pixel-samples", std::to_string(samples)});
+  if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
+  add(words, light);
+  return {"phos-splat", words, out};
+}
+
+}  // namespace
+
+Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& cache, const std::string& out) {
+  Words light{"--direct", "interleaved", "--light-samples", knob_word(knobs, Knob::light_rays)};
+  if (task.gloss) add(light, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
+  return drawn(task, knobs, scene, cache, light, out);
+}
+
+Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                 const std::string& cache, const std::string& out) {
+  return drawn(task, knobs, scene, cache,
+               {"--direct", "none", "--gloss-samples", "0", "--layers", "indirect"}, out);
+}
+
+Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                      const std::string& cache, const std::string& points, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {cache, "--points", points, "--light-samples", knob_word(knobs, Knob::sensor_rays)});
+  return {"phos-sense", words, out};
+}
+
+Command points_command(const PlanTask& task, const std::string& scene, const std::string& out) {
+  Words words = of_scene(task, scene);
+  add(words, {"--direct-only", "--light-samples", "1"});
+  add(words, task.grid);
+  return {"phos-sense", words, out};
+}
+
+Command reference_picture_command(const PlanTask& task, std::int64_t samples, const std::string& out) {
+  Words words = of_scene(task, task.scene);
+  add(words, view(task));
+  add(words, {"--samples", std::to_string(samples), "--adaptive"});
+  return {"phos-reference", words, out};
+}
+
+Command reference_points_command(const PlanTask& task, std::int64_t samples, const std::string& points,
+                                 const std::string& out) {
+  Words words = of_scene(task, task.scene);
+  add(words, {"--points", points, "--samples", std::to_string(samples), "--method", "auto"});
+  return {"phos-reference", words, out};
+}
+
+std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                   const std::string& folder, std::uint64_t seed) {
+  const auto file = [&](const char* name) { return folder + "/" + name; };
+  std::vector<PlanStage> stages;
+  const auto stage = [&](const char* name, const char* what, Command command) {
+    stages.push_back({name, what, seeded(std::move(command), seed)});
+  };
+  const std::string photons = file(kPlanPhotons), records = file(kPlanRecords);
+  const std::string points = task.grid.empty() ? task.points : file(kPlanPoints);
+  if (task.lux && !task.grid.empty())
+    stage("sensors", "where the sensors are", points_command(task, scene, points));
+  stage("photons", "light from the lamps, and a tree over it", photons_command(task, knobs, scene, photons));
+  if (task.image)
+    stage("records",
+          task.cached_direct
+              ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
+                "photons"
+          : task.by_photons
+              ? "indirect light where the camera looks, of the photons there"
+              : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
+          view_records_command(task, knobs, scene, photons, records));
+  if (task.lux)
+    stage(task.image ? "sensor records" : "records", "indirect light where the sensors are",
+          sensor_records_command(task, knobs, scene, photons, points, task.image ? records : "", records));
+  if (task.image)
+    stage("picture",
+          task.cached_direct ? "records drawn, what mirrors and gloss show by rays"
+                             : "records drawn, direct light and what mirrors and gloss show by rays",
+          picture_command(task, knobs, scene, records, file(kPlanPicture)));
+  if (task.lux)
+    stage("lux", "direct light by rays, indirect light from the records",
+          sense_command(task, knobs, scene, records, points, file(kPlanLux)));
+  return stages;
+}
+
+}  // namespace phos

@@ -1,0 +1,74 @@
+// What a plan is asked for, and the commands that make it with given settings.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plan/model.h"
+#include "study/command.h"
+
+namespace phos {
+
+/// Of which scene what is wanted.
+struct PlanTask {
+  std::string scene;                     ///< path
+  std::vector<std::string> scene_words;  ///< options that every stage needs: "--environment", "sky.hdr"
+  std::string camera;                    ///< "": the scene's first
+  std::int64_t width = 0, height = 0;    ///< of the picture, pixels, both resolved
+  float typical_m = 0;         ///< typical_distance_m() of what is seen; 0: radii are the usual ones
+  double pixels_of_final = 1;  ///< the same pixel of the picture that is meant, in pixels of this one
+  bool image = true, lux = false;
+  std::string points;             ///< CSV of the sensors
+  std::vector<std::string> grid;  ///< or the options of phos-sense that set them out; empty: there is a CSV
+  bool gloss = false;             ///< something glossy is traced: --gloss-samples counts
+  bool specular = false;          ///< mirrors or smooth glass are
+  bool by_photons = false;        ///< records are made of photons alone (hull), not by gathered rays
+  bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
+};
+
+/// One line of the pipeline.
+struct PlanStage {
+  std::string name;  ///< "photons"
+  std::string what;  ///< what it does, for people
+  Command command;
+};
+
+/// Names of the files in the folder of a plan.
+inline constexpr const char *kPlanPhotons = "light.photons", *kPlanRecords = "light.irradiance",
+                            *kPlanPicture = "image.exr", *kPlanPoints = "sensors.csv", *kPlanLux = "lux.csv";
+
+/// The pipeline: photons, records, and the picture or the table of lux or both. `scene` stands in for the
+/// path of the task's, `folder` before every file that is written; `seed` is given to each stage that draws.
+std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                   const std::string& folder, std::uint64_t seed);
+
+// The single commands.
+Command photons_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& out);
+/// Records where the camera looks.
+Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                             const std::string& photons, const std::string& out);
+/// Records where sensors are; added to those of a file unless `add_to` is empty.
+Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                               const std::string& photons, const std::string& points,
+                               const std::string& add_to, const std::string& out);
+Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                        const std::string& cache, const std::string& out);
+/// The same with indirect light alone.
+Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                                 const std::string& cache, const std::string& out);
+Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                      const std::string& cache, const std::string& points, const std::string& out);
+/// A table that sets out a grid's points: their places, and direct light with a ray to each lamp.
+Command points_command(const PlanTask& task, const std::string& scene, const std::string& out);
+Command reference_picture_command(const PlanTask& task, std::int64_t samples, const std::string& out);
+Command reference_points_command(const PlanTask& task, std::int64_t samples, const std::string& points,
+                                 const std::string& out);
+/// The command with --seed.
+Command seeded(Command command, std::uint64_t seed);
+
+/// "100000", "0.4": a knob's value as an option has it.
+std::string knob_word(const Knobs& knobs, Knob knob);
+
+}  // namespace phos

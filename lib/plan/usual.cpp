@@ -1,0 +1,78 @@
+#include "plan/usual.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "estimate/hemisphere/hemisphere.h"
+
+namespace phos {
+namespace {
+
+/// Of a picture or table that is right to 5 %.
+constexpr double kError = 0.05, kPhotons = 1e6, kPhotonsAlone = 4e6, kAccuracy = 0.28;
+constexpr double kRays = 1600, kEdgeSamples = 16, kLightRays = 64, kGlossRays = 64, kSensorRays = 256;
+/// Powers of the error with which photons and rays grow, and accuracy shrinks.
+constexpr double kOfPhotons = 1.5, kOfRays = 1, kOfSamples = 1.5, kOfAccuracy = 0.5;
+
+double power_of_two(double v, double least, double most) {
+  return std::clamp(std::exp2(std::round(std::log2(v))), least, most);
+}
+
+/// Rays of whole rings.
+double whole_rings(double rays) {
+  int rings = 2;
+  while (static_cast<double>(cells_of(rings + 1)) <= rays && rings < 64) ++rings;
+  return static_cast<double>(cells_of(rings));
+}
+
+}  // namespace
+
+Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps) {
+  const double finer = kError / error;
+  const auto times = [&](double usual, double power) { return usual * std::pow(finer, power); };
+  Knobs k{};
+  const double photons = times(task.by_photons ? kPhotonsAlone : kPhotons, kOfPhotons);
+  k[at(Knob::photons)] = std::clamp(std::round(photons / 1e4) * 1e4, 5e4, 5e7);
+  k[at(Knob::accuracy)] = std::clamp(std::round(100 * times(kAccuracy, -kOfAccuracy)) / 100, 0.1, 0.4);
+  k[at(Knob::rays)] = whole_rings(times(kRays, kOfRays));
+  k[at(Knob::read)] = records_read(k[at(Knob::accuracy)]);
+  const double samples = error > 0.03 ? 4 : power_of_two(times(4, 1), 4, 64);
+  k[at(Knob::pixel_samples)] = samples;
+  k[at(Knob::edge_samples)] = power_of_two(times(kEdgeSamples, 1), samples, 256);
+  k[at(Knob::light_rays)] = power_of_two(
+      times(kLightRays, kOfSamples) / std::sqrt(static_cast<double>(std::max<std::size_t>(lamps, 1))),
+      samples, 4096);
+  k[at(Knob::gloss_rays)] = task.gloss ? power_of_two(times(kGlossRays, kOfSamples), samples, 4096) : 1;
+  k[at(Knob::sensor_rays)] = power_of_two(times(kSensorRays, kOfSamples), 16, 65536);
+  return k;
+}
+
+Plan usual_plan(const PlanTask& task, const PlanGoal& goal, double usual_error, std::size_t lamps,
+                const std::string& why) {
+  Plan plan;
+  plan.predicted = false;
+  plan.chosen.knobs = usual_knobs(task, goal.error.value_or(usual_error), lamps);
+  plan.warnings = {why};
+  return plan;
+}
+
+PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanOptions& plan,
+                         const LampCount& lamps, const std::function<Pilot(const PlanTask&)>& pilot,
+                         Needs& needs) {
+  const auto usual = [&](const std::string& why) {
+    PlannedWay way{task, {}, usual_plan(task, goal, plan.usual_error, lamps.lamps, why)};
+    way.task.cached_direct = plan.direct == PlanDirect::cached;
+    return way;
+  };
+  if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
+  try {
+    return plan_direct(task, goal, plan.direct, lamps, pilot, needs);
+  } catch (const PilotTooLong& late) {
+    return usual(
+        text("the pilot was given up after ", duration(late.seconds),
+             ": the settings are those usual for the error; more --pilot-seconds let the pilot end"));
+  }
+}
+
+}  // namespace phos

@@ -1,0 +1,243 @@
+#include "radiance/cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/float_traps.h"
+#include "core/parallel.h"
+#include "hsh/rotation.h"
+#include "radiance/check.h"
+#include "radiance/columns.h"
+
+namespace phos {
+namespace {
+
+/// E = first x c_00 + second x c_10.
+constexpr double kFirst = 1.2533141373155003;   // sqrt(pi / 2)
+constexpr double kSecond = 0.7236012545582676;  // sqrt(pi / 6)
+
+std::size_t count_of(int order) { return static_cast<std::size_t>(harmonic_count(order)); }
+
+bool all_finite(const std::vector<float>& v) {
+  return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+const char* what_is_wrong(const RadianceRecord& r) {
+  const NoFloatTraps traps;  // files may hold what is not a number
+  const std::size_t n = 3 * count_of(r.order()), slopes = r.gradient_x.size();
+  if (r.stderr_light.size() % 3 != 0 || r.light.size() != n || r.gradient_y.size() != slopes ||
+      (slopes != 0 && slopes != n))
+    return "coefficients that are not of one order";
+  if (!is_finite(r)) return "a value that is not finite";
+  if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
+  constexpr float kSlack = 1e-3f;
+  if (std::fabs(glm::length(r.frame.x) - 1) > kSlack || std::fabs(glm::length(r.frame.z) - 1) > kSlack ||
+      std::fabs(glm::dot(r.frame.x, r.frame.z)) > kSlack)
+    return "a frame that is not of unit length and rectangular";
+  if (!(r.shared >= 0 && r.shared <= 1)) return "a shared part of the variance outside of 0 .. 1";
+  if (std::any_of(r.stderr_light.begin(), r.stderr_light.end(), [](float x) { return x < 0; }))
+    return "a negative standard error";
+  return nullptr;
+}
+
+int require_radiance_order(int order) {
+  if (order >= 1 && order <= HshRotator::kMaxOrder) return order;
+  throw Error(ExitCode::usage, "",
+              text("order ", order, ": radiance records are of order 1 .. ", HshRotator::kMaxOrder));
+}
+
+bool is_finite(const RadianceRecord& r) {
+  return is_finite(r.position) && is_finite(r.frame.x) && is_finite(r.frame.z) && all_finite(r.light) &&
+         all_finite(r.gradient_x) && all_finite(r.gradient_y) && all_finite(r.stderr_light) &&
+         std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
+}
+
+Rgb irradiance_of(std::span<const float> light) {
+  constexpr std::size_t kZonal = 3 * harmonic_index(1, 0);
+  Rgb e;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = kFirst * static_cast<double>(light[c]);
+    if (light.size() > kZonal) sum += kSecond * static_cast<double>(light[kZonal + c]);
+    e[static_cast<int>(c)] = static_cast<float>(sum);
+  }
+  return e;
+}
+
+IrradianceRecord irradiance_of(const RadianceRecord& r) {
+  IrradianceRecord e;
+  e.position = r.position, e.normal = r.frame.z;
+  e.distance_m = r.distance_m, e.radius_m = r.radius_m, e.weight = r.weight;
+  e.irradiance = glm::max(irradiance_of(r.light), Rgb(0));
+  e.shared = r.shared;
+  for (int c = 0; c < 3; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const float second = r.order() > 1 ? r.stderr_light[3 + at] : 0;
+    e.stderr_lx[c] =
+        std::hypot(static_cast<float>(kFirst) * r.stderr_light[at], static_cast<float>(kSecond) * second);
+  }
+  if (r.gradient_x.empty()) return e;
+  const Rgb x = irradiance_of(r.gradient_x), y = irradiance_of(r.gradient_y);
+  for (int c = 0; c < 3; ++c) e.translation_gradient[c] = x[c] * r.frame.x + y[c] * r.frame.y;
+  return e;
+}
+
+IrradianceCache irradiance_of(const RadianceCache& radiance) {
+  IrradianceCache cache;
+  cache.accuracy = radiance.accuracy;
+  cache.scene_hash = radiance.scene_hash;
+  cache.caustics = radiance.caustics;
+  for (const RadianceRecord& r : radiance.records) cache.records.push_back(irradiance_of(r));
+  return cache;
+}
+
+int RadianceCache::order() const {
+  int most = 0;
+  for (const RadianceRecord& r : records) most = std::max(most, r.order());
+  return most;
+}
+
+void settle_slopes(RadianceRecord& r, double accuracy) {
+  if (r.gradient_x.empty()) return;
+  const double raised = static_cast<double>(r.radius_m) /
+                        static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  const double turn = std::sqrt(0.3) * accuracy * std::max(1.0, raised);
+  for (std::size_t l = 1; l < static_cast<std::size_t>(r.order()); ++l) {
+    const double spread = static_cast<double>(l) * turn;
+    const auto kept = static_cast<float>(std::exp(-spread * spread / 2));
+    for (std::size_t i = 3 * l * l; i < 3 * (l + 1) * (l + 1); ++i)
+      r.gradient_x[i] *= kept, r.gradient_y[i] *= kept;
+  }
+}
+
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
+                    ContainerWriter file) {
+  const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
+                    count = count_of(cache.order());
+  const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
+  std::vector<Vec3> position(n), frame(2 * n);
+  std::vector<float> distance(n), radius(n), shared(n), light(3 * n * count), error(3 * n * bands);
+  std::vector<float> along[2];
+  for (auto& g : along) g.resize(gradients ? light.size() : 0);
+  std::vector<std::uint8_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const RadianceRecord& r = cache.records[i];
+    const std::size_t own = 3 * count_of(r.order()), expected = gradients ? own : 0;
+    PHOS_CHECK(r.order() >= 1 && r.light.size() == own && r.gradient_x.size() == expected &&
+                   r.gradient_y.size() == expected,
+               "record ", i, " is of another shape");
+    PHOS_CHECK(what_is_wrong(r) == nullptr, "record ", i, " has ", what_is_wrong(r));
+    position[i] = r.position, frame[2 * i] = r.frame.x, frame[2 * i + 1] = r.frame.z;
+    distance[i] = r.distance_m, radius[i] = r.radius_m, shared[i] = r.shared;
+    order[i] = static_cast<std::uint8_t>(r.order());
+    to_column(r.light, &light[3 * i * count], count);
+    to_column(r.stderr_light, &error[3 * i * bands], bands);
+    if (!gradients) continue;
+    to_column(r.gradient_x, &along[0][3 * i * count], count);
+    to_column(r.gradient_y, &along[1][3 * i * count], count);
+  }
+  file.add_vectors("position", position, "m");
+  file.add<float>("frame", {reinterpret_cast<const float*>(frame.data()), 6 * n}, {n, 2, 3}, "1");
+  file.add<float>("coefficients", light, {n, 3, count}, "cd/m2 sqrt(sr)");
+  file.add<float>("stderr", error, {n, 3, bands}, "cd/m2 sqrt(sr)");
+  if (gradients) {
+    file.add<float>("gradient_x", along[0], {n, 3, count}, "cd/m2 sqrt(sr)/m");
+    file.add<float>("gradient_y", along[1], {n, 3, count}, "cd/m2 sqrt(sr)/m");
+  }
+  if (std::any_of(order.begin(), order.end(), [&](std::uint8_t o) { return o != order.front(); }))
+    file.add<std::uint8_t>("order", order, {n}, "1");
+  file.add<float>("distance", distance, {n}, "m");
+  file.add<float>("radius", radius, {n}, "m");
+  if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
+    file.add<float>("shared", shared, {n}, "1");
+  add_caustics(cache.caustics, file, provenance);
+  provenance.kind = "radiance";
+  provenance.scene_hash = cache.scene_hash;
+  provenance.extra["accuracy"] = cache.accuracy;
+  provenance.extra["quantity"] = "indirect";
+  provenance.extra["order"] = cache.order();
+  provenance.extra["records"] = n;
+  provenance.extra["basis"] =
+      "hsh, orthonormal, Condon-Shortley phase, index l*l+l+m, x and z of frame, y = z cross x";
+  file.write(path, provenance);
+}
+
+RadianceCache read_radiance(const Container& file, RecordsOf of) {
+  return read_radiance_rows(file, of, nullptr);
+}
+
+RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows) {
+  if (file.provenance().kind != "radiance") {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("holds ", file.provenance().kind, ", not radiance; give the output of phos-radiance"));
+  }
+  require_records_of(of, file);
+  file.verify();
+  const Json *accuracy = file.provenance().extra.find("accuracy"),
+             *order = file.provenance().extra.find("order");
+  const std::size_t n = file.vectors("position").size();
+  if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !order || !order->is_integer() ||
+      order->as_integer() < (n > 0 ? 1 : 0) || order->as_integer() > HshRotator::kMaxOrder) {
+    throw Error(ExitCode::bad_input, file.path(),
+                text("its header does not say accuracy, and an order from 1 to ", HshRotator::kMaxOrder,
+                     "; make the file again"));
+  }
+  const auto bands = static_cast<std::size_t>(order->as_integer()), count = bands * bands;
+  const auto column = [&](const char* name, const Shape& shape) {
+    return file.values<float>(name, shape).data();
+  };
+  const std::span<const Vec3> position = file.vectors("position");
+  const float *frame = column("frame", {n, 2, 3}), *light = column("coefficients", {n, 3, count}),
+              *error = column("stderr", {n, 3, bands}), *distance = column("distance", {n}),
+              *radius = column("radius", {n});
+  const float* shared = file.has("shared") ? column("shared", {n}) : nullptr;
+  const bool gradients = file.has("gradient_x") || file.has("gradient_y");
+  const float* along[2] = {gradients ? column("gradient_x", {n, 3, count}) : nullptr,
+                           gradients ? column("gradient_y", {n, 3, count}) : nullptr};
+  const std::uint8_t* own_order =
+      file.has("order") ? file.values<std::uint8_t>("order", {n}).data() : nullptr;
+  RadianceCache cache;
+  cache.accuracy = accuracy->as_number();
+  cache.scene_hash = file.provenance().scene_hash;
+  cache.caustics = caustics_of(file);
+  cache.records.resize(rows ? rows->size() : n);
+  std::vector<const char*> wrong(cache.records.size());
+  const auto row_of = [&](std::size_t record) { return rows ? (*rows)[record] : record; };
+  parallel_for(cache.records.size(), 256, [&](std::size_t record) {
+    RadianceRecord& r = cache.records[record];
+    const std::size_t i = row_of(record);
+    const std::size_t own_bands = own_order ? own_order[i] : bands, own = own_bands * own_bands;
+    if (own < 1 || own_bands > bands) {
+      wrong[record] = "no order that the file holds";
+      return;
+    }
+    const auto take = [&](const float* of_all, std::size_t stride, std::size_t used) {
+      const float* row = of_all + 3 * i * stride;
+      if (!rest_is_zero(row, stride, used)) wrong[record] = "numbers beyond its own order";
+      return from_column(row, stride, used);
+    };
+    const float* f = frame + 6 * i;
+    r.position = position[i];
+    r.frame.x = {f[0], f[1], f[2]}, r.frame.z = {f[3], f[4], f[5]};
+    r.frame.y = glm::cross(r.frame.z, r.frame.x);
+    r.distance_m = distance[i], r.radius_m = radius[i];
+    if (shared) r.shared = shared[i];
+    r.light = take(light, count, own);
+    r.stderr_light = take(error, bands, own_bands);
+    if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
+    if (!wrong[record]) wrong[record] = what_is_wrong(r);
+  });
+  for (std::size_t record = 0; record < wrong.size(); ++record) {
+    if (wrong[record]) {
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("record ", row_of(record), " has ", wrong[record],
+                       "; the file is damaged or was made by a faulty program: make it again"));
+    }
+  }
+  return cache;
+}
+
+}  // namespace phos

@@ -1,0 +1,11 @@
+// Can an irradiance record be one? For what reads them.
+#pragma once
+
+#include "record/irradiance_cache.h"
+
+namespace phos {
+
+/// In words that follow "has": "a value that is not finite"; nullptr: nothing.
+const char* what_is_wrong(const IrradianceRecord& record);
+
+}  // namespace phos

@@ -1,0 +1,98 @@
+#include "record/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phos {
+namespace {
+
+constexpr int kAxes = AdaptiveFootprint::kAxes;
+constexpr float kHalf = 0.70710678f;  // cosine of 45 degrees
+constexpr float kAxisX[kAxes] = {1, kHalf, 0, -kHalf, -1, -kHalf, 0, kHalf};
+constexpr float kAxisY[kAxes] = {0, kHalf, 1, kHalf, 0, -kHalf, -1, -kHalf};
+constexpr float kPerSine = 1.41421356f;
+
+/// A vector of the tangent plane between two axes: a along `first`, b along `second`.
+struct Sector {
+  int first, second;
+  float a, b;
+};
+
+Sector sector_of(float x, float y) {
+  const bool steep = std::fabs(y) > std::fabs(x);
+  const int k =
+      y >= 0 ? (x >= 0 ? (steep ? 1 : 0) : (steep ? 2 : 3)) : (x < 0 ? (steep ? 5 : 4) : (steep ? 6 : 7));
+  const int l = (k + 1) % kAxes;
+  return {k, l, std::max(0.f, kPerSine * (x * kAxisY[l] - y * kAxisX[l])),
+          std::max(0.f, kPerSine * (kAxisX[k] * y - kAxisY[k] * x))};
+}
+
+}  // namespace
+
+AdaptiveFootprint::AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes)
+    : x_(x), y_(glm::cross(n, x)), axes_(axes), longest_m_(0), shortest_m_(kInfinity) {
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    // What was read may be anything, until what_is_wrong() has seen it.
+    const float length_m = axes[k].length_m, most = std::numeric_limits<float>::max();
+    inverse_m_[k] = std::isgreater(length_m, 1 / most) ? 1 / length_m : most;
+    longest_m_ = std::fmax(longest_m_, length_m), shortest_m_ = std::fmin(shortest_m_, length_m);
+  }
+}
+
+Vec2 AdaptiveFootprint::direction(int k) { return {kAxisX[k], kAxisY[k]}; }
+
+float AdaptiveFootprint::share_of_disc() const {
+  float sum = 0;
+  for (const Axis& a : axes_) sum += (a.length_m / longest_m_) * (a.length_m / longest_m_);
+  return sum / kAxes;
+}
+
+float AdaptiveFootprint::error(const Vec3& step, const Vec3& n_p, const Vec3& n, float radius_m) const {
+  const float x = glm::dot(step, x_), y = glm::dot(step, y_), height = glm::dot(step, n) / shortest_m_;
+  const Sector s = sector_of(x, y);
+  const float along = s.a + s.b;
+  const float q = s.a * inverse_m_[static_cast<std::size_t>(s.first)] +
+                  s.b * inverse_m_[static_cast<std::size_t>(s.second)];
+  const float across = along > 0 ? std::sqrt(x * x + y * y) / along * q : 0;
+  const float turn = glm::length(n_p - n) * kHalf;
+  return std::sqrt(across * across + height * height) * (longest_m_ / radius_m) + turn;
+}
+
+Rgb AdaptiveFootprint::change(const Vec3& step, const Vec3& n_p) const {
+  const float x = glm::dot(step, x_), y = glm::dot(step, y_);
+  Rgb sum(0);
+  if (const Sector s = sector_of(x, y); s.a + s.b > 0) {
+    const auto i = static_cast<std::size_t>(s.first), j = static_cast<std::size_t>(s.second);
+    const float along = s.a + s.b, share = s.b / along;
+    const float a = s.a * inverse_m_[i], b = s.b * inverse_m_[j];
+    const float reach = std::sqrt(x * x + y * y) / along * (a + b), within = std::min(reach, 1.f);
+    sum += (reach > 1 ? 1 / reach : 1.f) * (a * axes_[i].slope + b * axes_[j].slope) +
+           (0.5f * within * within) * ((1 - share) * axes_[i].bend + share * axes_[j].bend);
+  }
+  const float tx = glm::dot(n_p, x_), ty = glm::dot(n_p, y_);
+  if (const Sector s = sector_of(tx, ty); s.a + s.b > 0) {
+    const auto i = static_cast<std::size_t>(s.first), j = static_cast<std::size_t>(s.second);
+    const float along = s.a + s.b, share = s.b / along;
+    const float sine = std::sqrt(tx * tx + ty * ty), within = std::min(sine, kMostSine);
+    sum += (sine > kMostSine ? kMostSine / sine : 1.f) *
+               (s.a * axes_[i].turn_slope + s.b * axes_[j].turn_slope) +
+           (0.5f * within * within) * ((1 - share) * axes_[i].turn_bend + share * axes_[j].turn_bend);
+  }
+  return sum;
+}
+
+const char* what_is_wrong(const AdaptiveFootprint& f, const Vec3& normal) {
+  bool finite = is_finite(f.x()), positive = true;
+  for (const AdaptiveFootprint::Axis& a : f.axes()) {
+    positive = positive && a.length_m > 0 && std::isfinite(a.length_m);
+    finite = finite && is_finite(a.slope) && is_finite(a.bend) && is_finite(a.turn_slope) &&
+             is_finite(a.turn_bend);
+  }
+  if (!finite) return "a footprint that is not finite";
+  if (!positive) return "a footprint's axis of no length";
+  if (std::fabs(glm::length(f.x()) - 1) > 1e-3f || std::fabs(glm::dot(f.x(), normal)) > 1e-3f)
+    return "a footprint that is not on its tangent plane";
+  return nullptr;
+}
+
+}  // namespace phos

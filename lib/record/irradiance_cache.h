@@ -1,0 +1,262 @@
+// Irradiance records: what they hold, their file, and interpolation between them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "file/container.h"
+#include "photon/caustic_map.h"
+#include "record/blend.h"
+#include "record/footprint.h"
+#include "scene/rays.h"
+
+namespace phos {
+
+/// One record. Gradients are absolute (docs/methods.md#a5), world space: row c is the gradient of channel c.
+struct IrradianceRecord {
+  Vec3 position{0};      ///< m
+  Vec3 normal{0, 0, 1};  ///< unit, on the side it lights
+  Rgb irradiance{0};     ///< lx
+  Rgb stderr_lx{0};      ///< standard error of irradiance
+  /// Part of its variance that records about it have too (0 to 1), so that it does not average out.
+  float shared = kSharedByZones;
+  float distance_m = kInfinity;  ///< mean distance of the surroundings (docs/methods.md#a7, #c6), unclamped
+  float radius_m = 0;            ///< R of the weight; the zone of influence is accuracy * radius, at most
+  Vec3 rotation_gradient[3]{Vec3(0), Vec3(0), Vec3(0)};  ///< lx per radian: E += dot(cross(n_i, n), g_r)
+  Vec3 translation_gradient[3]{Vec3(0), Vec3(0),
+                               Vec3(0)};  ///< lx/m: E += dot(p - p_i, g_t); tangent to the surface
+  /// Its share among others, in (0, 1]: less for a record of a film that fades in or out. Of no influence
+  /// where it is alone. Not in files.
+  float weight = 1;
+  /// Its shape, and how its light changes in it; null: a disc, and the gradients above.
+  std::shared_ptr<const AdaptiveFootprint> footprint{};
+};
+
+struct IrradianceCache {
+  std::vector<IrradianceRecord> records;
+  double accuracy = 0.2;  ///< a that placed them
+  std::string scene_hash;
+  /// Which light is in them: "indirect" (all but straight from the lights) or "all".
+  std::string quantity = "indirect";
+  /// Caustic photons, where records hold no caustic light (RecordOptions::caustics_apart): readers add it at
+  /// each point (estimate/caustic_light.h). Null: it is in the records.
+  std::shared_ptr<const CausticPhotons> caustics{};
+};
+
+/// Throws Error(mismatch), naming `where`, if of two caches that are read together one holds caustic light in
+/// its records and the other does not.
+void require_same_caustics(bool apart, bool other_apart, const std::string& where);
+
+/// Says in a header that caustic light is apart; adds its photons. Nothing where it is not.
+void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, ContainerWriter& file,
+                  Provenance& provenance);
+/// Null: the records of the file hold it.
+std::shared_ptr<const CausticPhotons> caustics_of(const Container& file);
+
+/// a at which records are read that were placed with accuracy `placed`. Placement leaves few of them about a
+/// point, which show their noise; where more are blended it averages out (as Tabellion and Lamorlette 2004
+/// do). Up to 2.5 times `placed`, but no farther than `most`, where blur begins to outweigh what noise it
+/// takes away (measured), or `placed`.
+inline double reading_accuracy(double placed, double most = 0.5) {
+  return std::min(2.5 * placed, std::max(placed, most));
+}
+
+/// Has any of them a footprint?
+bool any_footprint(std::span<const IrradianceRecord> records);
+
+/// Appends the records of another cache of the same light, each with the reach that it was placed with. Where
+/// both have caustic photons, those of `all` stay.
+void append(IrradianceCache& all, const IrradianceCache& more);
+
+/// What the records of a file are, as its header says: the light of one scene; a part of a run
+/// (place/parts.h); of a film, each for some of its frames (temporal/film/cache.h).
+enum class RecordsOf { cache, part, film };
+RecordsOf records_of(const Container& file);
+/// Throws Error(bad_input), saying what to do, unless the file holds records of that.
+void require_records_of(RecordsOf of, const Container& file);
+
+/// The file also holds an index (record/index.h) where there are many records of a cache.
+/// The part of their variance that records share is in it where it is not kSharedByZones for all.
+/// Of a part of a run it holds the least radii that neighbours leave instead; of a film, `more` columns.
+void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
+                      std::span<const float> least_radius_m = {}, ContainerWriter more = {});
+/// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named), a
+/// part or a film.
+IrradianceCache read_irradiance(const Container& file);
+
+/// The records of a file, read where they lie. Copies share the mapping.
+class RecordColumns {
+ public:
+  /// Throws Error(bad_input) like read_irradiance, or unless it is this that the file holds.
+  explicit RecordColumns(const Container& file, RecordsOf of = RecordsOf::cache);
+  std::size_t size() const { return size_; }
+  double accuracy() const { return accuracy_; }
+  const std::string& quantity() const { return quantity_; }
+  const Container& file() const { return file_; }
+  Vec3 position(std::size_t i) const { return vector(position_, i); }
+  Vec3 normal(std::size_t i) const { return vector(normal_, i); }
+  float radius_m(std::size_t i) const { return radius_[i]; }
+  const AdaptiveFootprint* footprint(std::size_t i) const {
+    return footprints_.empty() ? nullptr : footprints_[i].get();
+  }
+  IrradianceRecord operator[](std::size_t i) const;
+  /// All of them, in memory.
+  IrradianceCache cache() const;
+
+ private:
+  static Vec3 vector(const float* v, std::size_t i) { return {v[3 * i], v[3 * i + 1], v[3 * i + 2]}; }
+  Container file_;
+  std::size_t size_ = 0;
+  double accuracy_ = 0;
+  std::string quantity_;
+  const float *position_, *normal_, *irradiance_, *stderr_, *distance_, *radius_, *rotation_, *translation_;
+  const float* shared_ = nullptr;                                     // not in every file
+  std::vector<std::shared_ptr<const AdaptiveFootprint>> footprints_;  // likewise
+};
+
+/// The least weight that counts: below it a record is not valid, and a point without others is a miss.
+inline constexpr float kLeastWeight = 1e-6f;
+/// How far a record may lie behind the plane between itself and the point it lights, in units of its radius.
+inline constexpr float kFrontTolerance = 0.01f;
+/// How far over a record's plane a point may lie that it lights: its mean distance to what it sees, however
+/// large its radius has been made. In a niche or behind a cornice that is little, and what lies beyond has
+/// other light.
+inline float over_limit_m(float distance_m, float radius_m) {
+  return std::max(distance_m, kFrontTolerance * radius_m);
+}
+/// How far p lies off a record's plane, on either side, in units of its radius.
+inline float height_over(const IrradianceRecord& r, const Vec3& p) {
+  return std::fabs(glm::dot(p - r.position, r.normal)) / r.radius_m;
+}
+/// An extrapolated irradiance is at most this many times the record's.
+inline constexpr float kGrowthLimit = 2;
+
+/// eps (docs/methods.md#a1): |p - p_i|/R_i + |n - n_i|/sqrt(2); R_i is that of the direction where the
+/// record has a footprint.
+inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+  if (r.footprint) return r.footprint->error(p - r.position, n, r.normal, r.radius_m);
+  return glm::length(p - r.position) / r.radius_m + glm::length(n - r.normal) * 0.70710678f;
+}
+/// Of the direction in which the record reaches least far.
+inline float least_radius_m(const IrradianceRecord& r) {
+  return r.footprint ? r.radius_m * (r.footprint->shortest_m() / r.footprint->longest_m()) : r.radius_m;
+}
+/// Does the record lie where it must not light p, whatever its weight? In front of p's surface
+/// (docs/methods.md#a6); so deep that p is over its plane by more than over_limit_m(); or where dot(n, n_i)
+/// <= 0.
+bool record_apart(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
+/// What rises above a straight line over a surface by less than this share of its length is unevenness of the
+/// surface (facets under smooth normals), no wall.
+inline constexpr float kRoughness = 0.125f;
+/// Can the record and a point p that faces n see each other? Both ends are raised along their normals by the
+/// rounding of positions and by the height of the ridge between two flat pieces with these normals that meet
+/// halfway; if that is not clear, by kRoughness of their distance, but no more than halfway to what is above
+/// them, so that neither flat nor gently curved surfaces stand in their own way, and thin walls do.
+bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n);
+/// docs/methods.md#a5: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]; or E_i +
+/// change() of its footprint, which has been tested, at least 0. lx
+inline Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
+  const Vec3 step = p - r.position;
+  if (r.footprint) return glm::max(r.irradiance + r.footprint->change(step, n), Rgb(0));
+  const Vec3 turn = glm::cross(r.normal, n);
+  Rgb e;
+  for (int c = 0; c < 3; ++c) {
+    const float value =
+        r.irradiance[c] + glm::dot(turn, r.rotation_gradient[c]) + glm::dot(step, r.translation_gradient[c]);
+    e[c] = std::min(std::max(value, 0.f), kGrowthLimit * r.irradiance[c]);
+  }
+  return e;
+}
+
+/// Weight (docs/methods.md#a4): 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and
+/// lookup.
+inline float record_weight(float eps, float accuracy) { return eps < accuracy ? 1.f - eps / accuracy : 0.f; }
+
+/// The weight of a record that serves a disc at p, n; 0 beyond its reach. No footprint gives it more.
+inline float weight_at(const Vec3& record_position, const Vec3& record_normal, float radius_m, float accuracy,
+                       const Vec3& p, const Vec3& n) {
+  const Vec3 d = p - record_position;
+  const float reach = accuracy * radius_m;
+  if (!(glm::dot(d, d) < reach * reach)) return 0;
+  const float eps =
+      glm::length(d) / radius_m + glm::length(n - record_normal) * 0.70710678f;  // record_error()
+  return record_weight(eps, accuracy);
+}
+
+/// The same of a record with a footprint, which weight_at() of its longest axis has let pass.
+inline float weight_within(const AdaptiveFootprint& footprint, const IrradianceRecord& r, float accuracy,
+                           const Vec3& p, const Vec3& n) {
+  return record_weight(footprint.error(p - r.position, n, r.normal, r.radius_m), accuracy);
+}
+
+struct RecordIndex;
+
+struct Interpolated {
+  Rgb irradiance{0};  ///< lx
+  Rgb stderr_lx{0};   ///< of the mean of records (blended_error)
+  float weight = 0;   ///< sum of weights; 0: a miss
+  BlendSums sums;
+
+  /// Adds what a valid record says of the point p that faces n; until finish(), irradiance and the records'
+  /// own errors are sums.
+  void add(const IrradianceRecord& r, float w, const Vec3& p, const Vec3& n) {
+    const Rgb e = extrapolate(r, p, n);
+    irradiance += w * e;
+    stderr_lx += w * r.stderr_lx;
+    weight += w;
+    sums.add(w, r.shared, static_cast<double>(luminance(e)));
+  }
+  void finish() {
+    if (!(weight > 0)) return;
+    irradiance /= weight, stderr_lx /= weight;
+    stderr_lx =
+        blended_error(sums, weight, irradiance, stderr_lx, static_cast<double>(luminance(irradiance)));
+  }
+};
+
+/// Lookup structure over records: point queries in any order and from any thread; records may be added
+/// serially.
+class RecordTree {
+ public:
+  /// With `leak_test`, a record is valid only where no surface stands between it and the point (a ray per
+  /// record and query; the tree holds a reference).
+  RecordTree(const Bounds& bounds, double accuracy, const RayScene* leak_test = nullptr);
+  ~RecordTree();
+  RecordTree(RecordTree&&) noexcept;
+  void insert(const IrradianceRecord& record);
+  /// Gives a record (by its place in records()) a smaller radius; a larger one is our mistake.
+  void shrink(std::size_t record, float radius_m);
+  std::size_t size() const;
+  std::span<const IrradianceRecord> records() const;
+  /// Is any record valid at p, n? (docs/methods.md#a3)
+  bool covered(const Vec3& p, const Vec3& n) const;
+  /// The same. `record`, one of records() or any number beyond them, is asked first; it becomes the one that
+  /// was found, which is likely to cover the next point too.
+  bool covered(const Vec3& p, const Vec3& n, std::size_t& record) const;
+  /// The irradiance of interpolate() alone, lx, without what its errors cost. `weight` becomes the sum of
+  /// weights; 0: a miss.
+  Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
+  /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
+  void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
+  Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// Adds the records valid at p, n that are no farther from it across their planes than `most_height`
+  /// (height_over()); finish() is the caller's.
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
+  /// A tree of the same records. Each reaches `factor` times as far, in every direction (all_around) or along
+  /// its tangent plane only (along_plane): then a place may be no farther off that plane than in this tree.
+  enum class Widen { all_around, along_plane };
+  RecordTree widened(double factor, Widen widen = Widen::all_around) const;
+  /// The same cells as columns.
+  RecordIndex index() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos

@@ -1,0 +1,37 @@
+#include "scene/luminaire/options.h"
+
+#include "core/text/named_files.h"
+#include "scene/luminaire/photometric_file.h"
+
+namespace phos {
+
+void declare_options(Options& options, LuminaireOptions& luminaires) {
+  options.named_files(
+      "luminaire", luminaires.of_lights,
+      "gives a point or spot light of the scene, or one of EXT_lights_ies, the measured distribution and "
+      "lumens of a luminaire: IES LM-63 (.ies) or EULUMDAT (.ldt); point lights then hang straight down, "
+      "their C0 along the node's x axis, spots shine where they did; several may be given; give them to "
+      "every stage");
+  options.choice(
+      "luminaires-as", luminaires.as,
+      {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
+      "what of measured luminaires shines: the luminous opening that the file states (right near by, and "
+      "seen in pictures), or a point",
+      Recorded::if_given);
+}
+
+std::vector<std::string> luminaire_files(const LuminaireOptions& options) {
+  std::vector<std::string> files;
+  for (const NamedFile& w : named_files(options.of_lights, "--luminaire"))
+    for (std::string& file : photometric_files(w.file)) files.push_back(std::move(file));
+  return files;
+}
+
+std::vector<std::string> luminaire_words(const LuminaireOptions& options) {
+  std::vector<std::string> words;
+  for (const std::string& word : options.of_lights) words.insert(words.end(), {"--luminaire", word});
+  if (options.as == LuminairesAs::points) words.insert(words.end(), {"--luminaires-as", "points"});
+  return words;
+}
+
+}  // namespace phos

@@ -1,0 +1,122 @@
+#include "scene/material/sharp_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/material/bsdf.h"
+#include "scene/texture/texture.h"
+
+namespace phos {
+namespace {
+
+// Of this roughness, half of the lobe lies within 6 degrees about the mirror direction.
+constexpr float kSharpAlpha = 0.1f;
+constexpr float kSharpExponent = 200;
+
+}  // namespace
+
+bool reflects_as_mirror(const Material& m) {
+  const auto smooth = [](float alpha_x, float alpha_y) {
+    return std::max(alpha_x, alpha_y) < Bsdf::kSmoothestAlpha;
+  };
+  switch (m.model) {
+    case Model::mirror:
+    case Model::ward:
+      return max_component(m.ks) > 0 && (m.model == Model::mirror || smooth(m.alpha_x, m.alpha_y));
+    case Model::dielectric:
+    case Model::thin_dielectric:
+      return m.ior != 1;
+    case Model::conductor:
+    case Model::plastic:
+      return smooth(m.alpha_x, m.alpha_y);
+    case Model::metallic_roughness:
+      return m.roughness * m.roughness < Bsdf::kSmoothestAlpha && (m.specular > 0 || m.metallic > 0);
+    default:
+      return false;
+  }
+}
+
+bool reflects_sharply(const Material& m) {
+  if (reflects_as_mirror(m)) return true;
+  switch (m.model) {
+    case Model::phong:
+      return max_component(m.ks) > 0 && m.exponent > kSharpExponent;
+    case Model::ward:
+      return max_component(m.ks) > 0 && std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
+    case Model::conductor:
+    case Model::plastic:
+      return std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
+    case Model::metallic_roughness:
+      return m.roughness * m.roughness < kSharpAlpha && (m.specular > 0 || m.metallic > 0);
+    default:
+      return false;
+  }
+}
+
+bool turns_light(const Scene& scene, std::uint32_t material) {
+  const Vec3 slanted(0.6f, 0, 0.8f);
+  BsdfSample branch[2];
+  const int branches = Bsdf(scene, material).specular_branches(slanted, branch);
+  for (int b = 0; b < branches; ++b)
+    if (!branch[b].straight && max_component(branch[b].weight) > 0) return true;
+  return false;
+}
+
+bool casts_caustics(const Scene& scene) {
+  for (std::uint32_t m = 0; m < scene.material.size(); ++m)
+    if (turns_light(scene, m)) return true;
+  return false;
+}
+
+double lobe_hit_share(const Scene& scene, const Material& m) {
+  const double n = static_cast<double>(m.exponent);
+  double ax = static_cast<double>(m.alpha_x), ay = static_cast<double>(m.alpha_y), factor = 12;
+  switch (m.model) {
+    case Model::phong:
+      return max_component(m.ks) > 0 ? std::min(1.0, 2 * (2 * n + 1) / ((n + 1) * (n + 1))) : 1;
+    case Model::ward:
+      if (!(max_component(m.ks) > 0)) return 1;
+      factor = 8;
+      break;
+    case Model::conductor:
+    case Model::plastic:
+      break;
+    case Model::metallic_roughness: {
+      const double rough =
+          std::clamp(static_cast<double>(m.roughness * mean_texel(scene, m.metallic_roughness).y), 0.0, 1.0);
+      const double bent = static_cast<double>(m.anisotropy * m.anisotropy);
+      if (!(m.specular > 0) && !(m.metallic > 0)) return 1;
+      ay = rough * rough, ax = ay + (1 - ay) * bent;
+      break;
+    }
+    default:
+      return 1;
+  }
+  const auto smoothest = static_cast<double>(Bsdf::kSmoothestAlpha);
+  if (std::max(ax, ay) < smoothest) return 1;  // a mirror, not a lobe
+  return std::min(1.0, factor * std::max(ax, smoothest) * std::max(ay, smoothest));
+}
+
+bool gathers_light(const Scene& scene) {
+  constexpr float kFlat = 1 - 1e-6f;  // cosine of a vertex normal to its triangle's
+  for (const Instance& instance : scene.instance) {
+    const Material& m = scene.material[instance.material];
+    if (!reflects_as_mirror(m)) continue;
+    if (m.model == Model::dielectric || m.normal.used()) return true;
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t) {
+      const Vec3 n = geometric_normal(scene, t);
+      for (const std::uint32_t v : scene.triangle[t].v)
+        if (n != Vec3(0) && std::fabs(glm::dot(scene.normal[v], n)) < kFlat) return true;
+    }
+  }
+  return false;
+}
+
+bool has_caustic_ways(const Scene& scene) {
+  return !scene.light.empty() &&
+         std::any_of(scene.instance.begin(), scene.instance.end(),
+                     [&](const Instance& i) { return reflects_sharply(scene.material[i.material]); });
+}
+
+}  // namespace phos

@@ -1,0 +1,43 @@
+// A scene in figures: what it holds, how bright it is, and what computing its light requires.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "scene/report/lint.h"
+#include "scene/scene.h"
+
+namespace phos {
+
+/// A material and what it does to light. Textures and vertex colours count by their mean
+/// (over the area that has the material).
+struct MaterialSummary {
+  const Material* material = nullptr;
+  std::uint64_t triangles = 0;
+  double area_m2 = 0;      ///< of all its triangles, one side
+  double reflectance = 0;  ///< luminance of diffuse plus specular part; clear glass counts none
+  bool diffuse = false;    ///< has a Lambert part
+  bool glossy = false;     ///< has a rough specular part worth computing
+  bool specular = false;   ///< mirror, or light passes it straight
+};
+std::vector<MaterialSummary> summarize_materials(const Scene& scene);
+const char* model_name(Model model);
+
+/// What the light of this scene needs, and why; what is not listed need not be computed. "gloss" is had by
+/// radiance records or rays: which of them suits each lobe is for others to say (radiance/gloss_report.h).
+struct Requirement {
+  std::string what;  ///< "irradiance records"
+  std::string why;
+};
+std::vector<Requirement> scene_requirements(const Scene& scene);
+/// What light asks for that reaches surfaces by mirrors, curved glass or sharp gloss alone, so that rays of
+/// records seldom find it (unsampled.h).
+inline constexpr const char* kCausticPhotons = "caustic photons";
+
+/// Everything phos-scene tells, with the findings of the lint.
+Json describe_scene(const Scene& scene, const std::vector<Finding>& findings);
+/// The same for people, from describe_scene's answer.
+std::string describe_text(const Json& description);
+
+}  // namespace phos

@@ -1,0 +1,63 @@
+#include "scene/spectral/band_options.h"
+
+#include <cstdlib>
+
+#include "core/error.h"
+#include "scene/spectral/bands.h"
+
+namespace phos {
+
+void declare_options(Options& options, BandOptions& bands) {
+  options.integer(
+      "bands", bands.number, "N",
+      "computes light in N equal bands of 380 to 780 nm instead of RGB, three of them (--triplet) in each "
+      "run "
+      "of "
+      "all stages; phos-bands joins the results. What has no spectrum gets a smooth one of its RGB colour "
+      "under D65",
+      {0, Bands::kMost}, Recorded::if_given);
+  options.integer("triplet", bands.triplet, "K",
+                  "with --bands: bands 3 K - 2 to 3 K. Lux, lumens and cd/m2 are then those of the light in "
+                  "these bands; give it to every stage",
+                  {1, (Bands::kMost + 2) / 3}, Recorded::if_given);
+  options.named_files(
+      "spectrum", bands.spectra,
+      "with --bands: the reflectance of a material (0 to 1), or the relative power of a light, a luminaire, "
+      "the environment or of what shines of a material or node, whose lumens stay; CSV with the columns "
+      "wavelength_nm,value; several may be given; give them to every stage");
+}
+
+std::vector<std::string> band_words(const BandOptions& options) {
+  std::vector<std::string> words;
+  if (!options.any()) return words;
+  words = {"--bands", std::to_string(options.number), "--triplet", std::to_string(options.triplet)};
+  for (const std::string& word : options.spectra) words.insert(words.end(), {"--spectrum", word});
+  return words;
+}
+
+void read_band_word(const std::string& word, const std::string& value, BandOptions& options) {
+  if (word == "--bands") options.number = std::strtoll(value.c_str(), nullptr, 10);
+  if (word == "--triplet") options.triplet = std::strtoll(value.c_str(), nullptr, 10);
+  if (word == "--spectrum") options.spectra.push_back(value);
+}
+
+void check(const BandOptions& o) {
+  if (!o.any()) {
+    if (o.triplet > 0) throw Error(ExitCode::usage, "--triplet", "is of --bands; give that too");
+    if (!o.spectra.empty())
+      throw Error(ExitCode::usage, "--spectrum", "is for --bands; RGB has no spectra: give --bands too");
+    return;
+  }
+  if (o.number < Bands::kLeast)
+    throw Error(ExitCode::usage, "--bands", text("must be ", Bands::kLeast, " to ", Bands::kMost));
+  const std::int64_t triplets = (o.number + 2) / 3;
+  if (o.triplet < 1)
+    throw Error(ExitCode::usage, "--triplet",
+                text("is missing; ", o.number, " bands are computed in ", triplets, " runs, --triplet 1 to ",
+                     triplets, " (pipelines/bands.sh makes them all)"));
+  if (o.triplet > triplets)
+    throw Error(ExitCode::usage, "--triplet",
+                text(o.triplet, " is not there: ", o.number, " bands are ", triplets, " triplets"));
+}
+
+}  // namespace phos

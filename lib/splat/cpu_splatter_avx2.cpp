@@ -1,7 +1,0 @@
-// Compiled for x86-64-v3 (CMakeLists.txt); called only where the machine has it.
-#ifdef PHOS_SPLAT_AVX2
-#define PHOS_SPLAT_KERNEL splat_tile_avx2
-#include "splat/cpu_splatter_kernel.inc"
-#define PHOS_FOOTPRINT_KERNEL splat_footprint_avx2
-#include "splat/footprint_kernel.inc"
-#endif

@@ -1,0 +1,385 @@
+#include "splat/direct/interleaved.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/sampling.h"
+#include "scene/lamp/form.h"
+#include "splat/direct/same_surface.h"
+
+namespace phos {
+namespace {
+
+constexpr int kBlock = 4;           // pixels each way that share a set of rays
+constexpr int kReach = kBlock / 2;  // of a pixel's neighbours
+constexpr std::size_t kTile = 16;   // pixels each way whose rays are sent together
+constexpr std::size_t kChunk = 1024;
+// Of the row or column at this distance: the outer two together count like one, so that the mean about a
+// pixel holds each part of the set once.
+constexpr float kShare[kReach + 1] = {1, 1, 0.5f};
+/// Rays of a pixel to a lamp, all passes counted, from which on those of the pixels next to it do, without
+/// the others about it, and from which on its own alone do: the more, the less is blurred.
+struct Enough {
+  int next, own;
+};
+constexpr Enough kEnough = {16, 64};
+/// Of a lamp without a closed form, whose noise is everywhere.
+constexpr Enough kNoisyEnough = {128, 4096};
+/// One in so many, and at least one, shows where a shadow's edge may be.
+constexpr int kPerTest = 16;
+/// Of one pass, that alone tell the variance of their mean.
+constexpr int kTelling = 16;
+/// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
+constexpr float kDoubt = 2;
+/// Variances of its noise beyond which a mean of what is nearer counts.
+constexpr double kDoubtMeans = 6;
+/// Rays of one pass that it takes for that. A single one would be believed where it differs from most of
+/// those about it, and not where it agrees: half shadows would come out too dark or too bright.
+constexpr float kTold = 6;
+
+/// What a shadow ray leaves from.
+struct Receiver {
+  Vec3 normal{0}, geometric_normal{0};
+  float error_m = 0;
+};
+
+/// How far about a pixel.
+enum Reach : std::size_t { kOwn, kNext, kAll, kReaches };
+
+/// Bits: some ray of the pixel arrived, some did not.
+enum : std::uint8_t { kNothing = 0, kSeen = 1, kBlocked = 2, kMixed = 3 };
+
+/// Of a lamp, 4 x 4, where the first ray of the pixel at (x, y) of a picture goes: the pixels of any 4 x 4
+/// meet each once, those of any 2 x 2 a quarter each.
+struct Stratum {
+  Stratum(std::size_t x, std::size_t y) : column(corner(x)), row(corner(y)) {}
+  /// Of 0 .. 3: the half, and which part of it.
+  static std::uint32_t corner(std::size_t at) {
+    return static_cast<std::uint32_t>((at & 1) << 1 | (at >> 1 & 1));
+  }
+  std::uint32_t column, row;
+};
+
+/// Points on a lamp of the rays of one pixel: Sobol' points, so that the more there are, the finer they cover
+/// it, with their digits shifted such that each ray of the pixels of a 4 x 4 block, too, meets each stratum
+/// once.
+class LampPoints {
+ public:
+  LampPoints() = default;
+  LampPoints(const Stratum& stratum, bool by_u_alone, RandomStream& random) : by_u_alone_(by_u_alone) {
+    const std::uint32_t first =
+        by_u_alone ? stratum.column << 30 : (stratum.row * kBlock + stratum.column) << 28;
+    shift_[0] = first | random.bits() >> (by_u_alone ? 2 : 4);
+    shift_[1] = by_u_alone ? stratum.row << 30 | random.bits() >> 2 : random.bits();
+    turn_ = random.bits();
+  }
+  /// u_triangle and u of ray s.
+  std::pair<float, Vec2> at(int s) const {
+    const Vec2 p = sobol_point(s, shift_[0], shift_[1]);
+    if (by_u_alone_) return {0.f, p};
+    return {p.x, {golden_point(s, turn_), p.y}};
+  }
+
+ private:
+  bool by_u_alone_ = true;
+  std::uint32_t shift_[2]{}, turn_ = 0;
+};
+
+class Interleaved {
+ public:
+  Interleaved(const RayScene& rays, const Luminaires& lights, const GBuffer& gbuffer, const RayShare& share,
+              std::uint64_t seed)
+      : lamps_(rays, lights),
+        g_(gbuffer),
+        share_(share),
+        width_(static_cast<std::size_t>(gbuffer.width)),
+        pixels_(gbuffer.hit.size()),
+        seed_(seed) {}
+
+  std::vector<SharedLight> light(const PixelRays& pixel_rays, const Vec2& subpixel) {
+    find_receivers(pixel_rays, subpixel);
+    shared_.assign(pixels_, SharedLight());
+    sight_.resize(pixels_), found_.resize(pixels_), about_.resize(pixels_);
+    for (std::size_t lamp = 0; lamp < lamps_.lights.size(); ++lamp) {
+      const LampForm& form = lamps_.form[lamp];
+      std::fill(sight_.begin(), sight_.end(), LampVisibility());
+      brought_.assign(form.closed() ? 0 : pixels_, Brought());
+      if (!lamps_.lights[lamp].extended()) {
+        send(lamp, 0, 1, [](std::size_t) { return true; });
+        for_each([&](std::size_t i) { shared_[i].illuminance += brought_[i].light; });
+        continue;
+      }
+      const int first = share_.pass * share_.rays, tests = std::max(1, share_.rays / kPerTest);
+      send(lamp, first, tests, [](std::size_t) { return true; });
+      for_each([&](std::size_t i) { found_[i] = state(sight_[i]); });
+      look_about();
+      if (share_.rays > tests)
+        send(lamp, first + tests, share_.rays - tests,
+             [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
+      if (form.closed())
+        for_each([&](std::size_t i) { add_share(form, i); });
+      else
+        add_means(reach(form));
+    }
+    return std::move(shared_);
+  }
+
+ private:
+  std::size_t reach(const LampForm& form) const {
+    const std::int64_t rays = std::int64_t{share_.rays} * share_.passes;
+    const Enough enough = form.closed() ? kEnough : kNoisyEnough;
+    if (rays >= enough.own && (form.closed() || share_.rays >= kTelling)) return kOwn;
+    return rays >= enough.next ? kNext : kAll;
+  }
+
+  static std::uint8_t state(const LampVisibility& s) {
+    return static_cast<std::uint8_t>((s.seen > 0 ? kSeen : 0) | (s.sent > s.seen ? kBlocked : 0));
+  }
+
+  template <class Body>
+  void for_each(const Body& body) const {
+    parallel_for(pixels_, kChunk, [&](std::size_t i) {
+      if (g_.covered(i)) body(i);
+    });
+  }
+
+  void find_receivers(const PixelRays& pixel_rays, const Vec2& subpixel) {
+    receiver_.resize(pixels_);
+    for_each([&](std::size_t i) {
+      const Ray ray = pixel_rays(static_cast<int>(i % width_), static_cast<int>(i / width_), subpixel);
+      const SurfacePoint point = lamps_.rays.surface(ray, g_.hit[i]);
+      receiver_[i] = {point.normal, point.geometric_normal, point.error_m};
+    });
+  }
+
+  SurfacePoint point(std::size_t i) const {
+    SurfacePoint p;
+    p.position = Vec3(g_.position[i]);
+    p.geometric_normal = receiver_[i].geometric_normal, p.normal = receiver_[i].normal;
+    p.error_m = receiver_[i].error_m;
+    return p;
+  }
+
+  /// Rays first .. first + count - 1 of each pixel's part of its block's set, of the pixels that want them.
+  /// Tile by tile, those of one stratum of the lamp together: such rays run side by side.
+  template <class Wanted>
+  void send(std::size_t lamp, int first, int count, const Wanted& wanted) {
+    const std::size_t height = pixels_ / width_;
+    parallel_for((height + kTile - 1) / kTile, 1, [&](std::size_t row) {
+      LampRays lamp_rays(lamps_);
+      std::vector<SurfacePoint> from(kTile * kTile);
+      std::vector<LampPoints> to(kTile * kTile);
+      for (std::size_t x0 = 0, y0 = row * kTile; x0 < width_; x0 += kTile) {
+        const auto each = [&](const auto& visit) {
+          for (std::size_t k = 0; k < kTile * kTile; ++k) {
+            const auto [x, y] = in_tile(k);
+            const std::size_t i = (y0 + y) * width_ + x0 + x;
+            if (x0 + x < width_ && y0 + y < height && g_.covered(i) && wanted(i)) visit(k, i);
+          }
+        };
+        each([&](std::size_t k, std::size_t i) { from[k] = point(i), to[k] = lamp_points(lamp, i); });
+        for (int s = first; s < first + count; ++s)
+          each([&](std::size_t k, std::size_t i) {
+            const auto [u_triangle, u] = to[k].at(s);
+            lamp_rays.aim(lamp, from[k], u_triangle, u, sight_[i], brought_.empty() ? nullptr : &brought_[i]);
+          });
+        lamp_rays.send();
+      }
+    });
+  }
+
+  /// Pixel k of a tile in order of the strata, which those 4 apart share.
+  static std::pair<std::size_t, std::size_t> in_tile(std::size_t k) {
+    constexpr std::size_t kBlocks = kTile / kBlock;  // each way
+    const std::size_t stratum = k / (kBlocks * kBlocks), block = k % (kBlocks * kBlocks);
+    return {block % kBlocks * kBlock + stratum % kBlock, block / kBlocks * kBlock + stratum / kBlock};
+  }
+
+  LampPoints lamp_points(std::size_t lamp, std::size_t i) const {
+    RandomStream random(seed_, Stage::direct_light, i);
+    random.start_bounce(static_cast<std::uint32_t>(2 + lamp) & 0xffffu);
+    return {Stratum(i % width_, i / width_), lamps_.lights.by_u_alone(lamp), random};
+  }
+
+  /// What the pixels within reach found, whatever their surface.
+  void look_about() {
+    const std::size_t height = pixels_ / width_;
+    std::vector<std::uint8_t> row(pixels_);
+    const auto gather = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to,
+                            std::size_t step, const auto& place, std::size_t places) {
+      parallel_for(pixels_, kChunk, [&](std::size_t i) {
+        const std::size_t at = place(i), before = std::min<std::size_t>(at, kReach),
+                          after = std::min<std::size_t>(places - 1 - at, kReach);
+        std::uint8_t all = kNothing;
+        for (std::size_t j = i - before * step; j <= i + after * step; j += step) all |= from[j];
+        to[i] = all;
+      });
+    };
+    for (std::size_t i = 0; i < pixels_; ++i)
+      if (!g_.covered(i)) found_[i] = kNothing;
+    gather(
+        found_, row, 1, [&](std::size_t i) { return i % width_; }, width_);
+    gather(
+        row, about_, width_, [&](std::size_t i) { return i / width_; }, height);
+  }
+
+  /// The light of a lamp with a closed form at a pixel, from what it and its neighbours found.
+  void add_share(const LampForm& form, std::size_t i) {
+    if (!(about_[i] & kSeen)) return;
+    if (about_[i] == kSeen) {
+      shared_[i].illuminance += form.luminance() * unoccluded(form, i);
+      return;
+    }
+    const std::array<PooledVisibility, kReaches> found = found_about(i);
+    std::size_t reach = this->reach(form);
+    if (reach == kOwn) {
+      add_own_share(form, i, found);
+      return;
+    }
+    while (reach < kAll && !(found[reach].sent > 0)) ++reach;
+    if (!(found[reach].seen > 0)) return;
+    const float share = found[reach].share();
+    if (reach > kOwn && found[reach - 1].rays >= kTold && found[reach - 1].sent > 0) {
+      const PooledVisibility& nearer = found[reach - 1];
+      const float change = nearer.share() - share;
+      if (change * change > kDoubt * kDoubt * nearer.variance_of(share)) --reach;
+    }
+    shared_[i].add_share(form.luminance() * unoccluded(form, i), found[reach].share(),
+                         found[reach].variance_of(share));
+  }
+
+  /// By the pixel's own rays. A few of them, of one pass, see the lamp's parts in proportions that are not
+  /// right, so that seen / sent would be biased: what they saw is divided by what there is to see, with the
+  /// share about the pixel as control variate, so that there is no noise where all see it or none does.
+  void add_own_share(const LampForm& form, std::size_t i,
+                     const std::array<PooledVisibility, kReaches>& found) {
+    const float whole = unoccluded(form, i);
+    if (!(found[kAll].sent > 0) || !(whole > 0)) return;
+    const float about = found[kAll].share();
+    const float share = about + (found[kOwn].seen - about * found[kOwn].sent) / (found[kOwn].rays * whole);
+    shared_[i].add_share(form.luminance() * whole, share, about * (1 - about) / found[kOwn].rays);
+  }
+
+  /// The light of a lamp without one, at all pixels.
+  void add_means(std::size_t reach) {
+    std::vector<SharedLight> mean(pixels_);
+    for_each([&](std::size_t i) { mean[i].add_mean(found_about(i)[reach]); });
+    const double gain = gain_of_strata(mean);
+    for_each([&](std::size_t i) {
+      mean[i].variance *= gain;
+      if (reach > kOwn && share_.rays >= kTelling) draw_nearer(found_about(i), reach, gain, mean[i]);
+      shared_[i].illuminance += mean[i].illuminance, shared_[i].variance += mean[i].variance;
+    });
+  }
+
+  /// Draws the mean within reach towards those of what is nearer where these differ by more than noise: at
+  /// the edge of a shadow. By a share that grows from 0 with the difference (James and Stein 1961), so that
+  /// noise is believed nowhere.
+  static void draw_nearer(const std::array<PooledVisibility, kReaches>& found, std::size_t reach, double gain,
+                          SharedLight& mean) {
+    const PooledVisibility& all = found[reach];
+    const DVec3 whole(mean.illuminance);
+    const DVec3 spread = glm::max(all.light2 / static_cast<double>(all.rays) - whole * whole, DVec3(0));
+    for (std::size_t r = reach; r-- > kOwn;) {
+      const DVec3 differs = DVec3(found[r].light / found[r].rays - mean.illuminance);
+      const DVec3 noise = spread * (gain / static_cast<double>(found[r].independent()));
+      const double d2 = glm::dot(differs, differs), n2 = glm::dot(noise, DVec3(1));
+      if (!(d2 > kDoubtMeans * n2)) continue;
+      const double k = 1 - kDoubtMeans * n2 / d2;
+      mean.illuminance += Rgb(k * differs);
+      mean.variance = (1 - k) * (1 - k) * mean.variance + k * k * noise;
+    }
+  }
+
+  /// Variance of what a pixel's rays bring, over that of independent rays; at most 1. Pixels a block apart
+  /// send theirs to the same part of the lamp, so half the mean square of their differences is the first;
+  /// the other is the mean square of a ray's light less that of the mean about the pixel, which holds all
+  /// parts.
+  double gain_of_strata(const std::vector<SharedLight>& mean) const {
+    struct Variances {
+      double in_strata = 0, independent = 0;
+    };
+    const std::size_t height = pixels_ / width_;
+    const Variances sum = parallel_reduce(
+        height, 1, Variances(),
+        [&](std::size_t y, std::size_t) {
+          Variances row;
+          for (std::size_t x = 0; x < width_; ++x) {
+            const std::size_t i = y * width_ + x;
+            if (!g_.covered(i)) continue;
+            const SeenSurface own = SeenSurface::of(g_, i);
+            const auto pair = [&](std::size_t j) {
+              if (!same_surface(own, g_, j)) return;
+              const DVec3 differ = own_mean(i) - own_mean(j);
+              row.in_strata += glm::dot(differ, differ) / 2;
+              row.independent += (spread_of_mean(i, mean[i]) + spread_of_mean(j, mean[j])) / 2;
+            };
+            if (x + kBlock < width_) pair(i + kBlock);
+            if (y + kBlock < height) pair(i + kBlock * width_);
+          }
+          return row;
+        },
+        [](Variances& all, const Variances& row) {
+          all.in_strata += row.in_strata, all.independent += row.independent;
+        });
+    return sum.in_strata < sum.independent ? sum.in_strata / sum.independent : 1;
+  }
+  DVec3 own_mean(std::size_t i) const {
+    return DVec3(brought_[i].light) / static_cast<double>(sight_[i].rays);
+  }
+  /// Variance of a pixel's mean if its rays were independent, lx^2, all channels.
+  double spread_of_mean(std::size_t i, const SharedLight& mean) const {
+    const auto n = static_cast<double>(sight_[i].rays);
+    const DVec3 light(mean.illuminance), spread = brought_[i].light2 / n - light * light;
+    return (spread.x + spread.y + spread.z) / n;
+  }
+
+  /// What a pixel found, with those next to it that show its surface, and with all of these within reach.
+  std::array<PooledVisibility, kReaches> found_about(std::size_t i) const {
+    std::array<PooledVisibility, kReaches> found;
+    const SeenSurface own = SeenSurface::of(g_, i);
+    const int x = static_cast<int>(i % width_), y = static_cast<int>(i / width_);
+    const auto add = [&](Reach reach, std::size_t j, float weight) {
+      found[reach].add(sight_[j], weight);
+      if (!brought_.empty()) found[reach].add(brought_[j], weight);
+    };
+    add(kOwn, i, 1);
+    for (int v = std::max(0, y - kReach); v <= std::min(g_.height - 1, y + kReach); ++v) {
+      for (int u = std::max(0, x - kReach); u <= std::min(g_.width - 1, x + kReach); ++u) {
+        const std::size_t j = static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u);
+        if (g_.hit[j].triangle != g_.hit[i].triangle && !same_surface(own, g_, j)) continue;
+        add(kAll, j, kShare[std::abs(u - x)] * kShare[std::abs(v - y)]);
+        if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) add(kNext, j, 1);
+      }
+    }
+    return found;
+  }
+
+  float unoccluded(const LampForm& form, std::size_t i) const {
+    return form.projected_solid_angle(Vec3(g_.position[i]), receiver_[i].normal);
+  }
+
+  AimedLamps lamps_;
+  const GBuffer& g_;
+  RayShare share_;
+  std::size_t width_, pixels_;
+  std::uint64_t seed_;
+  std::vector<Receiver> receiver_;
+  std::vector<LampVisibility> sight_;        // per pixel, of one lamp
+  std::vector<Brought> brought_;             // empty for a lamp with a closed form
+  std::vector<std::uint8_t> found_, about_;  // states of a pixel, and of it with its neighbours
+  std::vector<SharedLight> shared_;
+};
+
+}  // namespace
+
+std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaires& lights,
+                                           const GBuffer& gbuffer, const PixelRays& pixel_rays,
+                                           const Vec2& subpixel, const RayShare& share, std::uint64_t seed) {
+  return Interleaved(rays, lights, gbuffer, share, seed).light(pixel_rays, subpixel);
+}
+
+}  // namespace phos

@@ -1,0 +1,35 @@
+// Irradiance records by drawing the scene over them (docs/methods.md#r1).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "estimate/gather.h"
+
+namespace phos {
+
+/// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
+/// each way (raster_plane.h); what each pixel shows is lit like the place where a gathered ray lands. Without
+/// noise but for the lamps' samples: stderr_lx says nothing of what falls between pixels. The near plane lies
+/// at the rounding of positions, so that walls which touch the record are drawn as far as they are told apart
+/// from it. With paths = all, direct light at the record is added from samples of the lamps.
+class RasterEstimator : public Estimator {
+ public:
+  /// Draws in the thread that calls this. Throws Error(bad_input) if no OpenGL context can be had,
+  /// Error(usage) if the plane has more pixels than it can draw.
+  RasterEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
+                  const RecordOptions& resolved, std::uint64_t seed);
+  ~RasterEstimator() override;
+  std::unique_ptr<Worker> make_worker() const override;
+  Made make(const RecordSite& site, Worker& worker) const override;
+  bool one_thread() const override { return true; }
+
+  /// What make() is made of: the plane's pixels, drawn and lit.
+  void sample(const RecordSite& site, Hemisphere& h, Worker& worker) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phos

@@ -1,0 +1,270 @@
+#include "splat/gl/shaders.h"
+
+namespace phos::shaders {
+
+const char* const scene_vertex = R"(#version 450 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 uv01;
+layout(location = 2) in float vertex_alpha;
+uniform vec3 eye;
+uniform mat3 axes[1];       // world to view, scaled to the size of the scene
+uniform vec4 lens;          // scale and shift of x and y
+uniform vec2 depth;         // clip z = depth.x + depth.y * distance along the view
+uniform int perspective;
+out vec4 uv;
+out float alpha;
+void main() {
+  // First the difference: exact where it matters, near the eye.
+  vec3 v = axes[0] * (position - eye);
+  float w = perspective != 0 ? -v.z : 1.0;
+  gl_Position = vec4(v.xy * lens.xy + lens.zw * w, depth.x - depth.y * v.z, w);
+  uv = uv01;
+  alpha = vertex_alpha;
+}
+)";
+
+const char* const scene_fragment = R"(#version 450 core
+uniform uint first_triangle;
+layout(location = 0) out uint triangle;
+void main() { triangle = first_triangle + uint(gl_PrimitiveID); }
+)";
+
+const char* const masked_fragment = R"(#version 450 core
+in vec4 uv;
+in float alpha;
+uniform uint first_triangle;
+uniform vec2 mask;          // factor, cutoff
+uniform vec4 uv_matrix;     // of KHR_texture_transform: its two columns
+uniform vec2 uv_offset;
+uniform int uv_set;
+uniform int textured;
+layout(binding = 0) uniform sampler2D alpha_map;
+layout(location = 0) out uint triangle;
+void main() {
+  vec2 t = uv_set == 0 ? uv.xy : uv.zw;
+  t = uv_matrix.xy * t.x + uv_matrix.zw * t.y + uv_offset;
+  float there = mask.x * alpha * (textured != 0 ? textureLod(alpha_map, t, 0.0).r : 1.0);
+  if (there < mask.y) discard;
+  triangle = first_triangle + uint(gl_PrimitiveID);
+}
+)";
+
+const char* const splat_vertex = R"(#version 450 core
+layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
+layout(location = 1) in vec4 position;    // and 1 / radius
+layout(location = 2) in vec4 normal;      // and the limit of the in-front test
+layout(location = 3) in vec4 irradiance;  // and the record's own weight
+layout(location = 4) in vec4 error;       // and the part that records share
+layout(location = 5) in vec3 turn_r;
+layout(location = 6) in vec3 turn_g;
+layout(location = 7) in vec4 turn_b;      // and the limit of what lies over its plane
+layout(location = 8) in vec3 translation_r;
+layout(location = 9) in vec3 translation_g;
+layout(location = 10) in vec3 translation_b;
+flat out vec4 a, b, e, s, rb;
+flat out vec3 rr, rg, tr, tg, tb;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
+  a = position, b = normal, e = irradiance, s = error;
+  rr = turn_r, rg = turn_g, rb = turn_b;
+  tr = translation_r, tg = translation_g, tb = translation_b;
+}
+)";
+
+const char* const splat_fragment = R"(#version 450 core
+flat in vec4 a, b, e, s, rb;
+flat in vec3 rr, rg, tr, tg, tb;
+uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth, 1 / unit of squares
+layout(binding = 0) uniform sampler2D position_map;
+layout(binding = 1) uniform sampler2D normal_map;
+layout(location = 0) out vec4 light;
+layout(location = 1) out vec4 error;
+layout(location = 2) out vec4 spread;
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 d = texelFetch(position_map, pixel, 0).xyz - a.xyz;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz;
+  vec3 turned = n - b.xyz;
+  float eps = sqrt(dot(d, d)) * a.w + sqrt(dot(turned, turned)) * 0.70710678;
+  float w = 1.0 - eps * rule.x;
+  bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w) && !(dot(d, b.xyz) > rb.w);
+  w = valid ? w * e.w : 0.0;
+  vec3 value = e.rgb + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb.xyz)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
+  // Not max and min: what is not a number becomes 0.
+  value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
+  value = mix(rule.z * e.rgb, value, lessThan(value, rule.z * e.rgb));
+  light = vec4(w * value, w);
+  error = vec4(w * s.rgb, valid ? 1.0 : 0.0);
+  float relative = dot(vec3(0.2126, 0.7152, 0.0722) * rule.w, value);
+  spread = vec4(w * w, w * s.w, w * relative * relative, 0.0);
+}
+)";
+
+const char* const gloss_vertex = R"(#version 450 core
+layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
+}
+)";
+
+const char* const gloss_fragment = R"(
+layout(std140, binding = 0) uniform Record {
+  vec4 position;                          // and 1 / radius
+  vec4 normal;                            // and the limit of the in-front test
+  vec4 axis_x;                            // and the steepness
+  vec4 axis_y;                            // and the record's own weight
+  vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y;
+                                          // the first also holds the limit of what lies over its plane
+};
+uniform vec4 rule;                        // 1 / accuracy, least weight, first and end row of the class
+uniform vec4 unit;                        // x: 1 / that of light in squares
+layout(binding = 0) uniform sampler2D position_map;
+layout(binding = 1) uniform sampler2D normal_map;
+layout(binding = 2) uniform sampler2D lobe_map;    // row, share of the next, cosine and sine of the azimuth
+layout(binding = 3) uniform sampler2D table;       // rows of lobes, l (l + 1) / 2 + m; first w: bands
+layout(location = 0) out vec4 light;
+layout(location = 1) out vec4 error;
+layout(location = 2) out vec4 spread;
+
+vec3 coefficient(int i, vec3 shares) {
+  return shares.x * numbers[3 * i].rgb + shares.y * numbers[3 * i + 1].rgb + shares.z * numbers[3 * i + 2].rgb;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  light = vec4(0.0), error = vec4(0.0), spread = vec4(0.0);
+  vec4 lobe = texelFetch(lobe_map, pixel, 0);
+  if (lobe.x < rule.z || lobe.x >= rule.w) return;
+  vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz;
+  vec3 turned = n - normal.xyz;
+  float eps = sqrt(dot(d, d)) * position.w + sqrt(dot(turned, turned)) * 0.70710678;
+  float w = 1.0 - eps * rule.x;
+  if (!(w > rule.y && dot(n, normal.xyz) > 0.0)) return;
+  if (dot(d, n + normal.xyz) * 0.5 < normal.w || dot(d, normal.xyz) > numbers[0].w) return;
+  w *= axis_y.w;
+  float change = axis_x.w * sqrt(dot(d, d));
+  float share = w * (change > 1.0 ? 1.0 / change : 1.0);
+  if (axis_x.w == 0.0) share = 0.0;
+  vec3 shares = vec3(w, share * dot(d, axis_x.xyz), share * dot(d, axis_y.xyz));
+  int row = int(lobe.x);
+  int order = int(max(texelFetch(table, ivec2(0, row), 0).w, texelFetch(table, ivec2(0, row + 1), 0).w));
+  vec2 angle = vec2(1.0, 0.0);            // cosine and sine of m times the azimuth
+  vec3 sum = vec3(0.0);
+  for (int m = 0; m < order; ++m) {
+    for (int l = m; l < order; ++l) {
+      int column = l * (l + 1) / 2 + m;
+      vec3 t = mix(texelFetch(table, ivec2(column, row), 0).rgb, texelFetch(table, ivec2(column, row + 1), 0).rgb,
+                   lobe.y);
+      vec3 c = angle.x * coefficient(l * l + l + m, shares);
+      if (m > 0) c += angle.y * coefficient(l * l + l - m, shares);
+      sum += t * c;
+    }
+    angle = vec2(angle.x * lobe.z - angle.y * lobe.w, angle.x * lobe.w + angle.y * lobe.z);
+  }
+  light = vec4(sum, w);
+  float value = dot(sum, vec3(0.2126, 0.7152, 0.0722)) * unit.x / w;
+  spread.z = w * value * value;
+}
+)";
+
+const char* const picture_vertex = R"(#version 450 core
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);
+}
+)";
+
+const char* const shadow_fragment = R"(#version 450 core
+layout(binding = 0) uniform sampler2D position_map;   // w = 0 where nothing is visible
+layout(binding = 1) uniform sampler2D normal_map;
+layout(binding = 2) uniform sampler2D facet_map;      // geometric normal on the seen side
+layout(binding = 3) uniform sampler2DArray depth_map;
+layout(binding = 4) uniform sampler2D share_map;      // of colour, by degrees of azimuth and from straight down
+uniform mat3 luminaire_axes;  // rows are its x, y and up
+uniform int face_count;
+uniform mat3 axes[6];
+uniform vec3 eye;
+uniform vec4 lens;
+uniform vec2 depth;
+uniform int perspective;
+uniform float bias;          // half a texel: of the distance (perspective), or of the depth range
+uniform int kind;            // 0 area, 1 point, 2 spot, 3 directional, 4 by map, 5 area by map
+uniform vec3 colour;         // lm/sr over the scale of the scene squared; directional: lx
+uniform vec3 forward;        // normal of an area light; axis of a spot or directional light
+uniform vec2 cone;           // cosines of the outer and the inner half angle
+uniform int two_sided;
+layout(location = 0) out vec4 illuminance;
+
+// Is the map's texel, carried on to the plane of the receiver, nearer to the light than that plane?
+bool shadowed(vec3 v, vec3 n, int face) {
+  float w = perspective != 0 ? -v.z : 1.0;
+  if (w <= 0.0) return false;
+  vec2 ndc = (v.xy * lens.xy + lens.zw * w) / w;
+  ivec2 size = textureSize(depth_map, 0).xy;
+  ivec2 texel = ivec2(floor((ndc * 0.5 + 0.5) * vec2(size)));
+  texel = clamp(texel, ivec2(0), size - 1);
+  float stored = texelFetch(depth_map, ivec3(texel, face), 0).r;
+  vec2 centre = (((vec2(texel) + 0.5) / vec2(size) * 2.0 - 1.0) - lens.zw) / lens.xy;
+  if (perspective != 0) {
+    float here = depth.x / w;
+    float carried = depth.x * dot(n, vec3(centre, -1.0)) / dot(n, v);
+    carried = clamp(carried, 0.5 * here, 2.0 * here);
+    return stored > carried * (1.0 + bias);
+  }
+  float here = depth.x - depth.y * v.z;
+  float z = (dot(n, v) - dot(n.xy, centre)) / n.z;
+  float carried = clamp(depth.x - depth.y * z, here - 8.0 * bias, here + 8.0 * bias);
+  return stored > carried + bias;
+}
+
+// What a luminaire's map says of a direction away from it.
+float share_towards(vec3 direction) {
+  vec3 d = luminaire_axes * direction;
+  vec2 size = vec2(textureSize(share_map, 0) - 1);
+  float turn = atan(d.y, d.x) / 6.283185307;
+  vec2 at = vec2(turn - floor(turn), atan(length(d.xy), -d.z) / 3.141592654) * size;
+  ivec2 low = ivec2(clamp(floor(at), vec2(0.0), size - 1.0));
+  vec2 t = at - vec2(low);
+  return mix(mix(texelFetch(share_map, low, 0).r, texelFetch(share_map, low + ivec2(1, 0), 0).r, t.x),
+             mix(texelFetch(share_map, low + ivec2(0, 1), 0).r, texelFetch(share_map, low + ivec2(1, 1), 0).r, t.x),
+             t.y);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 p = texelFetch(position_map, pixel, 0);
+  illuminance = vec4(0.0);
+  if (p.w == 0.0) return;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz, facet = texelFetch(facet_map, pixel, 0).xyz;
+  int face = 0;
+  vec3 v = axes[0] * (p.xyz - eye);
+  vec3 value = colour;
+  vec3 to_light = -forward;
+  if (kind != 3) {
+    for (int f = 1; f < face_count; ++f) {
+      vec3 other = axes[f] * (p.xyz - eye);
+      if (other.z < v.z) v = other, face = f;
+    }
+    float square = dot(v, v);
+    if (square == 0.0) return;
+    to_light = normalize(eye - p.xyz);
+    value /= square;
+    float along = -dot(to_light, forward);
+    if (kind >= 4) value *= share_towards(-to_light);
+    if (kind == 0 || kind == 5) value *= two_sided != 0 ? abs(along) : max(along, 0.0);
+    if (kind == 2) {
+      float rise = max(cone.y - cone.x, 1e-12);  // above 0 where the edge is hard
+      float falloff = along >= cone.y ? 1.0 : along <= cone.x ? 0.0 : (along - cone.x) / rise;
+      value *= falloff * falloff;
+    }
+  }
+  float cosine = dot(n, to_light);
+  if (cosine <= 0.0 || dot(facet, to_light) <= 0.0 || value == vec3(0.0)) return;
+  if (shadowed(v, axes[face] * facet, face)) return;
+  illuminance = vec4(value * cosine, 0.0);
+}
+)";
+
+}  // namespace phos::shaders

@@ -1,0 +1,320 @@
+// Direct light by shadow maps (Williams 1978): from each sample of a light the scene's depth is drawn, and a
+// pixel is lit if nothing is nearer than its own surface. The depth of a texel is compared with the plane of
+// the pixel's triangle at that texel (receiver-plane bias), so that only half a texel remains to be added
+// against the facets beside it.
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/luminaire/photometry.h"
+#include "scene/shading_frame.h"
+#include "scene/sky/environment.h"
+#include "splat/gl/renderer.h"
+#include "splat/gl/shaders.h"
+
+namespace phos {
+namespace {
+
+enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
+
+/// Shares of a colour by degrees: of azimuth, and from straight down. Rows of `axes` are a luminaire's x, y,
+/// up.
+struct ShareMap {
+  static constexpr int kWidth = 361, kHeight = 181;
+  std::vector<float> share;  // 1 at most
+  float greatest = 0;        // what 1 stands for, in shares of the peak intensity (of solids, per m2)
+  Mat3 axes{1};
+};
+
+/// One position that light comes from, with the views that its shadow map is made of.
+struct ShadowSample {
+  SampleKind kind = SampleKind::point;
+  Vec3 forward{0, 0, -1};
+  Rgb colour{0};  // as the shader wants it
+  Vec2 cone{0, 1};
+  const ShareMap* map = nullptr;
+  bool two_sided = false;
+  std::vector<GlView> faces;
+  float bias = 0;
+};
+
+Mat3 looking(const DVec3& forward, const DVec3& up, double scale) {
+  return Mat3(glm::transpose(glm::dmat3(glm::cross(forward, up), up, -forward)) * scale);
+}
+
+/// Axis of the greatest extent first: forward, four sides, backward.
+std::vector<Mat3> cube_axes(const Vec3& forward, double scale) {
+  const Frame frame = make_frame(forward);
+  const DVec3 x(frame.x), y(frame.y), z(frame.z);
+  return {looking(z, x, scale), looking(x, z, scale),  looking(-x, z, scale),
+          looking(y, z, scale), looking(-y, z, scale), looking(-z, x, scale)};
+}
+
+/// Perspective views from a point: `faces` of the cube about `forward`, or one of the given half opening.
+void add_views(const Scene& scene, ShadowSample& sample, const Vec3& eye, std::size_t faces,
+               double half_opening, std::int64_t but_instance, int map_size) {
+  const double scale = 1 / farthest_m(scene, eye);
+  GlView view;
+  view.eye = eye;
+  view.lens = Vec4(Vec2(static_cast<float>(1 / half_opening)), 0, 0);
+  view.depth.x = static_cast<float>(0.999 * scale * nearest_m(scene, eye, but_instance) /
+                                    std::sqrt(1 + 2 * half_opening * half_opening));
+  const std::vector<Mat3> axes = cube_axes(sample.forward, scale);
+  for (std::size_t f = 0; f < faces; ++f) view.axes = axes[f], sample.faces.push_back(view);
+  sample.bias = static_cast<float>(half_opening / map_size);
+  sample.colour = Rgb(glm::dvec3(sample.colour) * (scale * scale));
+}
+
+/// Parallel views: only as wide as what is visible.
+void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sample, int map_size) {
+  const Vec3 eye = scene.bounds.centre();
+  const double scale = 1 / std::max(static_cast<double>(bounding_radius_m(scene)), 1e-30);
+  GlView view;
+  view.eye = eye;
+  view.perspective = false;
+  view.axes = looking(DVec3(sample.forward), DVec3(make_frame(sample.forward).x), scale);
+  Bounds seen;
+  for (std::size_t i = 0; i < g.position.size(); ++i) {
+    if (g.covered(i)) seen.include(view.axes * (Vec3(g.position[i]) - eye));
+  }
+  if (seen.empty()) return;
+  const Vec3 size = glm::max(seen.size(), Vec3(1e-6f)) * (1 + 4 / static_cast<float>(map_size));
+  const Vec3 centre = seen.centre();
+  view.lens = Vec4(2 / size.x, 2 / size.y, -2 * centre.x / size.x, -2 * centre.y / size.y);
+  // The bounding sphere lies within a distance of 1 of its centre.
+  view.depth = Vec2(0.5f, -0.499f);
+  sample.bias = 0.25f * std::max(size.x, size.y) / static_cast<float>(map_size) + 1e-6f;
+  sample.faces.push_back(view);
+}
+
+/// The k-th of `count` points that fill the cube evenly: steps of 1/count, and of two numbers that multiples
+/// of each other never come near to (golden ratio; Roberts 2018).
+Vec3 even_point(int k, int count) {
+  const double y = 0.5 + 0.6180339887498949 * k, z = 0.5 + 0.7548776662466927 * k;
+  return Vec3((k + 0.5) / count, y - std::floor(y), z - std::floor(z));
+}
+
+ShadowSample area_sample(const Scene& scene, const Luminaires& luminaires, std::size_t light, int k,
+                         int count, int map_size) {
+  const Vec3 u = even_point(k, count);
+  const EmissionPoint point = luminaires.sample_point(light, u.z, Vec2(u));
+  ShadowSample sample;
+  sample.kind = SampleKind::area;
+  sample.forward = point.normal;
+  sample.two_sided = scene.material_of(point.triangle).double_sided;
+  const double per_sample = static_cast<double>(point.density) * count;
+  if (!(per_sample > 0) || max_component(point.luminance) <= 0) return sample;
+  sample.colour = Rgb(glm::dvec3(point.luminance) / per_sample);
+  const Vec3 eye = sample.two_sided ? point.position : point.position + point.error_m * point.normal;
+  add_views(scene, sample, eye, sample.two_sided ? 6 : 5, 1, scene.light[light].instance, map_size);
+  return sample;
+}
+
+/// Of a solid opening, its luminance; of a flat one or a point, the intensity.
+ShareMap share_map(const Fitting& fitting, bool solid) {
+  ShareMap map;
+  map.axes = glm::transpose(fitting.axes());
+  for (int y = 0; y < ShareMap::kHeight; ++y) {
+    for (int x = 0; x < ShareMap::kWidth; ++x) {
+      const Vec3 d = fitting.axes() * c_gamma_direction(x, y);
+      const float area_m2 = solid ? fitting.projected_area_m2(d) : 1.f;
+      map.share.push_back(area_m2 > 0 ? fitting.share(d) / area_m2 : 0.f);
+    }
+  }
+  map.greatest = *std::max_element(map.share.begin(), map.share.end());
+  for (float& v : map.share) v = map.greatest > 0 ? v / map.greatest : 0.f;
+  return map;
+}
+
+bool is_solid(const Scene& scene, const Light& light) {
+  return light.kind == Light::Kind::area && !scene.fitting[static_cast<std::size_t>(light.fitting)].flat();
+}
+
+/// A luminaire's light from the k-th of `count` places on its opening; from a point there is one.
+ShadowSample luminaire_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
+                              int count, int map_size, const ShareMap& map) {
+  const Light& light = scene.light[i];
+  const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
+  ShadowSample sample;
+  sample.kind = SampleKind::map;
+  sample.map = &map;
+  sample.colour = Rgb(DVec3(fitting.peak_cd()) * static_cast<double>(map.greatest));
+  Vec3 eye = light.position;
+  std::int64_t instance = -1;
+  if (light.kind == Light::Kind::area) {
+    const Vec3 u = even_point(k, count);
+    const EmissionPoint point = luminaires.sample_point(i, u.z, Vec2(u));
+    if (!(point.density > 0)) return {};
+    const bool solid = is_solid(scene, light);
+    if (solid) sample.kind = SampleKind::area_map;
+    sample.forward = point.normal;
+    sample.colour = Rgb(DVec3(sample.colour) / (count * (solid ? static_cast<double>(point.density) : 1.0)));
+    const bool two_sided = scene.material_of(point.triangle).double_sided;
+    eye = two_sided ? point.position : point.position + point.error_m * point.normal;
+    instance = light.instance;
+  }
+  add_views(scene, sample, eye, 6, 1, instance, map_size);
+  return sample;
+}
+
+ShadowSample punctual_sample(const Scene& scene, const GBuffer& gbuffer, const Light& light, int map_size) {
+  ShadowSample sample;
+  sample.colour = light.intensity;
+  sample.forward = light.direction;
+  if (light.kind == Light::Kind::directional) {
+    sample.kind = SampleKind::directional;
+    add_parallel_view(scene, gbuffer, sample, map_size);
+    return sample;
+  }
+  const bool spot = light.kind == Light::Kind::spot;
+  if (spot) sample.kind = SampleKind::spot, sample.cone = Vec2(light.cos_outer, light.cos_inner);
+  if (!spot) sample.forward = Vec3(0, 0, -1);
+  // Cones up to 50 degrees off the axis in one map, a little wider than they are.
+  const bool narrow = spot && light.cos_outer > 0.64;
+  const double cosine = std::min(light.cos_outer, 1 - 1e-6);
+  const double half_opening = narrow ? 1.02 * std::sqrt(1 - cosine * cosine) / cosine : 1.0;
+  add_views(scene, sample, light.position, narrow ? 1 : 6, half_opening, -1, map_size);
+  return sample;
+}
+
+/// The environment's light from the k-th of `count` directions.
+ShadowSample environment_sample(const Scene& scene, const GBuffer& gbuffer, int k, int count, int map_size) {
+  const Environment::Sample part = scene.environment->sample(Vec2(even_point(k, count)));
+  if (!(part.density > 0)) return {};
+  Light sun;
+  sun.kind = Light::Kind::directional;
+  sun.direction = -part.direction;
+  sun.intensity = part.luminance / (part.density * static_cast<float>(count));
+  return punctual_sample(scene, gbuffer, sun, map_size);
+}
+
+/// Geometric normal of what each pixel shows, on the side that is seen.
+std::vector<Vec4> facets(const Scene& scene, const GBuffer& g) {
+  std::vector<Vec4> facet(g.position.size(), Vec4(0));
+  parallel_for(facet.size(), 1 << 14, [&](std::size_t i) {
+    if (!g.covered(i)) return;
+    PHOS_CHECK(g.hit[i].triangle < scene.triangle.size(), "G-buffer of another scene");
+    const auto& v = scene.triangle[g.hit[i].triangle].v;
+    const Vec3 n = normal_of(scene.position[v[0]], scene.position[v[1]], scene.position[v[2]]);
+    facet[i] = Vec4(glm::dot(n, Vec3(g.normal[i])) < 0 ? -n : n, 0);
+  });
+  return facet;
+}
+
+}  // namespace
+
+/// Depth maps of one sample, and the sum over the picture.
+struct GlRenderer::ShadowPass {
+  Impl& impl;
+  const GlPictureTarget& target;
+  int map_size;
+  GlObject maps, framebuffer, share;
+
+  /// Binds the map that the samples from here on have.
+  void take(const ShareMap& map) {
+    const Gl& gl = impl.context.gl();
+    if (!share) share = make_texture(gl, GL_R32F, ShareMap::kWidth, ShareMap::kHeight);
+    gl.TextureSubImage2D(share.id(), 0, 0, 0, ShareMap::kWidth, ShareMap::kHeight, GL_RED, GL_FLOAT,
+                         map.share.data());
+    gl.BindTextureUnit(4, share.id());
+  }
+
+  void draw_maps(const ShadowSample& sample) const {
+    const Gl& gl = impl.context.gl();
+    const float far = 0;
+    gl.Viewport(0, 0, map_size, map_size);
+    for (std::size_t f = 0; f < sample.faces.size(); ++f) {
+      gl.NamedFramebufferTextureLayer(framebuffer.id(), GL_DEPTH_ATTACHMENT, maps.id(), 0,
+                                      static_cast<GLint>(f));
+      gl.ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
+      gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
+      impl.mesh.draw(sample.faces[f]);
+    }
+  }
+
+  void add(const ShadowSample& sample) const {
+    if (sample.faces.empty()) return;
+    draw_maps(sample);
+    const Gl& gl = impl.context.gl();
+    const GlProgram& program = impl.shadow_program;
+    std::vector<Mat3> axes;
+    for (const GlView& face : sample.faces) axes.push_back(face.axes);
+    const GlView& view = sample.faces.front();
+    program.set("face_count", static_cast<int>(axes.size()));
+    program.set("axes", axes);
+    program.set("eye", view.eye);
+    program.set("lens", view.lens);
+    program.set("depth", view.depth);
+    program.set("perspective", view.perspective ? 1 : 0);
+    program.set("bias", sample.bias);
+    program.set("kind", static_cast<int>(sample.kind));
+    program.set("two_sided", sample.two_sided ? 1 : 0);
+    program.set("colour", sample.colour);
+    program.set("forward", sample.forward);
+    program.set("cone", sample.cone);
+    if (sample.map) program.set("luminaire_axes", std::span(&sample.map->axes, 1));
+    program.use();
+    impl.bind_for_sum(target);
+    gl.BindTextureUnit(3, maps.id());
+    gl.BindVertexArray(impl.empty_array.id());
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+};
+
+std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size) {
+  PHOS_CHECK(light_samples > 0 && map_size > 0, light_samples, " samples, maps of ", map_size);
+  const Scene& scene = impl_->scene;
+  std::vector<Rgb> illuminance(gbuffer.position.size(), Rgb(0));
+  if (illuminance.empty() || scene.light.empty()) return illuminance;
+
+  impl_->context.make_current();
+  const Gl& gl = impl_->context.gl();
+  if (!impl_->shadow_program) {
+    impl_->shadow_program = GlProgram(gl, "shadow", shaders::picture_vertex, shaders::shadow_fragment);
+    impl_->empty_array = make_vertex_array(gl);
+  }
+  const int size = std::min(map_size, impl_->context.largest_texture());
+  const GlPictureTarget& target = impl_->picture_target(gbuffer);
+  gl.TextureSubImage2D(target.facet.id(), 0, 0, 0, gbuffer.width, gbuffer.height, GL_RGBA, GL_FLOAT,
+                       facets(scene, gbuffer).data());
+  ShadowPass pass{*impl_, target, size, make_texture_array(gl, GL_DEPTH_COMPONENT32F, size, size, 6), {}, {}};
+  gl.TextureParameteri(pass.maps.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  GLuint framebuffer = 0;
+  gl.CreateFramebuffers(1, &framebuffer);
+  pass.framebuffer = GlObject(gl, framebuffer, [](const Gl& g, GLuint id) { g.DeleteFramebuffers(1, &id); });
+  gl.NamedFramebufferDrawBuffers(framebuffer, 0, nullptr);
+
+  const Luminaires luminaires(scene);
+  std::size_t total = 0;
+  for (const Light& light : scene.light) {
+    total += light.extended() ? static_cast<std::size_t>(light_samples) : 1;
+  }
+  Progress progress("shadow maps", total, "maps");
+  for (std::size_t i = 0; i < scene.light.size(); ++i) {
+    const Light& light = scene.light[i];
+    ShareMap map;
+    if (light.fitting >= 0) {
+      map = share_map(scene.fitting[static_cast<std::size_t>(light.fitting)], is_solid(scene, light));
+      pass.take(map);
+    }
+    for (int k = 0; k < (light.extended() ? light_samples : 1); ++k) {
+      throw_if_interrupted();
+      pass.add(light.fitting >= 0 ? luminaire_sample(scene, luminaires, i, k, light_samples, size, map)
+               : light.kind == Light::Kind::area ? area_sample(scene, luminaires, i, k, light_samples, size)
+               : light.kind == Light::Kind::environment
+                   ? environment_sample(scene, gbuffer, k, light_samples, size)
+                   : punctual_sample(scene, gbuffer, light, size));
+      progress.advance();
+    }
+  }
+  std::vector<Vec4> sum(illuminance.size());
+  impl_->read(target.light, sum);
+  impl_->context.check("drawing shadow maps");
+  for (std::size_t i = 0; i < sum.size(); ++i) illuminance[i] = Rgb(sum[i]);
+  return illuminance;
+}
+
+}  // namespace phos

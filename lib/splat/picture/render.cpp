@@ -1,0 +1,423 @@
+#include "splat/picture/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/origin.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "file/atomic_file.h"
+#include "scene/load.h"
+#include "scene/picture.h"
+#include "splat/cpu/gloss_splatter.h"
+#include "splat/direct/interleaved.h"
+#include "splat/picture/edge_shader.h"
+#include "splat/picture/edges.h"
+#include "splat/picture/pixel_shader.h"
+#include "splat/splatter.h"
+
+namespace phos {
+
+namespace {
+
+constexpr std::size_t kChunk = 1024;
+
+/// Adds its own life to an entry of a JSON object.
+class Stopwatch {
+ public:
+  Stopwatch(Json& seconds, const std::string& name) : seconds_(seconds[name]) {}
+  ~Stopwatch() {
+    const double before = seconds_.is_null() ? 0 : seconds_.as_number();
+    seconds_ = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  Json& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The records at each visible point by lookups, with a ray to each: what splatting gives, without leaks.
+SplatBuffer look_up(const RecordTree& records, const GBuffer& g) {
+  SplatBuffer buffer;
+  for (std::vector<Vec4>* sums : {&buffer.light, &buffer.error, &buffer.spread})
+    sums->assign(g.position.size(), Vec4(0));
+  buffer.unit_lx = splat_unit_lx(records.records());
+  const double per_unit2 = 1 / (static_cast<double>(buffer.unit_lx) * static_cast<double>(buffer.unit_lx));
+  parallel_for(g.position.size(), kChunk, [&](std::size_t i) {
+    if (!g.covered(i)) return;
+    Interpolated sum;
+    records.add(Vec3(g.position[i]), Vec3(g.normal[i]), sum);
+    buffer.light[i] = Vec4(sum.irradiance, sum.weight);
+    buffer.error[i] = Vec4(sum.stderr_lx, sum.weight > 0 ? 1 : 0);
+    buffer.spread[i] =
+        Vec4(sum.sums.weight2, sum.sums.shared, static_cast<float>(sum.sums.value2 * per_unit2), 0);
+  });
+  return buffer;
+}
+
+/// Puts misses in a pseudo-random order, so that the first few already cover the picture, and keeps at most
+/// `most`.
+void spread(std::vector<Miss>& misses, std::uint64_t seed, std::size_t most) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order(misses.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = {RandomStream(seed, Stage::camera, i).bits(), static_cast<std::uint32_t>(i)};
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), most));
+  std::vector<Miss> kept;
+  kept.reserve(order.size());
+  for (const auto& [key, i] : order) kept.push_back(misses[i]);
+  misses = std::move(kept);
+}
+
+}  // namespace
+
+void declare_options(Options& options, RenderOptions& r) {
+  options.section("Picture");
+  options.text("camera", r.camera, "NAME", "camera of the scene; the first one if not given");
+  options.integer("width", r.width, "PIXELS", "width; 0: from the height and the camera's aspect",
+                  {0, 65536});
+  options.integer("height", r.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
+                  {0, 65536});
+  options.integer("pixel-samples", r.pixel_samples, "N", "samples per pixel, averaged (anti-aliasing)",
+                  {1, 4096});
+  options.integer("edge-samples", r.edge_samples, "N",
+                  "more samples of the pixels in which surfaces meet (anti-aliasing where it shows, at a "
+                  "fraction of --pixel-samples' time); they lie in pairs about the centre: give "
+                  "an even number",
+                  {0, 4096});
+  options.list("layers", r.layers, "all|LAYER,...",
+               "layers to write: " + LayerSet::names() + " (fewer are faster)");
+  options.choice<Overlay>("overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
+                          "draw the visible records into the beauty: a dot at each, and the outline of the "
+                          "zone it lights; other layers stay as they are");
+  options.choice<OverlayColour>(
+      "overlay-colour", r.overlay_colour,
+      {{"radius", OverlayColour::radius}, {"stderr", OverlayColour::stderr_}},
+      "what the records' colours tell: radius, or standard error over irradiance (logarithmic, blue is "
+      "least)");
+  options.section("Light from the cache");
+  options.number("accuracy", r.accuracy, "A",
+                 "how far a record reaches: error allowed between records (smaller: fewer, closer records "
+                 "are blended; more noise, more misses); if not given, 2.5 times what the cache was placed "
+                 "with, but no more than 0.5 (radiance records: 0.6)",
+                 kPositive);
+  options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
+                          "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
+  options.choice<LeakTest>(
+      "leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
+      "ray: a record lights a point only if the two can see each other (records are looked up, a ray for "
+      "each, instead of drawn)");
+  options.integer("max-misses", r.max_misses, "N", "at most this many points go into --misses", kNotNegative,
+                  Recorded::no);
+  options.section("Direct light, gloss, mirrors and glass");
+  options.choice<DirectBy>(
+      "direct", r.direct,
+      {{"traced", DirectBy::traced},
+       {"interleaved", DirectBy::interleaved},
+       {"shadow-map", DirectBy::shadow_map},
+       {"none", DirectBy::none}},
+      "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one diffuse surface share "
+      "theirs, at edges too, and more of them only where a lamp is seen in part (a fraction of the time; "
+      "blurs shadows over up to 4 pixels, less with more rays, not at all with 64, of lamps of uneven light "
+      "or many faces with 4096); by shadow maps (fast preview, diffuse only); or left out");
+  options.integer("light-samples", r.light_samples, "N",
+                  "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
+                  "at least); or "
+                  "shadow maps per area light (or environment)",
+                  {1, 65536});
+  options.number("noise", r.noise, "FRACTION",
+                 "chooses --light-samples and --gloss-samples: as many as it takes for a root mean square "
+                 "noise of direct light and gloss of this part of the pixel's light, or of a tenth of the "
+                 "picture's mean where that is more (0.02: 2 %), as two small pictures tell; 64 (fewer to "
+                 "each of many lamps) to 4096",
+                 {1e-4, 1}, Recorded::if_given);
+  options.choice<EnvironmentBy>(
+      "environment-mode", r.environment,
+      {{"traced", EnvironmentBy::traced}, {"hsh", EnvironmentBy::hsh}, {"sh", EnvironmentBy::sh}},
+      "light of the environment on what is seen: by rays; or by hemispherical harmonics, without noise and "
+      "WITHOUT SHADOWS, as in an open place (where the tables of a .brdf file, or those made here, say that "
+      "a "
+      "lobe is too sharp, it is traced); or by spherical ones, to compare");
+  options.integer("environment-order", r.environment_order, "N",
+                  "bands of those harmonics: N x N coefficients", {1, 30});
+  options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
+  declare_options(options, r.gloss);
+  options.choice<SplatBy>(
+      "gloss-splat", r.gloss_splat, {{"cpu", SplatBy::cpu}, {"gl", SplatBy::gl}},
+      "draw radiance records on the CPU or with OpenGL (same picture to 1e-4; OSMesa takes "
+      "many times as long)");
+  options.integer("gloss-samples", r.gloss_samples, "N",
+                  "rays per pixel on a glossy surface whose gloss is traced, shared among its samples",
+                  {0, 65536});
+  options.integer("specular-depth", r.specular_depth, "N", "longest chain of mirrors and glass", {0, 1000});
+  declare_isa(options, r.isa);
+}
+
+void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cache,
+             const RadianceCache& radiance) {
+  resolve_size(camera, kPictureSide, r.width, r.height);
+  if (!r.gloss_accuracy) r.gloss_accuracy = r.accuracy.value_or(reading_accuracy(radiance));
+  if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
+  const LayerSet layers(r.layers);
+  if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
+    throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
+  if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
+    throw Error(ExitCode::usage, "--edge-samples",
+                "sends rays for direct light too; give --direct traced or interleaved");
+  if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
+    throw Error(ExitCode::usage, "--environment-mode", "by harmonics is for --direct traced alone");
+}
+
+namespace {
+
+/// A picture in the making: its samples pass by pass, then more of them at edges.
+class Painter {
+ public:
+  Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
+          std::span<const BrdfTable> brdfs, const GlossCache* gloss, Rendering& result)
+      : rays_(rays),
+        cache_(cache),
+        gloss_(gloss),
+        options_(options),
+        by_gl_(options.splat == SplatBy::gl && !any_footprint(cache.records)),
+        result_(result),
+        camera_(find_camera(rays.scene(), options.camera)),
+        width_(static_cast<int>(options.width)),
+        height_(static_cast<int>(options.height)),
+        samples_(static_cast<int>(options.pixel_samples)),
+        pixel_rays_(camera_, width_, height_),
+        lights_(rays.scene()),
+        records_(tree()),
+        caustics_(caustic_light()),
+        shading_(rays, lights_, records_, shading_options(), gloss, caustics_.get()),
+        environment_(harmonics(brdfs)),
+        shader_(rays, shading_, options, cached_direct(), environment_.get()),
+        layers_(width_, height_, LayerSet(options.layers), samples_ + static_cast<int>(options.edge_samples),
+                spread_from()),
+        count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+               static_cast<std::uint16_t>(samples_)),
+        progress_("rendering", count_.size() * static_cast<std::uint64_t>(samples_), "pixel samples") {
+    if (by_gl() || gloss_by_gl() || options.direct == DirectBy::shadow_map)
+      gl_ = std::make_unique<GlRenderer>(rays.scene());
+    result.renderer = gl_ ? gl_->description() : "cpu";
+  }
+
+  void make() {
+    for (int s = 0; s < samples_; ++s) {
+      pass_.gbuffer = see(s);
+      if (s == 0 && options_.edge_samples > 0) find_edges(pass_.gbuffer);
+      const SplatBuffer splats = light_from_cache(pass_.gbuffer);
+      pass_.shared = shared_light(s, pass_.gbuffer);
+      shade(s, pass_.gbuffer, splats, gloss_from_cache(s, pass_.gbuffer), pass_.shared);
+    }
+    if (!edges_.empty()) shade_edges();
+    finish();
+  }
+
+ private:
+  bool by_gl() const { return by_gl_; }
+  bool gloss_by_gl() const { return gloss_ && options_.gloss_splat == SplatBy::gl; }
+  bool cached_direct() const { return cache_.quantity == "all"; }
+
+  RecordTree tree() const {
+    RecordTree records(rays_.scene().bounds, *options_.accuracy,
+                       options_.leak_test == LeakTest::ray ? &rays_ : nullptr);
+    for (const IrradianceRecord& r : cache_.records) records.insert(r);
+    return records;
+  }
+
+  /// Null where records hold caustic light, and where no layer shows any light.
+  std::unique_ptr<const CausticLight> caustic_light() const {
+    if (!cache_.caustics || !LayerSet(options_.layers).show_light()) return nullptr;
+    return std::make_unique<CausticLight>(rays_, std::make_shared<CausticMap>(*cache_.caustics),
+                                          kPictureCaustics);
+  }
+
+  /// Null where the environment is traced.
+  std::unique_ptr<EnvironmentHarmonics> harmonics(std::span<const BrdfTable> brdfs) const {
+    if (options_.environment == EnvironmentBy::traced) return nullptr;
+    const Scene& scene = rays_.scene();
+    if (!scene.environment)
+      throw Error(ExitCode::usage, "--environment-mode", "there is no environment; give --environment FILE");
+    const Stopwatch watch(result_.seconds, "environment");
+    return std::make_unique<EnvironmentHarmonics>(scene, *scene.environment, options_.environment,
+                                                  static_cast<int>(options_.environment_order), brdfs);
+  }
+
+  /// Samples of a pixel from which on they send single rays.
+  int spread_from() const {
+    return shader_.single_rays(false)  ? 2
+           : shader_.single_rays(true) ? samples_ + 1
+                                       : std::numeric_limits<int>::max();
+  }
+
+  ShadingOptions shading_options() const {
+    ShadingOptions shading;
+    shading.specular_depth = static_cast<int>(options_.specular_depth);
+    shading.cached_direct = cached_direct();
+    shading.reflect_direct = options_.direct != DirectBy::none;
+    return shading;
+  }
+
+  GBuffer see(int s) {
+    const Stopwatch watch(result_.seconds, "visible surface");
+    const Vec2 where = subpixel_offset(s, samples_);
+    return by_gl() ? gl_->rasterise(camera_, width_, height_, where)
+                   : trace_gbuffer(rays_, camera_, width_, height_, where);
+  }
+
+  SplatBuffer light_from_cache(const GBuffer& gbuffer) {
+    if (options_.leak_test == LeakTest::ray) {
+      const Stopwatch watch(result_.seconds, "lookups with leak test");
+      return look_up(records_, gbuffer);
+    }
+    const Stopwatch watch(result_.seconds, "splat");
+    return by_gl() ? gl_->splat(cache_.records, *options_.accuracy, gbuffer, camera_)
+                   : splat_on_cpu(cache_.records, *options_.accuracy, gbuffer, camera_);
+  }
+
+  /// Empty if all gloss is traced.
+  GlossBuffer gloss_from_cache(int s, const GBuffer& gbuffer) {
+    if (!gloss_ || gloss_->size() == 0) return {};
+    const Stopwatch watch(result_.seconds, "gloss splat");
+    const Vec2 where = subpixel_offset(s, samples_);
+    const double accuracy = *options_.gloss_accuracy;
+    GlossBuffer drawn =
+        options_.leak_test == LeakTest::ray ? look_up_gloss(*gloss_, rays_, gbuffer, camera_, where)
+        : gloss_by_gl() ? gl_->splat_gloss(*gloss_, accuracy, rays_, gbuffer, camera_, where)
+                        : splat_gloss_on_cpu(*gloss_, accuracy, rays_, gbuffer, camera_, where);
+    result_.gloss.pairs += drawn.pairs, result_.gloss.turned_pixels += drawn.turned;
+    return drawn;
+  }
+
+  /// Empty if direct light is had another way.
+  std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
+    // Shadow maps have no light through panes: shadow rays stand in for them.
+    const bool by_maps = options_.direct == DirectBy::shadow_map && !rays_.has_panes();
+    if (options_.direct == DirectBy::interleaved || (options_.direct == DirectBy::shadow_map && !by_maps)) {
+      if (cached_direct()) return std::vector<SharedLight>(count_.size());
+      const Stopwatch watch(result_.seconds, "interleaved direct light");
+      return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s, samples_),
+                               {shader_.lamp_rays_of_each(false), s, samples_}, options_.seed);
+    }
+    std::vector<SharedLight> shared;
+    if (!by_maps) return shared;
+    const Stopwatch watch(result_.seconds, "shadow maps");
+    for (const Rgb& e : gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
+                                                static_cast<int>(options_.shadow_map_size)))
+      shared.push_back({e, Rgb(0)});
+    return shared;
+  }
+
+  void find_edges(const GBuffer& gbuffer) {
+    const Stopwatch watch(result_.seconds, "edges");
+    edges_ = edge_pixels(rays_.scene(), gbuffer);
+    for (const std::uint32_t i : edges_)
+      count_[i] = static_cast<std::uint16_t>(options_.pixel_samples + options_.edge_samples);
+  }
+
+  Ray ray_of(std::size_t pixel, const Vec2& where) const {
+    const auto width = static_cast<std::size_t>(width_);
+    return pixel_rays_(static_cast<int>(pixel % width), static_cast<int>(pixel / width), where);
+  }
+
+  void shade(int s, const GBuffer& gbuffer, const SplatBuffer& splats, const GlossBuffer& gloss,
+             const std::vector<SharedLight>& shared) {
+    const Stopwatch watch(result_.seconds, "shading");
+    const Vec2 where = subpixel_offset(s, samples_);
+    run(count_.size(), kChunk, [&](std::size_t i, ShadingResult& result) {
+      const Ray ray = ray_of(i, where);
+      if (!gbuffer.covered(i)) return layers_.add(i, shader_.background(ray));
+      const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
+      PixelShader::Splat splat{splats.at(i)};
+      if (!gloss.light.empty()) splat.gloss = gloss.light[i], splat.gloss_error = gloss.error[i];
+      layers_.add(i, shader_.shade({i, s}, ray, point, splat, shared.empty() ? nullptr : &shared[i], result));
+      if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
+    });
+  }
+
+  void shade_edges() {
+    const Stopwatch watch(result_.seconds, "edges");
+    const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, cached_direct(), pass_);
+    run(edges_.size(), 64,
+        [&](std::size_t e, ShadingResult& result) { edge.shade(edges_[e], layers_, result); });
+  }
+
+  /// body(i, result) for i < n; results are joined in order.
+  template <class Body>
+  void run(std::size_t n, std::size_t chunk, const Body& body) {
+    total_ = parallel_reduce(
+        n, chunk, std::move(total_),
+        [&](std::size_t begin, std::size_t end) {
+          ShadingResult result;
+          for (std::size_t i = begin; i < end; ++i) body(i, result);
+          progress_.advance(end - begin);
+          return result;
+        },
+        [](ShadingResult& total, ShadingResult& part) { total.join(part); });
+  }
+
+  void finish() {
+    result_.looked_up = total_.looked_up, result_.missed = total_.missed;
+    result_.edge_pixels = edges_.size();
+    result_.counters = total_.log.counters;
+    result_.misses = std::move(total_.log.misses), result_.gloss_misses = std::move(total_.log.gloss_misses);
+    result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = total_.gloss_missed;
+    for (std::vector<Miss>* misses : {&result_.misses, &result_.gloss_misses})
+      spread(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
+    result_.image = layers_.image(count_);
+  }
+
+  const RayScene& rays_;
+  const IrradianceCache& cache_;
+  const GlossCache* gloss_;
+  const RenderOptions& options_;
+  const bool by_gl_;  // records are drawn by OpenGL
+  Rendering& result_;
+  const Camera& camera_;
+  int width_, height_, samples_;
+  PixelRays pixel_rays_;
+  Luminaires lights_;
+  RecordTree records_;
+  std::unique_ptr<const CausticLight> caustics_;
+  Shading shading_;
+  std::unique_ptr<const EnvironmentHarmonics> environment_;
+  PixelShader shader_;
+  std::unique_ptr<GlRenderer> gl_;
+  Layers layers_;
+  std::vector<std::uint16_t> count_;  // samples of each pixel
+  std::vector<std::uint32_t> edges_;
+  SeenPicture pass_;  // the latest
+  ShadingResult total_;
+  Progress progress_;
+};
+
+}  // namespace
+
+Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
+                       std::span<const BrdfTable> brdfs, const GlossCache* gloss) {
+  Rendering result;
+  Painter(rays, cache, options, brdfs, gloss, result).make();
+  if (options.overlay == Overlay::records)
+    result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
+                                find_camera(rays.scene(), options.camera), options.overlay_colour);
+  return result;
+}
+
+void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m) {
+  std::string csv = "x,y,z,nx,ny,nz\n";
+  for (const Miss& m : misses) {
+    for (int c = 0; c < 3; ++c) csv += world_text(origin_m[c], m.position[c]) + ",";
+    for (int c = 0; c < 3; ++c) csv += shortest(m.normal[c]) + (c < 2 ? "," : "\n");
+  }
+  AtomicFile file(path);
+  file.write(csv);
+  file.commit();
+}
+
+}  // namespace phos

@@ -1,0 +1,83 @@
+#include "splat/picture/report.h"
+
+#include <cmath>
+
+namespace phos {
+namespace {
+
+void put_stats(Tool& tool, const Rendering& rendering, const PictureGloss& gloss) {
+  for (const auto& [part, seconds] : rendering.seconds.as_object()) tool.stat("seconds." + part, seconds);
+  tool.stat("renderer", rendering.renderer);
+  tool.stat("cache lookups", rendering.looked_up);
+  tool.stat("cache misses", rendering.missed);
+  if (rendering.edge_pixels > 0) tool.stat("edge pixels", rendering.edge_pixels);
+  if (!gloss.report.as_array().empty()) tool.stat("gloss", gloss.report);
+  if (gloss.cache) {
+    tool.stat("gloss records", gloss.cache->size());
+    tool.stat("gloss lookups", rendering.gloss.looked_up);
+    tool.stat("gloss misses", rendering.gloss.missed);
+    tool.stat("gloss pairs", rendering.gloss.pairs);
+    tool.stat("gloss pixels of turned records", rendering.gloss.turned_pixels);
+  }
+  tool.counters().merge(rendering.counters);
+}
+
+std::string percent(std::uint64_t part, std::uint64_t all) {
+  const double share = static_cast<double>(part) / static_cast<double>(all);
+  return shortest(std::ceil(1e4 * share) / 100) + " %";
+}
+
+void tell_of_misses(const Tool& tool, const Rendering& r, const std::string& path) {
+  if (!path.empty()) {
+    tool.say(text(path, ": ", r.misses.size(), " points without a record"));
+  } else if (r.missed > 0) {
+    tool.warn(text(percent(r.missed, r.looked_up),
+                   " of the visible points have no record near enough (farther ones light them); write them "
+                   "with --misses, fill them with phos-irradiance --at, or raise --accuracy"));
+  }
+}
+
+void tell_of_gloss_misses(const Tool& tool, const Rendering& r, const std::string& path) {
+  if (!path.empty()) {
+    tool.say(text(path, ": ", r.gloss_misses.size(), " glossy points without a radiance record"));
+  } else if (r.gloss.missed > 0) {
+    tool.warn(text(percent(r.gloss.missed, r.gloss.looked_up),
+                   " of the glossy points have no radiance record near enough (they are traced); write them "
+                   "with --gloss-misses, fill them with phos-radiance --at"));
+  }
+}
+
+void tell_of_records(Tool& tool, const RenderOptions& render, const Rendering& rendering) {
+  if (render.overlay == Overlay::none) return;
+  const DrawnRecords& drawn = rendering.drawn;
+  tool.stat("overlay.records", drawn.count);
+  tool.stat("overlay.least", drawn.least);
+  tool.stat("overlay.most", drawn.most);
+  const bool radius = render.overlay_colour == OverlayColour::radius;
+  const auto value = [&](double v) {
+    return radius ? shortest(static_cast<float>(v)) + " m" : shortest(static_cast<float>(100 * v)) + " %";
+  };
+  tool.say(text(drawn.count, " records drawn; ", radius ? "radius" : "standard error", " from ",
+                value(drawn.least), " (blue) to ", value(drawn.most), " (red), logarithmic"));
+}
+
+}  // namespace
+
+void report_picture(Tool& tool, const RenderOptions& render, const Rendering& rendering,
+                    const PictureGloss& gloss, const std::string& misses, const std::string& gloss_misses) {
+  put_stats(tool, rendering, gloss);
+  tell_of_misses(tool, rendering, misses);
+  if (gloss.cache || !gloss_misses.empty()) tell_of_gloss_misses(tool, rendering, gloss_misses);
+  tell_of_records(tool, render, rendering);
+}
+
+void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target) {
+  if (!render.noise) return;
+  tool.stat("pilot noise, direct", target.direct);
+  tool.stat("pilot noise, gloss", target.gloss);
+  tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
+                " rays of gloss are sent"));
+  if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
+}
+
+}  // namespace phos

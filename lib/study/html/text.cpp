@@ -1,0 +1,65 @@
+#include "study/html/text.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/json.h"
+#include "core/text/markup.h"
+#include "image/formats.h"
+
+namespace phos {
+
+std::string base64(std::string_view bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[k])) : 0u;
+    };
+    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    out += kDigits[three >> 18 & 63], out += kDigits[three >> 12 & 63];
+    out += i + 1 < bytes.size() ? kDigits[three >> 6 & 63] : '=';
+    out += i + 2 < bytes.size() ? kDigits[three & 63] : '=';
+  }
+  return out;
+}
+
+std::string data_uri(const Picture& picture) {
+  std::string uri = "data:image/png;base64,";
+  return uri.append(base64(encode_png(picture)));
+}
+
+std::string short_number(double v) {
+  if (!std::isfinite(v)) return std::isnan(v) ? "-" : v > 0 ? "inf" : "-inf";
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.4g", v);
+  return digits;
+}
+
+std::string interval_text(const MeanInterval& i, double scale) {
+  std::string words = short_number(scale * i.mean);
+  if (i.bounded())
+    words.append(" (")
+        .append(short_number(scale * i.lo))
+        .append(" .. ")
+        .append(short_number(scale * i.hi))
+        .append(")");
+  return words;
+}
+
+std::string number_cell(double sort_by, const std::string& words) {
+  return text("<td data-v=\"", std::isnan(sort_by) ? "" : shortest(sort_by), "\">", markup_text(words),
+              "</td>");
+}
+
+std::string bytes_text(double bytes) {
+  static constexpr const char* kUnits[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1024 && unit + 1 < std::size(kUnits); ++unit) bytes /= 1024;
+  return text(short_number(bytes), " ", kUnits[unit]);
+}
+
+}  // namespace phos

@@ -1,0 +1,279 @@
+// The files of films.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/error.h"
+#include "core/float_traps.h"
+#include "radiance/columns.h"
+#include "temporal/film/cache.h"
+#include "temporal/film/lives.h"
+
+namespace phos {
+namespace {
+
+// --- changes ---
+
+struct IrradianceChanges {
+  std::vector<Vec3> irradiance, rotation, translation;
+  std::vector<float> radius_m;
+
+  explicit IrradianceChanges(const Film& film) {
+    for (const FilmRecord& r : film.records) {
+      irradiance.push_back(r.change.irradiance), radius_m.push_back(r.change.radius_m);
+      rotation.insert(rotation.end(), std::begin(r.change.rotation), std::end(r.change.rotation));
+      translation.insert(translation.end(), std::begin(r.change.translation), std::end(r.change.translation));
+    }
+  }
+  void add_to(ContainerWriter& file) const {
+    const std::size_t n = irradiance.size();
+    const auto gradient = [&](const char* name, const std::vector<Vec3>& v, const char* unit) {
+      file.add<float>(name, {reinterpret_cast<const float*>(v.data()), 9 * n}, {n, 3, 3}, unit);
+    };
+    file.add_vectors("irradiance_change", irradiance, "lx/frame");
+    gradient("rotation_gradient_change", rotation, "lx/rad/frame");
+    gradient("translation_gradient_change", translation, "lx/m/frame");
+    file.add<float>("radius_change", radius_m, {n}, "m/frame");
+  }
+};
+
+/// film.records[k] is row rows[k] of the file.
+void read_changes(const Container& file, const std::vector<std::size_t>& rows, Film& film) {
+  const std::uint64_t n = file.vectors("position").size();
+  const auto irradiance = file.values<float>("irradiance_change", {n, 3}),
+             rotation = file.values<float>("rotation_gradient_change", {n, 3, 3}),
+             translation = file.values<float>("translation_gradient_change", {n, 3, 3}),
+             radius_m = file.values<float>("radius_change", {n});
+  const auto vector = [](std::span<const float> v, std::size_t i) {
+    return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    IrradianceChange& change = film.records[k].change;
+    const std::size_t i = rows[k];
+    change.irradiance = vector(irradiance, i), change.radius_m = radius_m[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      change.rotation[c] = vector(rotation, 3 * i + c);
+      change.translation[c] = vector(translation, 3 * i + c);
+    }
+  }
+}
+
+struct RadianceChanges {
+  std::size_t n, count;  ///< coefficients of a colour
+  bool gradients;
+  std::vector<float> light, gradient_x, gradient_y, radius_m;
+
+  explicit RadianceChanges(const RadianceFilm& film, int order)
+      : n(film.records.size()),
+        count(static_cast<std::size_t>(order) * static_cast<std::size_t>(order)),
+        gradients(n > 0 && !film.records.front().record.gradient_x.empty()),
+        light(3 * n * count),
+        gradient_x(gradients ? light.size() : 0),
+        gradient_y(gradient_x.size()) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const RadianceRecord& record = film.records[i].record;
+      const RadianceChange& change = film.records[i].change;
+      const auto put = [&](const std::vector<float>& from, const std::vector<float>& of,
+                           std::vector<float>& to) {
+        PHOS_CHECK(from.empty() || from.size() == of.size(), "record ", i, " changes in ", from.size(),
+                   " of ", of.size(), " numbers");
+        if (!from.empty()) to_column(from, &to[3 * i * count], count);
+      };
+      put(change.light, record.light, light);
+      put(change.gradient_x, record.gradient_x, gradient_x);
+      put(change.gradient_y, record.gradient_y, gradient_y);
+      radius_m.push_back(change.radius_m);
+    }
+  }
+  void add_to(ContainerWriter& file) const {
+    file.add<float>("coefficients_change", light, {n, 3, count}, "cd/m2 sqrt(sr)/frame");
+    if (gradients) {
+      file.add<float>("gradient_x_change", gradient_x, {n, 3, count}, "cd/m2 sqrt(sr)/m/frame");
+      file.add<float>("gradient_y_change", gradient_y, {n, 3, count}, "cd/m2 sqrt(sr)/m/frame");
+    }
+    file.add<float>("radius_change", radius_m, {n}, "m/frame");
+  }
+};
+
+[[noreturn]] void refuse_record(const Container& file, std::size_t i, const char* wrong) {
+  throw Error(ExitCode::bad_input, file.path(),
+              text("record ", i, " has ", wrong,
+                   "; the file is damaged or was made by a faulty program: make it again"));
+}
+
+void read_changes(const Container& file, const std::vector<std::size_t>& rows, RadianceFilm& film) {
+  const Shape& shape = file.tensors().at("coefficients").shape;  // read_radiance_rows() has found it
+  const std::uint64_t n = shape[0], count = shape[2];
+  const auto radius_m = file.values<float>("radius_change", {n});
+  for (std::size_t k = 0; k < rows.size(); ++k) film.records[k].change.radius_m = radius_m[rows[k]];
+  const auto take = [&](const char* name, std::vector<float> RadianceRecord::*of,
+                        std::vector<float> RadianceChange::*to) {
+    const auto all = file.values<float>(name, shape);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const float* row = all.data() + 3 * rows[k] * count;
+      const std::size_t used = (film.records[k].record.*of).size() / 3;
+      if (!rest_is_zero(row, count, used)) refuse_record(file, rows[k], "changes beyond its own order");
+      if (!rest_is_zero(row, count, 0)) film.records[k].change.*to = from_column(row, count, used);
+    }
+  };
+  take("coefficients_change", &RadianceRecord::light, &RadianceChange::light);
+  if (!file.has("gradient_x")) return;
+  take("gradient_x_change", &RadianceRecord::gradient_x, &RadianceChange::gradient_x);
+  take("gradient_y_change", &RadianceRecord::gradient_y, &RadianceChange::gradient_y);
+}
+
+bool all_finite(const IrradianceRecord& r) {
+  bool finite = is_finite(r.irradiance) && std::isfinite(r.radius_m);
+  for (int c = 0; c < 3; ++c)
+    finite = finite && is_finite(r.rotation_gradient[c]) && is_finite(r.translation_gradient[c]);
+  return finite;
+}
+bool all_finite(const RadianceRecord& r) { return is_finite(r); }
+
+/// nullptr: nothing. What changes is largest or least at the end of a life.
+template <class Record>
+const char* what_is_wrong_with_change(const Record& r) {
+  const NoFloatTraps traps;  // sums of what files hold may overflow
+  return all_finite(changed(r, r.life.end - 1)) ? nullptr : "a change that is not finite";
+}
+
+// --- both kinds ---
+
+/// What of a file is to be read: all of it, or what is alive at a frame.
+struct Wanted {
+  FilmInfo info;
+  std::vector<Life> lives;  ///< all
+  std::vector<Alive> alive;
+  std::vector<std::size_t> rows;
+
+  explicit Wanted(const Container& file, std::optional<std::int64_t> frame = {})
+      : info(read_film_info(file)) {
+    file.verify();
+    const std::size_t n = file.vectors("position").size();
+    lives = read_lives(file, n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const char* wrong = what_is_wrong(lives[i], i > 0 ? &lives[i - 1] : nullptr, info))
+        refuse_record(file, i, wrong);
+    if (frame) {
+      alive = alive_at(
+          n, [&](std::size_t i) -> const Life& { return lives[i]; }, info, *frame);
+      for (const Alive& a : alive) rows.push_back(a.record);
+    } else {
+      rows.resize(n);
+      std::iota(rows.begin(), rows.end(), std::size_t{0});
+    }
+  }
+};
+
+/// Fills all but the records themselves.
+template <class AnyFilm>
+void complete(const Container& file, const Wanted& wanted, AnyFilm& film) {
+  film.info = wanted.info;
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k) film.records[k].life = wanted.lives[wanted.rows[k]];
+  if (film.info.gradients != TemporalGradients::none) read_changes(file, wanted.rows, film);
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k)
+    if (const char* wrong = what_is_wrong_with_change(film.records[k]))
+      refuse_record(file, wanted.rows[k], wrong);
+}
+
+Film read(const Container& file, const Wanted& wanted) {
+  const RecordColumns columns(file, RecordsOf::film);
+  Film film;
+  film.quantity = columns.quantity();
+  film.records.resize(wanted.rows.size());
+  for (std::size_t k = 0; k < wanted.rows.size(); ++k) film.records[k].record = columns[wanted.rows[k]];
+  complete(file, wanted, film);
+  return film;
+}
+
+RadianceFilm read_radiance(const Container& file, const Wanted& wanted) {
+  RadianceCache cache = read_radiance_rows(file, RecordsOf::film, &wanted.rows);
+  RadianceFilm film;
+  film.records.resize(cache.records.size());
+  for (std::size_t k = 0; k < film.records.size(); ++k) film.records[k].record = std::move(cache.records[k]);
+  complete(file, wanted, film);
+  return film;
+}
+
+/// `film` holds what is alive.
+template <class Cache, class AnyFilm>
+Cache shown(const AnyFilm& film, const Wanted& wanted, std::int64_t frame, const Scene& scene) {
+  Cache cache;
+  cache.accuracy = film.info.accuracy, cache.scene_hash = scene.hash;
+  for (std::size_t k = 0; k < film.records.size(); ++k)
+    if (auto record = at_frame(film.records[k], wanted.alive[k].share, film.info, frame, scene))
+      cache.records.push_back(std::move(*record));
+  return cache;
+}
+
+/// The columns that a film has more than a cache.
+template <class AnyFilm>
+LifeColumns lives_of(const AnyFilm& film) {
+  LifeColumns lives;
+  for (std::size_t i = 0; i < film.records.size(); ++i) {
+    const auto& r = film.records[i];
+    const char* wrong = what_is_wrong(r.life, i > 0 ? &film.records[i - 1].life : nullptr, film.info);
+    if (!wrong) wrong = what_is_wrong_with_change(r);
+    PHOS_CHECK(wrong == nullptr, "record ", i, " has ", wrong);
+    lives.append(film.records[i].life);
+  }
+  return lives;
+}
+
+/// The records as they were born.
+template <class Cache, class AnyFilm>
+Cache born(const AnyFilm& film) {
+  Cache cache;
+  cache.accuracy = film.info.accuracy, cache.scene_hash = film.info.scene_hash.front();
+  for (const auto& r : film.records) cache.records.push_back(r.record);
+  return cache;
+}
+
+}  // namespace
+
+void write_film(const std::string& path, const Film& film, Provenance provenance) {
+  const LifeColumns lives = lives_of(film);
+  provenance.extra["film"] = film_header(film.info, lives);
+  const IrradianceChanges changes(film);
+  ContainerWriter more;
+  lives.add_to(more);
+  if (film.info.gradients != TemporalGradients::none) changes.add_to(more);
+  auto cache = born<IrradianceCache>(film);
+  cache.quantity = film.quantity;
+  write_irradiance(path, cache, std::move(provenance), {}, std::move(more));
+}
+
+void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance) {
+  const LifeColumns lives = lives_of(film);
+  provenance.extra["film"] = film_header(film.info, lives);
+  const auto cache = born<RadianceCache>(film);
+  const RadianceChanges changes(film, cache.order());
+  ContainerWriter more;
+  lives.add_to(more);
+  if (film.info.gradients != TemporalGradients::none) changes.add_to(more);
+  write_radiance(path, cache, std::move(provenance), std::move(more));
+}
+
+bool is_film(const Container& file) {
+  const std::string& kind = file.provenance().kind;
+  return (kind == "irradiance" || kind == "radiance") && records_of(file) == RecordsOf::film;
+}
+
+Film read_film(const Container& file) { return read(file, Wanted(file)); }
+RadianceFilm read_radiance_film(const Container& file) { return read_radiance(file, Wanted(file)); }
+
+IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Scene& scene) {
+  const Wanted wanted(file, frame);
+  const Film film = read(file, wanted);
+  auto cache = shown<IrradianceCache>(film, wanted, frame, scene);
+  cache.quantity = film.quantity;
+  return cache;
+}
+
+RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene) {
+  const Wanted wanted(file, frame);
+  return shown<RadianceCache>(read_radiance(file, wanted), wanted, frame, scene);
+}
+
+}  // namespace phos
