@@ -5,7 +5,7 @@
 # OPTIONs (--sky clear, ...) go to every stage. Writes FOLDER/scene.exr and .png and, with --points, FOLDER/scene-lux.csv.
 set -euo pipefail
 
-usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 3 ]] || usage
 scene=$1 folder=$2 number=$3
 shift 3
@@ -27,8 +27,8 @@ while (($# > 0)); do
     *) usage ;;
   esac
 done
-[[ -f $scene ]] || { echo "bands.sh: $scene: no such file" >&2; exit 3; }
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+need_file "$scene"
+need_programs
 mkdir -p "$folder/triplets"
 base=$folder/$(basename "${scene%.*}")
 view=(--width "$width")

@@ -6,7 +6,7 @@
 # than 2 % and four standard errors.
 set -euo pipefail
 
-usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 1 && $1 != -* ]] || usage
 folder=$1
 shift
@@ -38,7 +38,7 @@ known --cases "$cases" $all_cases
 known --skies "$skies" $all_skies
 known --estimators "$estimators" $all_estimators
 data=$(cd "$here/../data/cie171" && pwd)
-source "$here/programs.sh"
+need_programs
 source "$here/cie171/scenes.sh"
 source "$here/cie171/estimators.sh"
 mkdir -p "$folder/scenes" "$folder/rows"

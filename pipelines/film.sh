@@ -4,26 +4,18 @@
 # All frames if none are given. Writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4.
 set -euo pipefail
 
-usage() { sed -n '2,4s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
 frames='' photons=100000 rays='' width=640 camera='' samples=4
-while (($# > 0)); do
-  case $1 in
-    --frames | --photons | --rays | --width | --camera | --samples)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    *) usage ;;
-  esac
-done
-[[ -f $scene ]] || { echo "film.sh: $scene: no such file" >&2; exit 3; }
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+take_all_options "frames photons rays width camera samples" "$@"
+need_file "$scene"
+need_programs
 mkdir -p "$folder/frames"
 base=$folder/$(basename "${scene%.*}")
 if [[ -z $frames ]]; then
-  count=$(phos-scene "$scene" --json | sed -n 's/^ *"frames": *\([0-9]*\),*$/\1/p')
+  count=$(phos-scene "$scene" --json | figure frames)
   ((count > 0)) || { echo "film.sh: $scene: is not animated; pipelines/render.sh renders it, or give --frames" >&2; exit 2; }
   frames=0:$((count - 1))
 fi

@@ -5,25 +5,17 @@
 # .png are the pictures, FOLDER/scene.irradiance and .radiance the cache. Only broad gloss is cached (see phos-brdf); the rest is traced.
 set -euo pipefail
 
-usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 3 ]] || usage
 scene=$1 folder=$2
 shift 2
 photons=400000 width=400 accuracy=0.3 rays=4096 samples=4
-cameras=()
-while (($# > 0)); do
-  case $1 in
-    --photons | --width | --accuracy | --rays | --samples)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    -*) usage ;;
-    *) cameras+=("$1"); shift ;;
-  esac
-done
+take_options "photons width accuracy rays samples" "$@"
+cameras=(${rest[@]+"${rest[@]}"})
+[[ " ${cameras[*]-} " != *' -'* ]] || usage
 ((${#cameras[@]} > 0)) || usage
-[[ -f $scene ]] || { echo "glossy-views.sh: $scene: no such file" >&2; exit 3; }
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+need_file "$scene"
+need_programs
 mkdir -p "$folder"
 base=$folder/$(basename "${scene%.*}")
 
@@ -32,7 +24,7 @@ phos-photons "$scene" --photons "$photons" --reuse -o "$base.photons"
 phos-brdf "$scene" --reuse -o "$base.brdf"
 # 2. View by view: what it lacks is added to the caches, and its picture drawn.
 rm -f "$base.irradiance" "$base.radiance"
-count() { sed -n "s/.*\"$1\": *\([0-9]*\),*$/\1/p" "$folder/stats.json" | head -1; }
+count() { figure "$1" "$folder/stats.json"; }
 echo "camera,radiance_records,radiance_new,irradiance_records,irradiance_new" >"$folder/records.csv"
 for camera in "${cameras[@]}"; do
   view=(--place view --camera "$camera" --width "$width" --stats "$folder/stats.json")

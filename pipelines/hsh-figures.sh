@@ -8,20 +8,12 @@
 # Default: the teapot and the map of ../shared/scenes, or else a torus under data/sky.hdr.
 set -euo pipefail
 
-usage() { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 order=7 width=400 samples=4 photons=200000 exponent=20 rays=128
-inputs=()
-while (($# > 0)); do
-  case $1 in
-    --order | --width | --samples | --photons | --exponent | --rays)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    -*) usage ;;
-    *) inputs+=("$1"); shift ;;
-  esac
-done
+take_options "order width samples photons exponent rays" "$@"
+inputs=(${rest[@]+"${rest[@]}"})
+[[ " ${inputs[*]-} " != *' -'* ]] || usage
 ((${#inputs[@]} >= 1 && ${#inputs[@]} <= 3)) || usage
 folder=${inputs[0]} model=${inputs[1]:-} environment=${inputs[2]:-}
 shared=$here/../../shared/scenes
@@ -29,9 +21,9 @@ shared=$here/../../shared/scenes
 [[ -n $environment || ! -f $shared/env/mitsuba_envmap.exr ]] || environment=$shared/env/mitsuba_envmap.exr
 environment=${environment:-$here/../data/sky.hdr}
 for file in $model $environment; do
-  [[ -f $file ]] || { echo "hsh-figures.sh: $file: no such file" >&2; exit 3; }
+  need_file "$file"
 done
-source "$here/programs.sh"
+need_programs
 mkdir -p "$folder"
 
 # 1. Bases: what share of a lobe's energy so many functions hold.

@@ -5,9 +5,9 @@
 # Cells of four sensors get lines; where a sensor is left out (in a table, behind a wall) there are none.
 set -euo pipefail
 
-usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -eq 3 || $# -eq 4 ]] || usage
-[[ -f $1 ]] || { echo "isolux.sh: $1: no such file" >&2; exit 3; }
+need_file "$1"
 [[ $2 =~ ^[0-9.eE+-]+$ ]] || usage
 
 awk -F, -v spacing="$2" -v asked="${4:-}" '

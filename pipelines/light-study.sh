@@ -6,23 +6,15 @@
 # mean, least, uniformity, the error that was measured, and the pictures beside it: image.png, lux.png (false colour), isolux.svg.
 set -euo pipefail
 
-usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
 error=5% grid=0.5 workplane=0.8 margin=0 width=800 camera='' levels='' pilot=10
-while (($# > 0)); do
-  case $1 in
-    --error | --grid | --workplane | --margin | --width | --camera | --levels | --pilot)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    *) usage ;;
-  esac
-done
-[[ -f $scene ]] || { echo "light-study.sh: $scene: no such file" >&2; exit 3; }
+take_all_options "error grid workplane margin width camera levels pilot" "$@"
+need_file "$scene"
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/programs.sh"
+need_programs
 mkdir -p "$folder"
 view=(--width "$width")
 [[ -z $camera ]] || view+=(--camera "$camera")
@@ -40,8 +32,8 @@ phos-picture "$folder/image.exr" --layer illuminance --false-colour --quiet -o "
 "$here/isolux.sh" "$folder/lux.csv" "$grid" "$folder/isolux.svg" ${levels:+"$levels"}
 
 # 4. The report.
-figure() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" "$folder/lux.json" | head -1; }
-verdict=$(sed -n 's/^ *"verdict": "\(.*\)".*$/\1/p' "$folder/plan.json" | head -1)
+lux() { figure "$1" "$folder/lux.json"; }
+verdict=$(figure verdict "$folder/plan.json")
 {
   echo "# $(basename "${scene%.*}")"
   echo
@@ -49,7 +41,7 @@ verdict=$(sed -n 's/^ *"verdict": "\(.*\)".*$/\1/p' "$folder/plan.json" | head -
   echo
   echo "| sensors | mean lx | least lx | greatest lx | U0 = least / mean | Ud = least / greatest |"
   echo "|---|---|---|---|---|---|"
-  echo "| $(figure number) | $(figure mean_lx) | $(figure min_lx) | $(figure max_lx) | $(figure U0) | $(figure Ud) |"
+  echo "| $(lux number) | $(lux mean_lx) | $(lux min_lx) | $(lux max_lx) | $(lux U0) | $(lux Ud) |"
   echo
   echo "Accuracy: $verdict. The plan and its reasons: plan.sh, plan.json."
   echo

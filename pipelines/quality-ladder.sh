@@ -5,28 +5,19 @@
 # records, seconds so far, and how far each picture is from the final one (root mean square, of the mean).
 set -euo pipefail
 
-usage() { sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
 photons=400000 rays=256 accuracy=0.15 width=800 camera=''
-while (($# > 0)); do
-  case $1 in
-    --photons | --rays | --accuracy | --width | --camera)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    *) usage ;;
-  esac
-done
-[[ -f $scene ]] || { echo "quality-ladder.sh: $scene: no such file" >&2; exit 3; }
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+take_all_options "photons rays accuracy width camera" "$@"
+need_file "$scene"
+need_programs
 mkdir -p "$folder"
 base=$folder/$(basename "${scene%.*}")
 name=()
 [[ -z $camera ]] || name=(--camera "$camera")
 stats=$folder/stats.json
-figure() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" "${2:-$stats}" | head -1; }
 sum() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a + b }'; }
 
 # 1. Photons serve all three.

@@ -7,19 +7,15 @@
 # the camera looks), .view.irradiance (and of what they missed), .exr, .png and -lux.png.
 set -euo pipefail
 
-usage() { sed -n '2,7s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
 quality=good width=1000 camera='' photons='' accuracy='' rays='' samples='' rounds=3
-light=()
-while (($# > 0)); do
-  [[ $# -ge 2 && $1 == --* ]] || usage
-  case $1 in
-    --quality | --width | --camera | --photons | --accuracy | --rays | --samples | --rounds) declare "${1#--}=$2" ;;
-    *) light+=("$1" "$2") ;;
-  esac
-  shift 2
+take_options "quality width camera photons accuracy rays samples rounds" "$@"
+light=(${rest[@]+"${rest[@]}"})
+for ((i = 0; i < ${#light[@]}; i += 2)); do  # options of the scene, each with a value
+  [[ ${light[i]} == --* && $((i + 1)) -lt ${#light[@]} ]] || usage
 done
 case $quality in
   draft) error=0.1 pixels=4 ;;
@@ -27,9 +23,9 @@ case $quality in
   final) error=0.02 pixels=1 ;;
   *) echo "render.sh: --quality $quality: give draft, good or final" >&2; exit 2 ;;
 esac
-[[ -f $scene ]] || { echo "render.sh: $scene: no such file" >&2; exit 3; }
+need_file "$scene"
 
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+need_programs
 name=$(basename "${scene%.*}")
 mkdir -p "$folder"
 file=$folder/$name
@@ -38,7 +34,7 @@ view=(--width "$width")
 
 # 1. What the scene requires, and the settings that are usual for the error; no pilot is run.
 plan=$(phos-plan "$scene" --error "$error" --pilot-seconds 0 "${view[@]}" "${light[@]}" --json --quiet)
-setting() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" <<<"$plan" | head -1; }
+setting() { figure "$1" <<<"$plan"; }
 [[ $plan != *'"--portals"'* || " ${light[*]} " == *' --portals '* ]] || light+=(--portals auto)
 photons=${photons:-$(printf %.0f "$(setting photons)")} accuracy=${accuracy:-$(setting accuracy)} samples=${samples:-$(setting pixel_samples)}
 estimate=(--estimate hull)

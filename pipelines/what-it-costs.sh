@@ -6,27 +6,18 @@
 # another seed, it changes nothing). Parts that the scene does not require (see phos-scene) are not tried. FOLDER/*.png show each.
 set -euo pipefail
 
-usage() { sed -n '2,6s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 [[ $# -ge 2 ]] || usage
 scene=$1 folder=$2
 shift 2
 photons=200000 rays=256 accuracy=0.3 width=400 camera='' samples=4
-while (($# > 0)); do
-  case $1 in
-    --photons | --rays | --accuracy | --width | --camera | --samples)
-      [[ $# -ge 2 ]] || usage
-      declare "${1#--}=$2"
-      shift 2 ;;
-    *) usage ;;
-  esac
-done
-[[ -f $scene ]] || { echo "what-it-costs.sh: $scene: no such file" >&2; exit 3; }
-source "$(dirname "${BASH_SOURCE[0]}")/programs.sh"
+take_all_options "photons rays accuracy width camera samples" "$@"
+need_file "$scene"
+need_programs
 mkdir -p "$folder"
 view=(--width "$width")
 [[ -z $camera ]] || view+=(--camera "$camera")
 stats=$folder/stats.json
-figure() { sed -n "s/^ *\"$1\": *\([-0-9.e+]*\),*$/\1/p" "$stats" | head -1; }
 required=$(phos-scene "$scene" --json)
 requires() { grep -q "\"what\": \"$1\"" <<<"$required"; }
 

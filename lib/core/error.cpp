@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/text/line.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -6,17 +7,6 @@
 #include <utility>
 
 namespace phos {
-
-namespace {
-
-/// Messages quote inputs: a name or a cell may hold any byte.
-std::string one_line(std::string message) {
-  for (char& c : message)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return message;
-}
-
-}  // namespace
 
 Error::Error(ExitCode code, std::string where, const std::string& message)
     : std::runtime_error(one_line(message)), code_(code), where_(std::move(where)) {}

@@ -142,6 +142,13 @@ CsvTable parse_csv(std::string_view bytes, const std::string& where) {
   return table;
 }
 
+std::string csv_cell(const std::string& value) {
+  if (value.find_first_of(",\"\n\r") == std::string::npos) return value;
+  std::string out = "\"";
+  for (const char c : value) out += c == '"' ? std::string(2, c) : std::string(1, c);
+  return out + '"';
+}
+
 std::size_t CsvTable::column(const std::string& name, const std::string& option) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());

@@ -57,6 +57,9 @@ class CsvReader {
   std::size_t line_ = 1, row_line_ = 1;
 };
 
+/// A cell as it is written: in quotes where it holds a comma, a quote or a line's end.
+std::string csv_cell(const std::string& value);
+
 /// May bytes be text (in ASCII, UTF-8 or Latin-1)? Not if they hold control characters.
 bool is_plain_text(std::string_view bytes);
 

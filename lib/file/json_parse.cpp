@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text/line.h"
 
 namespace phos {
 
@@ -102,13 +103,6 @@ class Builder {
 
   std::vector<Level> levels_;
 };
-
-/// Parser messages quote the text at fault: one line, without control characters.
-std::string one_line(std::string s) {
-  for (char& c : s)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return s;
-}
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include "core/interrupt.h"
 #include "core/last_words.h"
 #include "core/parallel.h"
+#include "core/text/line.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
@@ -22,12 +23,6 @@
 namespace phos {
 
 namespace {
-
-std::string one_line(std::string s) {
-  for (char& c : s)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return s;
-}
 
 void print_line(const std::string& line) {
   const std::string whole = one_line(line) + '\n';  // one call, so that lines of several programs do not mix

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/quantity.h"
 
 namespace phos {
 namespace {
@@ -10,10 +11,6 @@ namespace {
 std::string title(const Json& choice) {
   const std::string& name = choice.find("material")->as_string();
   return name.empty() ? text("material ", choice.find("index")->as_integer()) : name;
-}
-
-std::string percent(double share) {
-  return text(shortest(static_cast<float>(std::round(1000 * share) / 10)), " %");
 }
 
 Json requirement(const char* what, const std::string& why) {
@@ -48,7 +45,7 @@ std::string gloss_text(const Json& report) {
     if (order == 0)
       out += "traced";
     else if (traced > 0)
-      out += text("records of order ", order, ", ", percent(traced), " of directions traced");
+      out += text("records of order ", order, ", ", percent_to_tenths(traced), " of directions traced");
     else
       out += text("records of order ", order);
     out += text("; ", choice.find("why")->as_string(), "\n");

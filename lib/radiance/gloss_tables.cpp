@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text/quantity.h"
 #include "scene/material/bsdf.h"
 
 namespace phos {
@@ -44,10 +45,6 @@ Rgb least_of(const Scene& scene, std::uint32_t material) {
   }
 }
 
-std::string percent(double share) {
-  return text(shortest(static_cast<float>(std::round(1000 * share) / 10)), " %");
-}
-
 GlossChoice choice_of(const BrdfTable& table) {
   const BrdfSummary s = summarize(table);
   GlossChoice choice{table.material_index, table.order, s.traced_share, ""};
@@ -57,9 +54,9 @@ GlossChoice choice_of(const BrdfTable& table) {
   }
   choice.why = s.least_order == s.greatest_order ? text("order ", s.least_order)
                                                  : text("orders ", s.least_order, " to ", s.greatest_order);
-  choice.why +=
-      text(s.least_order == s.greatest_order ? " leaves" : " leave", " out at most ", percent(s.worst_error),
-           s.traced_share > 0 ? " of the other lobes' energy" : " of a lobe's energy");
+  choice.why += text(s.least_order == s.greatest_order ? " leaves" : " leave", " out at most ",
+                     percent_to_tenths(s.worst_error),
+                     s.traced_share > 0 ? " of the other lobes' energy" : " of a lobe's energy");
   if (!table.note.empty()) choice.why += text("; ", table.note);
   return choice;
 }

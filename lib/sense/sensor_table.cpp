@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
+#include "file/csv.h"
 #include "scene/spectral/bands.h"
 #include "sense/sensors.h"
 
@@ -12,14 +13,6 @@ namespace phos {
 namespace {
 
 constexpr std::size_t kLines = 4096;
-
-/// A name as CSV has it.
-std::string quoted(const std::string& name) {
-  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
-  std::string out = "\"";
-  for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 
 }  // namespace
 
@@ -39,7 +32,7 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [p, normal] = sensors.points[i];
       const Reading& r = readings[i];
-      out += sensors.ids.empty() ? std::to_string(i) : quoted(sensors.ids[i]);
+      out += sensors.ids.empty() ? std::to_string(i) : csv_cell(sensors.ids[i]);
       for (int c = 0; c < 3; ++c) out += ',', out += world_text(sensors.origin_m[c], p[c]);
       for (const float v :
            {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})

@@ -13,7 +13,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 folder=$1
 shift
 views="hall table column" width=800 rays=256 traced="64 256" interleaved="16 64" photons=400000 samples=64 threads=0
-take_options "views width rays traced interleaved photons samples threads" "$@"
+take_all_options "views width rays traced interleaved photons samples threads" "$@"
 mkdir -p "$folder"
 scene=$folder/hall.obj
 python3 "$here/hall.py" "$scene"

@@ -12,8 +12,8 @@ scene=$1 folder=$2
 shift 2
 ways="circle-min:0.28 circle-min:0.56 circle-harmonic:0.28 circle-harmonic:0.56 adaptive:0.2 adaptive:0.4 adaptive:0.2:cached"
 width=800 rays=1024 light_samples=128 photons=1000000 paths="8 32" samples=256 threads=0 runs=1
-take_options "ways width rays light_samples photons paths samples threads runs" "$@"
-require_file "$scene"
+take_all_options "ways width rays light_samples photons paths samples threads runs" "$@"
+need_file "$scene"
 mkdir -p "$folder"
 base=$folder/$(basename "${scene%.*}")-$width
 common=(--threads "$threads" --quiet)

@@ -13,8 +13,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
 lobes=as-is material=back-glossy width=850 rays=4000 accuracy=0.3 read=0.6 traced=256 samples=64 photons=400000 threads=0 runs=1
-take_options "lobes material width rays accuracy read traced samples photons threads runs" "$@"
-require_file "$scene"
+take_all_options "lobes material width rays accuracy read traced samples photons threads runs" "$@"
+need_file "$scene"
 mkdir -p "$folder"
 common=(--threads "$threads" --quiet)
 

@@ -12,8 +12,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/racing.sh"
 scene=$1 folder=$2
 shift 2
 places=112 accuracy=0.4 rays=256 min_radius=0.1 light_samples=7 edge_samples=16 side=1000 samples=64 runs=3 cycles=
-take_options "places accuracy rays min_radius light_samples edge_samples side samples runs cycles" "$@"
-require_file "$scene"
+take_all_options "places accuracy rays min_radius light_samples edge_samples side samples runs cycles" "$@"
+need_file "$scene"
 mkdir -p "$folder"
 reference_pair "$folder/reference" "$scene" --bounces 2 --width "$side" --height "$side" --samples "$samples"
 error_of() { true_error "$1" "$folder/reference" --layer beauty --ignore-emission; }

@@ -1,19 +1,7 @@
 # For the races to source: programs on PATH, and what each of them does.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/../../pipelines/programs.sh"
-
-# Sets the variable of each option: take_options "runs light_samples" --runs 3 --light-samples 16
-take_options() {
-  local names=" $1 " name
-  shift
-  while (($# > 0)); do
-    name=${1#--} name=${name//-/_}
-    [[ $1 == --* && $# -ge 2 && $names == *" $name "* ]] || { echo "${0##*/}: $1: unknown, or without a value" >&2 && exit 2; }
-    printf -v "$name" %s "$2"
-    shift 2
-  done
-}
-require_file() { [[ -f $1 ]] || { echo "${0##*/}: $1: no such file" >&2 && exit 3; }; }
+source "$here/../../pipelines/common.sh"
+need_programs
 
 calculate() { awk "BEGIN { printf \"$1\", $2 }"; } # calculate %.2f "1 / 3"
 

@@ -3,12 +3,19 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/error.h"
+#include "core/json.h"
+
 namespace phos {
 
 std::string percent(double share) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, 100 * share < 9.95 ? "%.2g %%" : "%.0f %%", 100 * share);
   return buffer;
+}
+
+std::string percent_to_tenths(double share) {
+  return text(shortest(static_cast<float>(std::round(1000 * share) / 10)), " %");
 }
 
 std::string duration(double seconds) {

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/quantity.h"
 
 namespace phos {
 namespace {
-
-std::string percent(double share) { return text(std::round(1000 * share) / 10, " %"); }
 
 std::string title(const BrdfTable& table) {
   return table.material.empty() ? text("material ", table.material_index) : text('"', table.material, '"');
@@ -48,9 +47,9 @@ std::string sentence_of(const BrdfTable& table, const std::string& model) {
     out += "every direction is to be traced (--max-order or --error would have to be higher)";
   } else {
     out += text("orders ", s.least_order, " to ", s.greatest_order, ", mean ",
-                std::round(10 * s.mean_order) / 10, "; ", percent(s.traced_share),
-                " of directions traced; the others leave out ", percent(s.mean_error),
-                " of the energy, at most ", percent(s.worst_error));
+                std::round(10 * s.mean_order) / 10, "; ", percent_to_tenths(s.traced_share),
+                " of directions traced; the others leave out ", percent_to_tenths(s.mean_error),
+                " of the energy, at most ", percent_to_tenths(s.worst_error));
   }
   out += text("; ", s.bytes, " bytes");
   return table.note.empty() ? out : text(out, "; ", table.note);

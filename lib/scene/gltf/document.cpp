@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "core/text/line.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
 #include "file/lfs_pointer.h"
@@ -138,12 +139,6 @@ Json without_payload(const Json& json, int depth = 0) {
     out.emplace(key, without_payload(value, depth + 1));
   }
   return out;
-}
-
-std::string one_line(std::string s) {
-  std::replace(s.begin(), s.end(), '\n', ' ');
-  while (!s.empty() && s.back() == ' ') s.pop_back();
-  return s;
 }
 
 std::shared_ptr<const tinygltf::Model> parse_structure(const GltfDocument& document) {

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/origin.h"
+#include "core/text/line.h"
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
 #include "scene/gltf/uri.h"
@@ -24,12 +25,6 @@
 
 namespace phos {
 namespace {
-
-std::string one_line(std::string s) {
-  while (!s.empty() && (s.back() == '\n' || s.back() == ' ')) s.pop_back();
-  std::replace(s.begin(), s.end(), '\n', ' ');
-  return s;
-}
 
 /// What tinyobjloader does not tell of a file.
 struct ObjText {

@@ -6,6 +6,7 @@
 #include "core/json.h"
 #include "core/parallel.h"
 #include "file/atomic_file.h"
+#include "file/csv.h"
 #include "scene/spectral/colour_rendering.h"
 #include "scene/spectral/join_bands.h"
 #include "scene/spectral/join_parts.h"
@@ -90,13 +91,6 @@ void require_same_sensors(const CsvTable& a, const CsvTable& b) {
   }
 }
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string out = "\"";
-  for (const char c : cell) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 std::string line_of(const CsvTable& places, std::size_t row, const Sums& sums, const Bands& bands,
                     const WavelengthSteps& steps) {
   std::string out;
@@ -108,7 +102,7 @@ std::string line_of(const CsvTable& places, std::size_t row, const Sums& sums, c
   const auto put_number = [&](double v) {
     put(std::isnan(v) ? std::string() : shortest(static_cast<float>(v)));
   };
-  for (const char* name : kPlace) put(quoted(places.rows[row][column_of(places, name)]));
+  for (const char* name : kPlace) put(csv_cell(places.rows[row][column_of(places, name)]));
   for (const double v : sums.of_all[row]) put_number(v);
   DVec3 xyz(0);
   std::vector<double> power;

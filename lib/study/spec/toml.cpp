@@ -24,6 +24,7 @@ struct TomlSurprise {};
 #include <toml++/toml.h>
 
 #include "core/error.h"
+#include "core/text/line.h"
 
 namespace phos {
 
@@ -52,12 +53,6 @@ Json to_json(const toml::node& node, const std::string& path) {
   if (const auto* v = node.as_boolean()) return v->get();
   throw Error(ExitCode::bad_input, text(path, ":", node.source().begin.line),
               "is a date or a time, which nothing here takes; put it in quotes if it is a word");
-}
-
-std::string one_line(std::string s) {
-  for (char& c : s)
-    if (c == '\n') c = ' ';
-  return s;
 }
 
 /// Where a string or a comment that begins at s[i] ends.

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Checks of the sources themselves: check_tree.sh ROOT
+#   one name, one type    no two headers of lib define a type of the same name (the one-definition rule)
+#   folders of one idea   no folder of lib holds more than 40 sources
+set -euo pipefail
+cd "$1"
+failed=0
+
+# Types at the scope of a namespace stand in the first column; forward declarations end in a semicolon.
+twice=$(find lib -name '*.h' -exec awk '
+  /^(struct|class|enum class|enum) [A-Z][A-Za-z0-9_]*/ && !/;[ \t]*$/ {
+    if ($0 ~ /^[a-z ]+[A-Za-z0-9_]+::/) next
+    name = $1 == "enum" && $2 == "class" ? $3 : $2
+    sub(/[^A-Za-z0-9_].*/, "", name)
+    print name, FILENAME
+  }' {} + | sort | awk '$1 == before { print "  " $1 ": " where ", " $2 } { before = $1; where = $2 }')
+if [[ -n $twice ]]; then
+  echo "two types of one name:"
+  echo "$twice"
+  failed=1
+fi
+
+crowded=$(find lib \( -name '*.h' -o -name '*.cpp' -o -name '*.inc' \) -printf '%h\n' | sort | uniq -c | awk '$1 > 40 { print "  " $2 ": " $1 }')
+if [[ -n $crowded ]]; then
+  echo "folders of more than 40 sources:"
+  echo "$crowded"
+  failed=1
+fi
+exit $failed
