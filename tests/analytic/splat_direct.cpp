@@ -7,6 +7,7 @@
 #include "scene/picture.h"
 #include "splat/direct/edge_light.h"
 #include "splat/direct/interleaved.h"
+#include "support/daylight.h"
 #include "support/splat_scenes.h"
 
 namespace phos::test {
@@ -311,6 +312,31 @@ TEST(Interleaved, BlursLessWithMoreRaysAndInTheEndNotAtAll) {
     EXPECT_LT(error, 0.6 * before) << count;
     before = error;
   }
+}
+
+/// Of the sun and the sky together, the shadow's edge lies between two pixels, not over four of them: under a
+/// roof that begins at x = 0, with half a pixel of penumbra.
+TEST(Interleaved, TheSunsShadowHasAnEdge) {
+  Scene scene = under_an_edge(3, 20);
+  scene.camera.push_back(look_at({0, 1, 0}, {0, 0, 0}, {0, 0, 1}, 2.4f));
+  constexpr double kSun_lx = 80'000, kSky_lx = 10'000;
+  surround(scene, sky_of("overcast", "180,90", kSky_lx, kSun_lx));
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
+  const GBuffer gbuffer = trace_gbuffer(rays, scene.camera[0], kSide, kSide, Vec2(0.5f));
+  const auto light = interleaved_light(rays, lights, gbuffer, PixelRays(scene.camera[0], kSide, kSide),
+                                       Vec2(0.5f), {64, 0, 1}, 1);
+  double square = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double x = static_cast<double>(gbuffer.position[i].x), pixel_m = 0.1;
+    if (std::fabs(x) < pixel_m || std::fabs(x) > 3 * pixel_m) continue;
+    const double from_sky = 0.5 * kSky_lx;  // about
+    const double off = static_cast<double>(light[i].illuminance.y) - from_sky - (x > 0 ? kSun_lx : 0);
+    square += off * off, ++n;
+  }
+  ASSERT_GT(n, 100);
+  EXPECT_LT(std::sqrt(square / n), 0.04 * kSun_lx);
 }
 
 /// Of a pixel that sees most of a lamp, a ray that happens to be blocked says no more than one that is not;

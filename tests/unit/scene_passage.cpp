@@ -244,7 +244,8 @@ TEST(Passage, BlocksWithThingsInThemAreNoPlates) {
       add_block(scene, Vec3(-0.3f, 0.9f, -0.3f), Vec3(0, 1.1f, 0), true);
     }
     finalize(scene);
-    return straight_down(scene, 2, 1.9f);
+    const RayScene rays(scene);
+    return static_cast<double>(rays.transmittance({{0.3f, 0.1f, 0.1f}, {0, 1, 0}}).x);
   };
   EXPECT_NEAR(through(Kind::empty), kClear, 1e-4);
   EXPECT_EQ(through(Kind::filled), 0);

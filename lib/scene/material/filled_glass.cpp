@@ -31,11 +31,12 @@ Bounds box_of(const Scene& scene, const Instance& instance) {
   return box;
 }
 
-/// Is it full of anything, and not hollow?
+/// Is it full of anything, and not hollow, nor a hollow?
 bool is_filled(const Scene& scene, const Part& part, const std::vector<Part>& parts,
                const std::vector<Bounds>& box_of_instance) {
   for (const Part& other : parts)
-    if (other.material == part.material && within(other.box, part.box)) return false;
+    if (other.material == part.material && (within(other.box, part.box) || within(part.box, other.box)))
+      return false;
   for (std::size_t i = 0; i < scene.instance.size(); ++i)
     if (scene.instance[i].material != part.material && within(box_of_instance[i], part.box)) return true;
   return false;

@@ -34,6 +34,8 @@ constexpr int kPerTest = 16;
 constexpr int kTelling = 16;
 /// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
 constexpr float kDoubt = 2;
+/// Median of the square of a normal number.
+constexpr double kMedianOfSquare = 0.455;
 /// Variances of its noise beyond which a mean of what is nearer counts.
 constexpr double kDoubtMeans = 6;
 /// Rays of one pass that it takes for that. A single one would be believed where it differs from most of
@@ -267,10 +269,10 @@ class Interleaved {
   void add_means(std::size_t reach) {
     std::vector<SharedLight> mean(pixels_);
     for_each([&](std::size_t i) { mean[i].add_mean(found_about(i)[reach]); });
-    const double gain = gain_of_strata(mean);
+    const Gain gain = gain_of_strata(mean);
     for_each([&](std::size_t i) {
-      mean[i].variance *= gain;
-      if (reach > kOwn && share_.rays >= kTelling) draw_nearer(found_about(i), reach, gain, mean[i]);
+      mean[i].variance *= gain.overall;
+      if (reach > kOwn && share_.rays >= kTelling) draw_nearer(found_about(i), reach, gain.usual, mean[i]);
       shared_[i].illuminance += mean[i].illuminance, shared_[i].variance += mean[i].variance;
     });
   }
@@ -294,16 +296,22 @@ class Interleaved {
     }
   }
 
+  struct Gain {
+    double overall = 1;  ///< of all variance together
+    /// Of the pixel in the middle, whatever the edges of shadows are, where pixels a block apart differ.
+    double usual = 1;
+  };
   /// Variance of what a pixel's rays bring, over that of independent rays; at most 1. Pixels a block apart
   /// send theirs to the same part of the lamp, so half the mean square of their differences is the first;
   /// the other is the mean square of a ray's light less that of the mean about the pixel, which holds all
   /// parts.
-  double gain_of_strata(const std::vector<SharedLight>& mean) const {
+  Gain gain_of_strata(const std::vector<SharedLight>& mean) const {
     struct Variances {
       double in_strata = 0, independent = 0;
+      std::vector<float> ratio;
     };
     const std::size_t height = pixels_ / width_;
-    const Variances sum = parallel_reduce(
+    Variances sum = parallel_reduce(
         height, 1, Variances(),
         [&](std::size_t y, std::size_t) {
           Variances row;
@@ -314,8 +322,10 @@ class Interleaved {
             const auto pair = [&](std::size_t j) {
               if (!same_surface(own, g_, j)) return;
               const DVec3 differ = own_mean(i) - own_mean(j);
-              row.in_strata += glm::dot(differ, differ) / 2;
-              row.independent += (spread_of_mean(i, mean[i]) + spread_of_mean(j, mean[j])) / 2;
+              const double in_strata = glm::dot(differ, differ) / 2,
+                           independent = (spread_of_mean(i, mean[i]) + spread_of_mean(j, mean[j])) / 2;
+              row.in_strata += in_strata, row.independent += independent;
+              if (independent > 0) row.ratio.push_back(static_cast<float>(in_strata / independent));
             };
             if (x + kBlock < width_) pair(i + kBlock);
             if (y + kBlock < height) pair(i + kBlock * width_);
@@ -324,8 +334,15 @@ class Interleaved {
         },
         [](Variances& all, const Variances& row) {
           all.in_strata += row.in_strata, all.independent += row.independent;
+          all.ratio.insert(all.ratio.end(), row.ratio.begin(), row.ratio.end());
         });
-    return sum.in_strata < sum.independent ? sum.in_strata / sum.independent : 1;
+    Gain gain;
+    if (sum.in_strata < sum.independent) gain.overall = sum.in_strata / sum.independent;
+    if (sum.ratio.empty()) return gain;
+    const auto middle = sum.ratio.begin() + static_cast<std::ptrdiff_t>(sum.ratio.size() / 2);
+    std::nth_element(sum.ratio.begin(), middle, sum.ratio.end());
+    gain.usual = std::min(1.0, static_cast<double>(*middle) / kMedianOfSquare);
+    return gain;
   }
   DVec3 own_mean(std::size_t i) const {
     return DVec3(brought_[i].light) / static_cast<double>(sight_[i].rays);
