@@ -26,7 +26,7 @@ struct Enough {
   int next, own;
 };
 constexpr Enough kEnough = {16, 64};
-/// Of a lamp without a closed form, whose noise is everywhere.
+/// Of a lamp whose light is not even, so that its noise is everywhere.
 constexpr Enough kNoisyEnough = {128, 4096};
 /// One in so many, and at least one, shows where a shadow's edge may be.
 constexpr int kPerTest = 16;
@@ -122,18 +122,18 @@ class Interleaved {
         send(lamp, first + tests, share_.rays - tests,
              [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
       if (form.closed())
-        for_each([&](std::size_t i) { add_share(form, i); });
+        for_each([&](std::size_t i) { add_share(lamp, i); });
       else
-        add_means(reach(form));
+        add_means(reach(lamp));
     }
     return std::move(shared_);
   }
 
  private:
-  std::size_t reach(const LampForm& form) const {
+  std::size_t reach(std::size_t lamp) const {
     const std::int64_t rays = std::int64_t{share_.rays} * share_.passes;
-    const Enough enough = form.closed() ? kEnough : kNoisyEnough;
-    if (rays >= enough.own && (form.closed() || share_.rays >= kTelling)) return kOwn;
+    const Enough enough = lamps_.even[lamp] ? kEnough : kNoisyEnough;
+    if (rays >= enough.own && (lamps_.form[lamp].closed() || share_.rays >= kTelling)) return kOwn;
     return rays >= enough.next ? kNext : kAll;
   }
 
@@ -229,14 +229,15 @@ class Interleaved {
   }
 
   /// The light of a lamp with a closed form at a pixel, from what it and its neighbours found.
-  void add_share(const LampForm& form, std::size_t i) {
+  void add_share(std::size_t lamp, std::size_t i) {
+    const LampForm& form = lamps_.form[lamp];
     if (!(about_[i] & kSeen)) return;
     if (about_[i] == kSeen) {
       shared_[i].illuminance += form.luminance() * unoccluded(form, i);
       return;
     }
     const std::array<PooledVisibility, kReaches> found = found_about(i);
-    std::size_t reach = this->reach(form);
+    std::size_t reach = this->reach(lamp);
     if (reach == kOwn) {
       add_own_share(form, i, found);
       return;

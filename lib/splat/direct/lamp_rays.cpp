@@ -42,6 +42,7 @@ AimedLamps::AimedLamps(const RayScene& the_rays, const Luminaires& the_lights)
     panel.emplace_back(rays.scene(), lights[i]);
     // How much of a lamp arrives behind panes depends on the angle and the channel: no one share tells it.
     form.emplace_back(rays.has_panes() ? LampPanel() : panel.back());
+    even.push_back(LampForm(panel.back()).closed());
     // Not quite a parallelogram: a number that chooses among its patches would not be drawn.
     if (panel.back().patches().size() > 1 && lights.by_u_alone(i)) panel.back() = LampPanel();
   }

@@ -56,6 +56,8 @@ struct AimedLamps {
   const Luminaires& lights;
   std::vector<LampPanel> panel;  ///< per lamp; empty where Luminaires chooses its points
   std::vector<LampForm> form;    ///< per lamp
+  /// Per lamp: would it have a closed form, were there no panes? Such a lamp's light is even but for shadows.
+  std::vector<std::uint8_t> even;
 };
 
 /// Rays on their way. Holds a reference.
