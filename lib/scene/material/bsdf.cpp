@@ -6,6 +6,7 @@
 #include "core/sampling.h"
 #include "scene/material/merl.h"
 #include "scene/material/microfacet.h"
+#include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
 namespace phos {
@@ -58,7 +59,7 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
   const float share = material.diffuse_transmission > 0
                           ? material.diffuse_transmission * texel(material.diffuse_transmission_map).w
                           : 0;
-  if (material.model == Model::dielectric && !front_)
+  if (is_solid_glass(material) && !front_)
     travelled_ = left_after(material.absorption_per_m, point.distance_m);
   resolve(
       scene, material,
@@ -82,52 +83,47 @@ Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
 }
 
 void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
-  const Rgb& base = looked.base;
   specular_ = material.ks;
   ior_ = material.ior;
-  switch (material.model) {
-    case Model::lambert:
-      diffuse_ = base;
-      through_ = looked.through;
-      break;
-    case Model::phong:
-      diffuse_ = base;
-      exponent_ = std::max(material.exponent, 0.f);
-      lobe_ = max_component(specular_) > 0 ? Lobe::phong : Lobe::none;
-      break;
-    case Model::ward:
-      diffuse_ = base;
-      if (max_component(specular_) > 0) resolve_rough(Lobe::ward, material.alpha_x, material.alpha_y);
-      break;
-    case Model::conductor:
-      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
-      break;
-    case Model::mirror:
-      delta_ = Delta::mirror;
-      break;
-    case Model::dielectric:
-    case Model::thin_dielectric:
-      delta_ = material.model == Model::dielectric ? Delta::dielectric : Delta::thin;
-      if (!(ior_ > 0)) ior_ = 1;
-      sheet_ = material.tint * looked.colour;
-      inside_ = material.inside;
-      absorption_per_m_ = material.absorption_per_m;
-      curve_ = material.curve.get();
-      break;
-    case Model::plastic:
-      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
-      resolve_plastic(base);
-      break;
-    case Model::metallic_roughness:
-      resolve_metallic_roughness(material, looked);
-      break;
-    case Model::measured:
-      measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
-      diffuse_ = measured_->lambert();
-      lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
-      break;
-  }
+  (this->*row_of(material).resolve)(scene, material, looked);
   if (material.alpha_mode == Material::Alpha::blend) cover(std::clamp(looked.alpha, 0.f, 1.f));
+}
+
+void Bsdf::resolve_lambert(const Scene&, const Material&, const Looked& looked) {
+  diffuse_ = looked.base;
+  through_ = looked.through;
+}
+
+void Bsdf::resolve_phong(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  exponent_ = std::max(material.exponent, 0.f);
+  lobe_ = max_component(specular_) > 0 ? Lobe::phong : Lobe::none;
+}
+
+void Bsdf::resolve_ward(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  if (max_component(specular_) > 0) resolve_rough(Lobe::ward, material.alpha_x, material.alpha_y);
+}
+
+void Bsdf::resolve_conductor(const Scene&, const Material& material, const Looked&) {
+  resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
+}
+
+void Bsdf::resolve_mirror(const Scene&, const Material&, const Looked&) { delta_ = Delta::mirror; }
+
+void Bsdf::resolve_glass(const Scene&, const Material& material, const Looked& looked) {
+  delta_ = is_solid_glass(material) ? Delta::dielectric : Delta::thin;
+  if (!(ior_ > 0)) ior_ = 1;
+  sheet_ = material.tint * looked.colour;
+  inside_ = material.inside;
+  absorption_per_m_ = material.absorption_per_m;
+  curve_ = material.curve.get();
+}
+
+void Bsdf::resolve_measured(const Scene& scene, const Material& material, const Looked&) {
+  measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
+  diffuse_ = measured_->lambert();
+  lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
 }
 
 /// Every lobe is as strong as the share of the surface that is there. Solid glass has no share.
@@ -165,13 +161,14 @@ void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interref
   diffuse_ = base_ * (transmitted * transmitted);
 }
 
-void Bsdf::resolve_plastic(const Rgb& kd) {
+void Bsdf::resolve_plastic(const Scene&, const Material& material, const Looked& looked) {
+  resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
   const float eta = std::max(ior_, 1.f), f0 = normal_reflectance(eta);
   specular_ = Rgb(f0);
-  put_under_coat(kd, f0, 1, 1 / (eta * eta));
+  put_under_coat(looked.base, f0, 1, 1 / (eta * eta));
 }
 
-void Bsdf::resolve_metallic_roughness(const Material& material, const Looked& looked) {
+void Bsdf::resolve_metallic_roughness(const Scene&, const Material& material, const Looked& looked) {
   const Rgb& base = looked.base;
   const float roughness = std::clamp(material.roughness * looked.metallic_roughness.y, 0.f, 1.f);
   const float metallic = std::clamp(material.metallic * looked.metallic_roughness.z, 0.f, 1.f);

@@ -124,14 +124,23 @@ class Bsdf {
 
  private:
   Bsdf() = default;
+  friend struct ModelRow;  // names how each model puts its lobes together
   enum class Lobe : std::uint8_t { none, phong, ward, ggx, measured };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
 
   struct Looked;  // what the textures say
 
   void resolve(const Scene& scene, const Material& material, const Looked& looked);
-  void resolve_metallic_roughness(const Material& material, const Looked& looked);
-  void resolve_plastic(const Rgb& kd);
+  // One for each row of the table of models.
+  void resolve_lambert(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_phong(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_ward(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_plastic(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_conductor(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_glass(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_mirror(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_measured(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_metallic_roughness(const Scene& scene, const Material& material, const Looked& looked);
   void resolve_rough(Lobe lobe, float alpha_x, float alpha_y);
   void put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection);
 
