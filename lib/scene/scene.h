@@ -63,6 +63,7 @@ enum class Model : std::uint8_t {
   thin_dielectric,     ///< smooth pane: ior, no bending
   mirror,              ///< ks
   measured,            ///< isotropic table in MERL layout
+  oren_nayar,          ///< kd, sigma: rough matt surface (scene/material/oren_nayar.h)
 };
 
 struct Material {
@@ -73,6 +74,7 @@ struct Material {
   Rgb ks{0};  ///< specular reflectance (phong, ward, mirror) or f0 (conductor)
   float exponent = 1;
   float alpha_x = 0, alpha_y = 0;  ///< GGX or Ward roughness (alpha, not its root)
+  float sigma_rad = 0;             ///< oren_nayar: standard deviation of the facets' slope angle
   float roughness = 1, metallic = 0;
   float ior = 1.5f;
   float specular = 1;      ///< KHR_materials_specular

@@ -246,6 +246,12 @@ TEST(Materials, ExactModelsComeFromExtras) {
   Json glass = phos_material("dielectric");
   glass["extras"]["phos"]["ior"] = 1.33;
   EXPECT_EQ(loaded(glass).ior, 1.33f);
+  Json matt = phos_material("oren-nayar");
+  matt["extras"]["phos"]["kd"] = Json::Array{0.4, 0.3, 0.2};
+  matt["extras"]["phos"]["sigma"] = 0.35;
+  EXPECT_EQ(loaded(matt).model, Model::oren_nayar);
+  EXPECT_EQ(loaded(matt).kd, Rgb(0.4f, 0.3f, 0.2f));
+  EXPECT_EQ(loaded(matt).sigma_rad, 0.35f);
   Json lambert = phos_material("lambert");
   lambert["pbrMetallicRoughness"]["baseColorFactor"] = Json::Array{0.5, 0.5, 0.5, 1};
   EXPECT_EQ(loaded(lambert).kd, Rgb(0.5f));

@@ -17,6 +17,7 @@ TEST(Models, RowsStandInTheOrderOfTheModels) {
   EXPECT_STREQ(model_name(Model::phong), "phong");
   EXPECT_STREQ(model_name(Model::thin_dielectric), "thindielectric");
   EXPECT_STREQ(model_name(Model::measured), "merl");
+  EXPECT_STREQ(model_name(Model::oren_nayar), "oren-nayar");
 }
 
 TEST(Models, EveryRowIsComplete) {

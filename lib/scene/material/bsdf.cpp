@@ -120,6 +120,13 @@ void Bsdf::resolve_glass(const Scene&, const Material& material, const Looked& l
   curve_ = material.curve.get();
 }
 
+void Bsdf::resolve_oren_nayar(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  if (!(OrenNayar::roughness(material.sigma_rad) > 0) || !(max_component(looked.base) > 0)) return;
+  rough_base_ = OrenNayar(looked.base, material.sigma_rad);
+  diffuse_ = rough_base_.mean_albedo();
+}
+
 void Bsdf::resolve_measured(const Scene& scene, const Material& material, const Looked&) {
   measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
   diffuse_ = measured_->lambert();
@@ -130,6 +137,7 @@ void Bsdf::resolve_measured(const Scene& scene, const Material& material, const 
 void Bsdf::cover(float coverage) {
   if (delta_ == Delta::dielectric) return;
   coverage_ = coverage;
+  rough_base_.cover(coverage);
   diffuse_ *= coverage, base_ *= coverage, through_ *= coverage, specular_ *= coverage, f90_ *= coverage;
 }
 
@@ -231,7 +239,7 @@ Rgb Bsdf::evaluate_gloss(const Vec3& wo, const Vec3& wi) const {
   Vec3 o, i;
   if (!has_gloss() || !above(wo, wi, o, i)) return Rgb(0);
   Rgb value = lobe_value(o, i);
-  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  if (uneven_base()) value += base_value(o, i) - diffuse_ / kPi;
   return value;
 }
 
@@ -241,6 +249,7 @@ Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count
   if (coated_) {
     p.diffuse *= coat_transmittance(o) / coat_mean_;  // diffuse_ / base_ is coat_mean_^2
   }
+  if (rough_base_.rough()) p.diffuse = luminance(rough_base_.albedo(o.z));
   p.gloss = lobe_albedo(o.z);
   p.through = luminance(through_);
   for (int b = 0; b < count; ++b) p.delta[b] = luminance(branches[b].weight);
@@ -285,7 +294,7 @@ bool Bsdf::sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, Tra
 }
 
 bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
-  if (lobe_ == Lobe::none && !has_specular() && !coated_ && !transmits_diffusely())
+  if (lobe_ == Lobe::none && !has_specular() && !uneven_base() && !transmits_diffusely())
     return sample_lambert(wo, u, result, mode);
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
@@ -426,7 +435,7 @@ int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMod
 }
 
 float Bsdf::broad_share(const Vec3& o) const {
-  if (!coated_) return 0;
+  if (!uneven_base()) return 0;
   if (lobe_ == Lobe::none) return 1;
   const float towards = coat_transmittance(o);
   // The coat's change: towards the eye, and by where light comes from.
@@ -439,8 +448,8 @@ float Bsdf::broad_share(const Vec3& o) const {
 
 void Bsdf::look_from(const Vec3& wo) {
   const Vec3 o = frame_.to_local(wo);
-  if (!coated_ || !(o.z > 0)) return;
-  diffuse_ = base_ * (coat_mean_ * coat_transmittance(o));
+  if (!uneven_base() || !(o.z > 0)) return;
+  diffuse_ = rough_base_.rough() ? rough_base_.albedo(o.z) : base_ * (coat_mean_ * coat_transmittance(o));
   looked_from_ = true;
 }
 
@@ -468,7 +477,7 @@ bool Bsdf::sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const
   result.density = broad * i.z / kPi + (1 - broad) * lobe_density(o, i);
   if (!(result.density > 0)) return false;
   Rgb value = lobe_value(o, i);
-  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  if (uneven_base()) value += base_value(o, i) - diffuse_ / kPi;
   result.weight = value * (i.z / result.density);
   return true;
 }

@@ -48,6 +48,7 @@ void read_table(const StatedBrdf& stated, Material&) { stated.read_measured(); }
 
 constexpr const char* kGlass = "glass";
 constexpr ModelParameter kExponent[] = {{"exponent", &Material::exponent, 1, true}};
+constexpr ModelParameter kSigma[] = {{"sigma", &Material::sigma_rad}};
 
 }  // namespace
 
@@ -129,6 +130,15 @@ constinit const ModelRow ModelRow::kTable[] = {
      .read = read_table,
      .resolve = &Bsdf::resolve_measured,
      .summarise = summarise_measured},
+    {.name = "oren-nayar",
+     .keeps_kd = true,
+     .tells_alpha = false,
+     .takes_from_lambert = true,
+     .parameters = kSigma,
+     .resolve = &Bsdf::resolve_oren_nayar,
+     .lambert_alone = [](const Material& m) { return !(m.sigma_rad > 0); },
+     .base_in_gloss = [](const Material& m) { return m.sigma_rad > 0; },
+     .summarise = summarise_oren_nayar},
 };
 
 std::span<const ModelRow> model_rows() { return ModelRow::kTable; }
