@@ -1,6 +1,8 @@
 // glTF: geometry, nodes, materials, lights and cameras arrive as the file says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "scene/load.h"
 #include "scene/report/lint.h"
@@ -255,6 +257,20 @@ TEST(Materials, ExactModelsComeFromExtras) {
   Json lambert = phos_material("lambert");
   lambert["pbrMetallicRoughness"]["baseColorFactor"] = Json::Array{0.5, 0.5, 0.5, 1};
   EXPECT_EQ(loaded(lambert).kd, Rgb(0.5f));
+}
+
+TEST(Materials, ASigmaInDegreesIsTold) {
+  for (const double sigma : {1.5, 20.0}) {
+    Json matt = phos_material("oren-nayar");
+    matt["extras"]["phos"]["sigma"] = sigma;
+    Gltf g;
+    g.square_node(matt);
+    const Scene scene = load(g);
+    const bool told = std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const Note& note) {
+      return note.message.find("radians") != std::string::npos;
+    });
+    EXPECT_EQ(told, sigma > 2) << sigma;
+  }
 }
 
 TEST(Materials, UnknownModelIsNamed) {

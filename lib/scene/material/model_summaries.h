@@ -13,6 +13,5 @@ ReflectionSummary summarise_conductor(const SummaryInput&);
 ReflectionSummary summarise_mirror(const SummaryInput&);
 ReflectionSummary summarise_glass(const SummaryInput&);
 ReflectionSummary summarise_measured(const SummaryInput&);
-ReflectionSummary summarise_oren_nayar(const SummaryInput&);
 
 }  // namespace phos

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/error.h"
 #include "scene/gltf/stated_brdf.h"
 #include "scene/gltf/stated_pane.h"
 #include "scene/material/merl.h"
@@ -44,6 +45,10 @@ void read_mirror(const StatedBrdf& stated, Material& m) {
   m.ks = stated.colour("ks").value_or(stated.base());
 }
 void read_f0(const StatedBrdf& stated, Material& m) { m.ks = stated.colour("f0").value_or(stated.base()); }
+void read_oren_nayar(const StatedBrdf& stated, Material&) {
+  if (const float sigma = stated.number("sigma", 0); sigma > kPi / 2)
+    stated.warn(text("extras.phos.sigma ", shortest(sigma), " is above pi/2: it is read in radians"));
+}
 void read_table(const StatedBrdf& stated, Material&) { stated.read_measured(); }
 
 constexpr const char* kGlass = "glass";
@@ -135,6 +140,7 @@ constinit const ModelRow ModelRow::kTable[] = {
      .tells_alpha = false,
      .takes_from_lambert = true,
      .parameters = kSigma,
+     .read = read_oren_nayar,
      .resolve = &Bsdf::resolve_oren_nayar,
      .lambert_alone = [](const Material& m) { return !(m.sigma_rad > 0); },
      .base_in_gloss = [](const Material& m) { return m.sigma_rad > 0; },

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/material/model_summaries.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {

@@ -29,4 +29,8 @@ class OrenNayar {
   float roughness_ = 0;
 };
 
+struct ReflectionSummary;
+struct SummaryInput;
+ReflectionSummary summarise_oren_nayar(const SummaryInput&);
+
 }  // namespace phos
