@@ -121,9 +121,7 @@ struct HitLight::Impl {
         images(r, l),
         caustics_apart(options.caustics_apart) {
     for (const Material& m : scene.material) {
-      const bool straight = passes_straight(scene, m);
-      surface.push_back(
-          {m.diffuse_alone(), !m.base_colour.used(), m.kd, straight || m.model == Model::dielectric});
+      surface.push_back({m.diffuse_alone(), !m.base_colour.used(), m.kd, transmits(scene, m)});
     }
     // Light of lamps that no ray finds, by way of mirrors, is in the source alone; so is light straight from
     // lamps, where it holds that.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
 
@@ -213,7 +214,7 @@ PathTracer::After PathTracer::scatter(const Bsdf& bsdf, const SurfacePoint& poin
     flight.mirrored = flight.chain != MirrorPlanes::kNone;
   }
   const bool ahead = glm::dot(sample.direction, point.geometric_normal) >= 0;
-  flight.in_glass = rays_.scene().material[point.material].model == Model::dielectric && ahead != point.front;
+  flight.in_glass = is_solid_glass(rays_.scene().material[point.material]) && ahead != point.front;
   return After::scattered;
 }
 

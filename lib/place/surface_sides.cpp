@@ -21,10 +21,6 @@ Vec3 spread_direction(int i, int n, float low, float turns) {
   return Vec3(std::sqrt(std::max(0.f, 1 - z * z)) * cos_sin(t - std::floor(t)), z);
 }
 
-bool transmits(const Scene& scene, const Material& m) {
-  return m.model == Model::dielectric || passes_straight(scene, m);
-}
-
 }  // namespace
 
 SurfaceSides::SurfaceSides(const RayScene& rays) : rays_(rays) {

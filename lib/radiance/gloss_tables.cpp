@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text/quantity.h"
 #include "scene/material/bsdf.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -28,21 +29,16 @@ bool coloured(const Scene& scene, std::uint32_t material) {
 /// under a coat is left out: it shows at grazing angles alone.)
 bool lobe_varies(const Scene& scene, std::uint32_t material) {
   const Material& m = scene.material[material];
-  if (m.model != Model::metallic_roughness) return false;
-  if (m.metallic_roughness.used() || (m.anisotropy > 0 && m.anisotropy_map.used())) return true;
-  return m.metallic > 0 && (m.base_colour.used() || coloured(scene, material));
+  const ModelRow& row = row_of(m);
+  if (row.gltf_core && (m.metallic_roughness.used() || (m.anisotropy > 0 && m.anisotropy_map.used())))
+    return true;
+  return row.base_in_gloss && row.base_in_gloss(m) && (m.base_colour.used() || coloured(scene, material));
 }
 
 /// 1/sr: what the lobe may take from the Lambert part.
 Rgb least_of(const Scene& scene, std::uint32_t material) {
-  switch (scene.material[material].model) {
-    case Model::plastic:
-    case Model::metallic_roughness:
-    case Model::measured:
-      return -Bsdf(scene, material).diffuse_reflectance() / kPi;
-    default:
-      return Rgb(0);
-  }
+  if (!row_of(scene.material[material]).takes_from_lambert) return Rgb(0);
+  return -Bsdf(scene, material).diffuse_reflectance() / kPi;
 }
 
 GlossChoice choice_of(const BrdfTable& table) {

@@ -48,7 +48,7 @@ bool light_gets_to(const RayScene& rays, const Vec3& origin) {
       if (!trace(rays, ray, seen)) return true;
       const Material& m = scene.material[seen.material];
       const bool shines = m.emits() && (seen.front || m.double_sided);
-      if (shines || m.model == Model::dielectric || passes_straight(scene, m)) return true;
+      if (shines || transmits(scene, m)) return true;
       random.start_bounce(bounce);
       const Vec3 direction =
           make_frame(seen.geometric_normal).to_world(sample_cosine_hemisphere(random.uniform2()));

@@ -12,6 +12,7 @@
 #include "core/last_words.h"
 #include "core/parallel.h"
 #include "scene/material/filled_glass.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/offset.h"
 #include "scene/shading_frame.h"
@@ -289,7 +290,7 @@ unsigned RayScene::Impl::geometry_of(std::uint32_t triangle, const std::vector<s
   const Facet& f = facet[triangle];
   const Material& m = scene.material[f.material];
   const bool block = !filled.empty() && filled[triangle];
-  if (straight[f.material] || (m.model == Model::dielectric && f.flat && !block)) return kPane;
+  if (straight[f.material] || (is_solid_glass(m) && f.flat && !block)) return kPane;
   return m.alpha_mode == Material::Alpha::mask ? kMasked : kOpaque;
 }
 

@@ -50,7 +50,8 @@ struct TextureUse {
   bool used() const { return texture >= 0; }
 };
 
-/// Reflection models. extras.phos of a glTF material gives the exact one; else metallic-roughness.
+/// Reflection models. extras.phos of a glTF material gives the exact one; else metallic-roughness. Nothing
+/// but the table in scene/material/models.h tells them apart: others ask it for properties.
 enum class Model : std::uint8_t {
   metallic_roughness,  ///< glTF 2.0: Lambert + GGX, Schlick Fresnel
   lambert,             ///< kd
@@ -62,6 +63,7 @@ enum class Model : std::uint8_t {
   thin_dielectric,     ///< smooth pane: ior, no bending
   mirror,              ///< ks
   measured,            ///< isotropic table in MERL layout
+  oren_nayar,          ///< kd, sigma: rough matt surface (scene/material/oren_nayar.h)
 };
 
 struct Material {
@@ -72,6 +74,7 @@ struct Material {
   Rgb ks{0};  ///< specular reflectance (phong, ward, mirror) or f0 (conductor)
   float exponent = 1;
   float alpha_x = 0, alpha_y = 0;  ///< GGX or Ward roughness (alpha, not its root)
+  float sigma_rad = 0;             ///< oren_nayar: standard deviation of the facets' slope angle
   float roughness = 1, metallic = 0;
   float ior = 1.5f;
   float specular = 1;      ///< KHR_materials_specular
@@ -110,18 +113,8 @@ struct Material {
   std::string spectrum;  ///< file that extras.phos.spectrum names; read where light is computed in bands
 
   bool emits() const { return max_component(emission) > 0; }
-  /// Is it Lambert's, without any other lobe?
-  bool diffuse_alone() const {
-    const bool lobe = model != Model::lambert &&
-                      (!(model == Model::phong || model == Model::ward) || max_component(ks) > 0);
-    return !lobe && alpha_mode != Alpha::blend && !(diffuse_transmission > 0);
-  }
-  /// Does its reflection depend on where the tangent points?
-  bool anisotropic() const {
-    if (model == Model::metallic_roughness) return anisotropy > 0;
-    const bool rough = model == Model::ward || model == Model::plastic || model == Model::conductor;
-    return rough && alpha_x != alpha_y;
-  }
+  bool diffuse_alone() const;  ///< is it Lambert's, without any other lobe?
+  bool anisotropic() const;    ///< does its reflection depend on where the tangent points?
   /// All that it may look up.
   std::array<TextureUse*, 8> texture_uses() {
     return {&base_colour,

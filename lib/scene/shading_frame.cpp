@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
 namespace phos {
@@ -150,7 +151,7 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
   point.tangent = make_frame(point.normal).x;
   if (reads.anisotropic) {
     if (Vec3(tangent) == Vec3(0)) tangent = Vec4(level_tangent(point.normal), 1);
-    const bool turned = material.model == Model::metallic_roughness;
+    const bool turned = row_of(material).gltf_core;
     const Vec3 t = turned ? turned_tangent(scene, material, tangent, point) : Vec3(tangent);
     const Vec3 along = normalized_or_zero(t - glm::dot(t, point.normal) * point.normal);
     if (along != Vec3(0)) point.tangent = along;

@@ -3,6 +3,7 @@
 
 #include "reference/eye_path_tracer.h"
 #include "reference/point_irradiance.h"
+#include "scene/material/oren_nayar.h"
 #include "support/environment.h"
 
 namespace phos::test {
@@ -135,6 +136,33 @@ TEST(OpenFurnace, AGreySphereReflectsItsShare) {
   surround(s.scene, constant_map(8, Rgb(7)));
   const DVec3 seen = luminance_along(s.scene, {{0.4f, 0.1f, 3}, {0, 0, -1}}, 20000);
   EXPECT_NEAR(seen.x, 0.3 * 7, 0.01);
+}
+
+/// White rough matt surfaces lose no light either.
+TEST(OpenFurnace, WhiteOrenNayarIsAsBrightAsTheSky) {
+  Scene scene;
+  begin_instance(scene, "groove", add_lambert(scene, "white", 1));
+  scene.material[0].model = Model::oren_nayar, scene.material[0].sigma_rad = 0.5f;
+  add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {1, -1, 0});
+  add_quad(scene, {0, -1, -1}, {0, 0, 2}, {1, 1, 0});
+  surround(scene, constant_map(8, Rgb(7)));
+  const DVec3 seen = luminance_along(scene, {{0.1f, 3, 0.2f}, normalized_or_zero({0.1f, -1, 0.05f})}, 20000);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 7, 0.05);
+}
+
+/// A plane of it under an even sky shows its albedo, which is known in closed form, at each angle.
+TEST(OpenFurnace, OrenNayarShowsItsAlbedoByAngle) {
+  Scene scene;
+  begin_instance(scene, "plate", add_lambert(scene, "matt", 0.6f));
+  scene.material[0].model = Model::oren_nayar, scene.material[0].sigma_rad = 0.8f;
+  add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  surround(scene, constant_map(8, Rgb(7)));
+  const OrenNayar surface(Rgb(0.6f), 0.8f);
+  for (const float cosine : {1.f, 0.5f, 0.1f}) {
+    const Vec3 down(std::sqrt(1 - cosine * cosine), -cosine, 0);
+    const double seen = luminance_along(scene, {-0.5f * down, down}, 100000).x;
+    EXPECT_NEAR(seen / 7, surface.albedo(cosine).x, 0.003) << cosine;
+  }
 }
 
 /// A mirror shows the environment, and so does a ray that meets nothing.

@@ -53,6 +53,12 @@ inline Material make_material(Model model, const Rgb& kd, const Rgb& ks, float a
   return m;
 }
 
+inline Material oren_nayar(const Rgb& kd, float sigma_rad) {
+  Material m = make_material(Model::oren_nayar, kd, Rgb(0));
+  m.sigma_rad = sigma_rad;
+  return m;
+}
+
 inline Material phong(float exponent, const std::string& name) {
   Material m = make_material(Model::phong, Rgb(0.1f), Rgb(0.8f, 0.5f, 0.2f));
   m.name = name, m.exponent = exponent;
@@ -89,6 +95,8 @@ inline std::vector<Named> models() {
     m.metallic = metallic, m.roughness = 0.5f, m.anisotropy = 0.6f;
     add("brushed, metallic " + std::to_string(metallic), m);
   }
+  for (const float sigma : {0.1f, 0.5f, 1.5f})
+    add("oren-nayar " + std::to_string(sigma), oren_nayar(Rgb(1, 0.8f, 0.3f), sigma));
   Material clear = make_material(Model::metallic_roughness, Rgb(1), Rgb(0));
   clear.transmission = 0.6f, clear.roughness = 0.5f;
   add("transmission", clear);

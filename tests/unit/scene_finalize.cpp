@@ -213,6 +213,18 @@ TEST(Lights, FaintOnesBesideOthersAreTold) {
   EXPECT_FALSE(has(lint_scene(finished(box(1, false, 100))), "light-too-faint"));
 }
 
+TEST(Hash, KnowsTheParametersOfTheModel) {
+  Scene s = box(1, false);
+  const std::string lambert = finished(s).hash;
+  s.material[0].sigma_rad = 0.3f;  // says nothing of another model
+  EXPECT_EQ(finished(s).hash, lambert);
+  s.material[0].model = Model::oren_nayar;
+  const std::string rough = finished(s).hash;
+  s.material[0].sigma_rad = 0.4f;
+  EXPECT_NE(finished(s).hash, rough);
+  EXPECT_NE(rough, lambert);
+}
+
 TEST(Requires, OnlyWhatTheSceneNeeds) {
   const auto names = [](const Scene& s) {
     std::string out;
@@ -226,6 +238,10 @@ TEST(Requires, OnlyWhatTheSceneNeeds) {
   EXPECT_EQ(names(finished(s)), "direct light;global photons;irradiance records;");
   s.material[0].model = Model::phong, s.material[0].ks = Rgb(0.2f), s.material[0].exponent = 20;
   EXPECT_EQ(names(finished(s)), "direct light;global photons;irradiance records;gloss;");
+  s.material[0].model = Model::oren_nayar, s.material[0].sigma_rad = 0.3f;
+  EXPECT_EQ(names(finished(s)), "direct light;global photons;irradiance records;gloss;");
+  s.material[0].sigma_rad = 0;
+  EXPECT_EQ(names(finished(s)), "direct light;global photons;irradiance records;");
   s.material[0].model = Model::mirror;
   EXPECT_EQ(names(finished(s)), "specular tracing;");
 }

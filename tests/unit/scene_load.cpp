@@ -1,6 +1,8 @@
 // glTF: geometry, nodes, materials, lights and cameras arrive as the file says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "scene/load.h"
 #include "scene/report/lint.h"
@@ -246,9 +248,29 @@ TEST(Materials, ExactModelsComeFromExtras) {
   Json glass = phos_material("dielectric");
   glass["extras"]["phos"]["ior"] = 1.33;
   EXPECT_EQ(loaded(glass).ior, 1.33f);
+  Json matt = phos_material("oren-nayar");
+  matt["extras"]["phos"]["kd"] = Json::Array{0.4, 0.3, 0.2};
+  matt["extras"]["phos"]["sigma"] = 0.35;
+  EXPECT_EQ(loaded(matt).model, Model::oren_nayar);
+  EXPECT_EQ(loaded(matt).kd, Rgb(0.4f, 0.3f, 0.2f));
+  EXPECT_EQ(loaded(matt).sigma_rad, 0.35f);
   Json lambert = phos_material("lambert");
   lambert["pbrMetallicRoughness"]["baseColorFactor"] = Json::Array{0.5, 0.5, 0.5, 1};
   EXPECT_EQ(loaded(lambert).kd, Rgb(0.5f));
+}
+
+TEST(Materials, ASigmaInDegreesIsTold) {
+  for (const double sigma : {1.5, 20.0}) {
+    Json matt = phos_material("oren-nayar");
+    matt["extras"]["phos"]["sigma"] = sigma;
+    Gltf g;
+    g.square_node(matt);
+    const Scene scene = load(g);
+    const bool told = std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const Note& note) {
+      return note.message.find("radians") != std::string::npos;
+    });
+    EXPECT_EQ(told, sigma > 2) << sigma;
+  }
 }
 
 TEST(Materials, UnknownModelIsNamed) {

@@ -134,8 +134,8 @@ TEST(ToBands, SpectraOfPaintsAreTheirMeans) {
 
 TEST(ToBands, SpectraReachTheRightFieldOfEachModel) {
   const std::string file = file_of("400,0.25\n700,0.25\n");
-  for (const Model model :
-       {Model::lambert, Model::phong, Model::ward, Model::plastic, Model::metallic_roughness}) {
+  for (const Model model : {Model::lambert, Model::phong, Model::ward, Model::plastic,
+                            Model::metallic_roughness, Model::oren_nayar}) {
     Scene scene = room(Rgb(0.6f));
     scene.material[0].model = model, scene.material[0].ks = Rgb(0.1f), scene.material[0].alpha_x = 0.2f;
     scene.material[0].alpha_y = 0.2f;

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scene/load_mesh.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -75,7 +76,7 @@ void check_arrays(const Scene& scene) {
       }
     }
     const bool there = m.measured >= 0 && m.measured < static_cast<std::int64_t>(scene.measured.size());
-    if (m.model == Model::measured && !there) {
+    if (row_of(m).measured && !there) {
       fail(scene, text("material \"", m.name, "\" has no measured data"));
     }
   }

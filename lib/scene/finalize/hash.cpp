@@ -8,6 +8,7 @@
 #include "scene/finalize/finalize.h"
 #include "scene/luminaire/photometry.h"
 #include "scene/material/merl.h"
+#include "scene/material/models.h"
 #include "scene/material/pane.h"
 #include "scene/sky/environment.h"
 
@@ -78,6 +79,8 @@ void add_material(Hasher& hasher, const Material& m) {
       hasher.add(static_cast<float>(p.transmittance));
     }
   if (m.measured >= 0) hasher.add(m.measured);
+  for (const ModelParameter& p : row_of(m).parameters)
+    if (!p.of_every_model) hasher.add(m.*p.number);
   hasher.add(m.double_sided);
   hasher.add(m.alpha_mode);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
 namespace phos {
@@ -104,7 +105,7 @@ void lay_coats(const GltfDocument& document, Scene& scene) {
     const Json& json = element(document.json, "materials", i);
     const Json *sheen = find_path(json, kSheen), *coat = find_path(json, kClearcoat);
     Material& m = scene.material[i];
-    if ((!sheen && !coat) || m.model != Model::metallic_roughness || m.transmission > 0) continue;
+    if ((!sheen && !coat) || !row_of(m).gltf_core || m.transmission > 0) continue;
     const auto check = [&](double value, const char* what) {
       if (!(value >= 0 && value <= 1))
         document.fail(text("material \"", m.name, "\": ", what, " must be between 0 and 1"));

@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "file/atomic_file.h"
+#include "scene/gltf/stated_brdf.h"
 #include "scene/gltf/uri.h"
 #include "scene/material/merl.h"
-#include "scene/material/pane.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -281,47 +282,9 @@ class MaterialReader {
     return absorption;
   }
 
-  /// Only models with a Lambert part keep kd.
   void become(Model model, const Rgb& kd = Rgb(0)) {
     material_.model = model;
-    const bool lambertian = model == Model::lambert || model == Model::phong || model == Model::ward ||
-                            model == Model::plastic || model == Model::metallic_roughness;
-    material_.kd = lambertian ? kd : Rgb(0);
-  }
-
-  float parameter(const Json& phos, const char* key, double absent) const {
-    const Json* v = phos.find(key);
-    if (v && (!v->is_number() || !std::isfinite(v->as_number()) || v->as_number() < 0)) {
-      fail(text("extras.phos.", key, " must be a number that is not negative"));
-    }
-    return static_cast<float>(v ? v->as_number() : absent);
-  }
-
-  std::optional<Rgb> colour(const Json& phos, const char* key) const {
-    try {
-      const std::optional<Rgb> c = rgb_at(phos, key);
-      if (c) check_colour(text("extras.phos.", key), *c);
-      return c;
-    } catch (const std::runtime_error&) {
-      fail(text("extras.phos.", key, " must be three numbers that are not negative"));
-    }
-  }
-
-  /// "alpha" (one number or two), or "ax" and "ay".
-  void read_alpha(const Json& phos) {
-    const Json* alpha = phos.find("alpha");
-    if (alpha && alpha->is_array()) {
-      if (alpha->as_array().size() != 2) fail("extras.phos.alpha must be one number or two");
-      Json pair;
-      pair["x"] = alpha->as_array()[0];
-      pair["y"] = alpha->as_array()[1];
-      material_.alpha_x = parameter(pair, "x", 0);
-      material_.alpha_y = parameter(pair, "y", 0);
-      return;
-    }
-    const float both = parameter(phos, "alpha", 0);
-    material_.alpha_x = parameter(phos, "ax", both);
-    material_.alpha_y = parameter(phos, "ay", both);
+    material_.kd = row_of(material_).keeps_kd ? kd : Rgb(0);
   }
 
   /// The exact model. What it does not give stays as the core material has it.
@@ -330,101 +293,23 @@ class MaterialReader {
     const Json* brdf = phos.find("brdf");
     if (!brdf && !material_.spectrum.empty()) return;
     if (!brdf || !brdf->is_string()) fail("extras.phos needs a \"brdf\"");
-    static const std::map<std::string, Model> kModels = {
-        {"lambert", Model::lambert},
-        {"phong", Model::phong},
-        {"ward", Model::ward},
-        {"plastic", Model::plastic},
-        {"conductor", Model::conductor},
-        {"dielectric", Model::dielectric},
-        {"thindielectric", Model::thin_dielectric},
-        {"mirror", Model::mirror},
-        {"merl", Model::measured},
-    };
-    const auto model = kModels.find(brdf->as_string());
-    if (model == kModels.end())
-      fail("extras.phos.brdf \"" + brdf->as_string() + "\" is not a model phos has");
-    const Rgb base = material_.kd;
-    become(model->second, colour(phos, "kd").value_or(base));
+    const Model* model = model_named(brdf->as_string());
+    if (!model) fail("extras.phos.brdf \"" + brdf->as_string() + "\" is not a model phos has");
+    const StatedBrdf::Owner owner{[&](const std::string& message) { fail(message); },
+                                  [&](const std::string& message) { warn(message); },
+                                  [&]() { read_measured(phos); }};
+    const StatedBrdf stated(phos, material_.kd, owner);
+    become(*model, stated.colour("kd").value_or(stated.base()));
     material_.ks = Rgb(0);
-    material_.ior = parameter(phos, "ior", material_.ior);
+    material_.ior = stated.number("ior", static_cast<double>(material_.ior));
     if (material_.ior < 1) fail("extras.phos.ior must be 1 or more");
-    read_alpha(phos);
-    switch (model->second) {
-      case Model::lambert:
-        material_.diffuse_transmission_colour = colour(phos, "kt").value_or(Rgb(0));
-        if (max_component(material_.diffuse_transmission_colour) > 0) material_.diffuse_transmission = 1;
-        break;
-      case Model::phong:
-      case Model::ward:
-        material_.ks = colour(phos, "ks").value_or(Rgb(0));
-        break;
-      case Model::mirror:
-        material_.ks = colour(phos, "ks").value_or(base);
-        break;
-      case Model::conductor:
-        material_.ks = colour(phos, "f0").value_or(base);
-        break;
-      case Model::dielectric:
-      case Model::thin_dielectric:
-        if (material_.alpha_x > 0 || material_.alpha_y > 0)
-          warn("rough glass is not modelled: it is read as smooth");
-        material_.alpha_x = material_.alpha_y = 0;
-        material_.tint = colour(phos, "tint").value_or(Rgb(1));
-        if (max_component(material_.tint) > 1) fail("extras.phos.tint must be at most 1");
-        if (material_.alpha_mode != Material::Alpha::blend) material_.base_colour = TextureUse();
-        if (model->second == Model::thin_dielectric) read_pane(phos);
-        break;
-      case Model::measured:
-        read_measured(phos);
-        break;
-      default:
-        break;
-    }
-    material_.exponent = parameter(phos, "exponent", 1);
-    if (model->second == Model::ward && !(material_.alpha_x > 0 && material_.alpha_y > 0)) {
-      fail("extras.phos: ward needs ax and ay above 0");
-    }
-  }
-
-  /// "transmittance" at normal incidence, a number or three, or "transmittance_by_angle", as glass makers
-  /// state them.
-  void read_pane(const Json& phos) {
-    const Json* normal = phos.find("transmittance");
-    const Json* by_angle = phos.find("transmittance_by_angle");
-    if (normal && by_angle)
-      fail("extras.phos has both transmittance and transmittance_by_angle; give one of them");
-    if (by_angle) material_.curve = read_curve(*by_angle);
-    if (!normal) return;
-    const Rgb t = normal->is_number() ? Rgb(parameter(phos, "transmittance", 1))
-                                      : colour(phos, "transmittance").value_or(Rgb(1));
-    for (int c = 0; c < 3; ++c) {
-      const auto ior = static_cast<double>(material_.ior), given = static_cast<double>(t[c]);
-      const double most = static_cast<double>(pane_layer(1, material_.ior, Rgb(1)).transmittance().x);
-      if (given > most * (1 + 1e-6))
-        fail(text("extras.phos.transmittance ", shortest(t[c]), " cannot be: a pane of ior ", shortest(ior),
-                  " without absorption has ", shortest(static_cast<float>(most))));
-      material_.inside[c] = static_cast<float>(std::min(internal_transmittance(given, ior), 1.0));
-    }
-  }
-
-  std::shared_ptr<const TransmittanceCurve> read_curve(const Json& table) const {
-    std::vector<TransmittanceCurve::Point> points;
-    const auto malformed = [&]() {
-      fail("extras.phos.transmittance_by_angle must be pairs [degrees, share]");
-    };
-    if (!table.is_array()) malformed();
-    for (const Json& pair : table.as_array()) {
-      if (!pair.is_array() || pair.as_array().size() != 2 || !pair.as_array()[0].is_number() ||
-          !pair.as_array()[1].is_number())
-        malformed();
-      points.push_back({pair.as_array()[0].as_number(), pair.as_array()[1].as_number()});
-    }
-    try {
-      return std::make_shared<const TransmittanceCurve>(std::move(points));
-    } catch (const std::runtime_error& e) {
-      fail(text("extras.phos.transmittance_by_angle ", e.what()));
-    }
+    stated.read_alpha(material_);
+    const ModelRow& row = row_of(material_);
+    if (row.read) row.read(stated, material_);
+    for (const ModelRow& any : model_rows())
+      for (const ModelParameter& p : any.parameters)
+        if (&any == &row || p.of_every_model)
+          material_.*p.number = stated.number(p.key, static_cast<double>(p.absent));
   }
 
   std::string spectrum_of_material() const {
@@ -464,18 +349,16 @@ class MaterialReader {
   }
 
   void check_colour(const std::string& what, const Rgb& c) const {
-    if (!is_finite(c) || c.x < 0 || c.y < 0 || c.z < 0) fail(what + " must be numbers that are not negative");
+    phos::check_colour(c, what, [&](const std::string& message) { fail(message); });
   }
 
   void check_energy() const {
-    if (material_.model == Model::lambert && material_.diffuse_transmission > 0 &&
+    const ModelRow& row = row_of(material_);
+    if (row.passes_kt && material_.diffuse_transmission > 0 &&
         max_component(material_.kd + material_.diffuse_transmission_colour) > 1.0001f)
       warn("kd + kt is above 1: it sends on more light than it gets");
-    if (max_component(material_.kd + (material_.model == Model::phong || material_.model == Model::ward
-                                          ? material_.ks
-                                          : Rgb(0))) > 1.0001f) {
+    if (max_component(material_.kd + (row.adds_ks ? material_.ks : Rgb(0))) > 1.0001f)
       note("kd + ks is above 1: it reflects more light than it gets");
-    }
   }
 
   const GltfDocument& document_;

@@ -6,6 +6,7 @@
 #include "core/sampling.h"
 #include "scene/material/merl.h"
 #include "scene/material/microfacet.h"
+#include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
 namespace phos {
@@ -58,7 +59,7 @@ Bsdf::Bsdf(const Scene& scene, const SurfacePoint& point)
   const float share = material.diffuse_transmission > 0
                           ? material.diffuse_transmission * texel(material.diffuse_transmission_map).w
                           : 0;
-  if (material.model == Model::dielectric && !front_)
+  if (is_solid_glass(material) && !front_)
     travelled_ = left_after(material.absorption_per_m, point.distance_m);
   resolve(
       scene, material,
@@ -82,58 +83,61 @@ Bsdf::Bsdf(const Scene& scene, std::uint32_t material, const Frame& frame)
 }
 
 void Bsdf::resolve(const Scene& scene, const Material& material, const Looked& looked) {
-  const Rgb& base = looked.base;
   specular_ = material.ks;
   ior_ = material.ior;
-  switch (material.model) {
-    case Model::lambert:
-      diffuse_ = base;
-      through_ = looked.through;
-      break;
-    case Model::phong:
-      diffuse_ = base;
-      exponent_ = std::max(material.exponent, 0.f);
-      lobe_ = max_component(specular_) > 0 ? Lobe::phong : Lobe::none;
-      break;
-    case Model::ward:
-      diffuse_ = base;
-      if (max_component(specular_) > 0) resolve_rough(Lobe::ward, material.alpha_x, material.alpha_y);
-      break;
-    case Model::conductor:
-      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
-      break;
-    case Model::mirror:
-      delta_ = Delta::mirror;
-      break;
-    case Model::dielectric:
-    case Model::thin_dielectric:
-      delta_ = material.model == Model::dielectric ? Delta::dielectric : Delta::thin;
-      if (!(ior_ > 0)) ior_ = 1;
-      sheet_ = material.tint * looked.colour;
-      inside_ = material.inside;
-      absorption_per_m_ = material.absorption_per_m;
-      curve_ = material.curve.get();
-      break;
-    case Model::plastic:
-      resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
-      resolve_plastic(base);
-      break;
-    case Model::metallic_roughness:
-      resolve_metallic_roughness(material, looked);
-      break;
-    case Model::measured:
-      measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
-      diffuse_ = measured_->lambert();
-      lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
-      break;
-  }
+  (this->*row_of(material).resolve)(scene, material, looked);
   if (material.alpha_mode == Material::Alpha::blend) cover(std::clamp(looked.alpha, 0.f, 1.f));
+}
+
+void Bsdf::resolve_lambert(const Scene&, const Material&, const Looked& looked) {
+  diffuse_ = looked.base;
+  through_ = looked.through;
+}
+
+void Bsdf::resolve_phong(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  exponent_ = std::max(material.exponent, 0.f);
+  lobe_ = max_component(specular_) > 0 ? Lobe::phong : Lobe::none;
+}
+
+void Bsdf::resolve_ward(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  if (max_component(specular_) > 0) resolve_rough(Lobe::ward, material.alpha_x, material.alpha_y);
+}
+
+void Bsdf::resolve_conductor(const Scene&, const Material& material, const Looked&) {
+  resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
+}
+
+void Bsdf::resolve_mirror(const Scene&, const Material&, const Looked&) { delta_ = Delta::mirror; }
+
+void Bsdf::resolve_glass(const Scene&, const Material& material, const Looked& looked) {
+  delta_ = is_solid_glass(material) ? Delta::dielectric : Delta::thin;
+  if (!(ior_ > 0)) ior_ = 1;
+  sheet_ = material.tint * looked.colour;
+  inside_ = material.inside;
+  absorption_per_m_ = material.absorption_per_m;
+  curve_ = material.curve.get();
+}
+
+void Bsdf::resolve_oren_nayar(const Scene&, const Material& material, const Looked& looked) {
+  diffuse_ = looked.base;
+  if (!(OrenNayar::roughness(material.sigma_rad) > 0) || !(max_component(looked.base) > 0)) return;
+  rough_base_ = OrenNayar(looked.base, material.sigma_rad);
+  diffuse_ = rough_base_.mean_albedo();
+}
+
+void Bsdf::resolve_measured(const Scene& scene, const Material& material, const Looked&) {
+  measured_ = scene.measured[static_cast<std::size_t>(material.measured)].get();
+  diffuse_ = measured_->lambert();
+  lobe_ = measured_->glossy() ? Lobe::measured : Lobe::none;
 }
 
 /// Every lobe is as strong as the share of the surface that is there. Solid glass has no share.
 void Bsdf::cover(float coverage) {
   if (delta_ == Delta::dielectric) return;
   coverage_ = coverage;
+  rough_base_.cover(coverage);
   diffuse_ *= coverage, base_ *= coverage, through_ *= coverage, specular_ *= coverage, f90_ *= coverage;
 }
 
@@ -165,13 +169,14 @@ void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interref
   diffuse_ = base_ * (transmitted * transmitted);
 }
 
-void Bsdf::resolve_plastic(const Rgb& kd) {
+void Bsdf::resolve_plastic(const Scene&, const Material& material, const Looked& looked) {
+  resolve_rough(Lobe::ggx, material.alpha_x, material.alpha_y);
   const float eta = std::max(ior_, 1.f), f0 = normal_reflectance(eta);
   specular_ = Rgb(f0);
-  put_under_coat(kd, f0, 1, 1 / (eta * eta));
+  put_under_coat(looked.base, f0, 1, 1 / (eta * eta));
 }
 
-void Bsdf::resolve_metallic_roughness(const Material& material, const Looked& looked) {
+void Bsdf::resolve_metallic_roughness(const Scene&, const Material& material, const Looked& looked) {
   const Rgb& base = looked.base;
   const float roughness = std::clamp(material.roughness * looked.metallic_roughness.y, 0.f, 1.f);
   const float metallic = std::clamp(material.metallic * looked.metallic_roughness.z, 0.f, 1.f);
@@ -234,7 +239,7 @@ Rgb Bsdf::evaluate_gloss(const Vec3& wo, const Vec3& wi) const {
   Vec3 o, i;
   if (!has_gloss() || !above(wo, wi, o, i)) return Rgb(0);
   Rgb value = lobe_value(o, i);
-  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  if (uneven_base()) value += base_value(o, i) - diffuse_ / kPi;
   return value;
 }
 
@@ -244,6 +249,7 @@ Bsdf::Choice Bsdf::choice(const Vec3& o, const BsdfSample branches[2], int count
   if (coated_) {
     p.diffuse *= coat_transmittance(o) / coat_mean_;  // diffuse_ / base_ is coat_mean_^2
   }
+  if (rough_base_.rough()) p.diffuse = luminance(rough_base_.albedo(o.z));
   p.gloss = lobe_albedo(o.z);
   p.through = luminance(through_);
   for (int b = 0; b < count; ++b) p.delta[b] = luminance(branches[b].weight);
@@ -288,7 +294,7 @@ bool Bsdf::sample_lambert(const Vec3& wo, const Vec2& u, BsdfSample& result, Tra
 }
 
 bool Bsdf::sample(const Vec3& wo, float u_lobe, const Vec2& u, BsdfSample& result, TransportMode mode) const {
-  if (lobe_ == Lobe::none && !has_specular() && !coated_ && !transmits_diffusely())
+  if (lobe_ == Lobe::none && !has_specular() && !uneven_base() && !transmits_diffusely())
     return sample_lambert(wo, u, result, mode);
   const Vec3 o = frame_.to_local(wo);
   if (!(o.z > 0) || !(glm::dot(wo, geometric_normal_) > 0)) return false;
@@ -429,7 +435,7 @@ int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMod
 }
 
 float Bsdf::broad_share(const Vec3& o) const {
-  if (!coated_) return 0;
+  if (!uneven_base()) return 0;
   if (lobe_ == Lobe::none) return 1;
   const float towards = coat_transmittance(o);
   // The coat's change: towards the eye, and by where light comes from.
@@ -442,8 +448,8 @@ float Bsdf::broad_share(const Vec3& o) const {
 
 void Bsdf::look_from(const Vec3& wo) {
   const Vec3 o = frame_.to_local(wo);
-  if (!coated_ || !(o.z > 0)) return;
-  diffuse_ = base_ * (coat_mean_ * coat_transmittance(o));
+  if (!uneven_base() || !(o.z > 0)) return;
+  diffuse_ = rough_base_.rough() ? rough_base_.albedo(o.z) : base_ * (coat_mean_ * coat_transmittance(o));
   looked_from_ = true;
 }
 
@@ -471,7 +477,7 @@ bool Bsdf::sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const
   result.density = broad * i.z / kPi + (1 - broad) * lobe_density(o, i);
   if (!(result.density > 0)) return false;
   Rgb value = lobe_value(o, i);
-  if (coated_) value += base_value(o, i) - diffuse_ / kPi;
+  if (uneven_base()) value += base_value(o, i) - diffuse_ / kPi;
   result.weight = value * (i.z / result.density);
   return true;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "scene/material/oren_nayar.h"
 #include "scene/material/pane.h"
 #include "scene/rays.h"
 #include "scene/scene.h"
@@ -36,6 +37,7 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// | plastic | GGX, Schlick from ior | kd under the coat |
 /// | metallic_roughness | GGX, glTF 2.0 appendix B | base colour under the coat |
 /// | measured | the table less its Lambert part, signed | see MerlBrdf |
+/// | oren_nayar | the model less its Lambert part, signed | its mean albedo |
 ///
 /// GGX has height-correlated Smith shadowing. Ward and GGX lobes may be anisotropic: alpha_x along the
 /// point's tangent. A base under a coat reflects k kd/pi T(wo) T(wi), T = 1 - albedo of the coat, which is
@@ -108,14 +110,14 @@ class Bsdf {
   /// From here on passes and reflects what a plate or a pack of panes does, of which the point is the first
   /// face.
   void replace_pane(const PaneLayer& pack);
-  bool has_gloss() const { return lobe_ != Lobe::none || coated_; }  ///< neither diffuse nor delta
+  bool has_gloss() const { return lobe_ != Lobe::none || uneven_base(); }  ///< neither diffuse nor delta
   /// evaluate() without the Lambert part. Under a coat it is signed: the coat takes light from the Lambert
   /// part at grazing angles and leaves a little more elsewhere; over all directions that part adds up to
-  /// nothing.
+  /// nothing. So it is for a rough matt surface.
   Rgb evaluate_gloss(const Vec3& wo, const Vec3& wi) const;
-  /// Under a coat: from now on diffuse_reflectance() is that towards wo, a mean over directions of arrival
-  /// alone, and evaluate_gloss() holds what is left of the coat's change, which is little. For light that is
-  /// traced: tables of lobes know the other split. sample() is then not to be used.
+  /// Under a coat, or rough and matt: from now on diffuse_reflectance() is that towards wo, a mean over
+  /// directions of arrival alone, and evaluate_gloss() holds what is left of the change, which is little. For
+  /// light that is traced: tables of lobes know the other split. sample() is then not to be used.
   void look_from(const Vec3& wo);
   /// sample() restricted to what evaluate_gloss holds; the weight can be negative under a coat.
   bool sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const;
@@ -124,18 +126,30 @@ class Bsdf {
 
  private:
   Bsdf() = default;
+  friend struct ModelRow;  // names how each model puts its lobes together
   enum class Lobe : std::uint8_t { none, phong, ward, ggx, measured };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
 
   struct Looked;  // what the textures say
 
   void resolve(const Scene& scene, const Material& material, const Looked& looked);
-  void resolve_metallic_roughness(const Material& material, const Looked& looked);
-  void resolve_plastic(const Rgb& kd);
+  // One for each row of the table of models.
+  void resolve_lambert(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_phong(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_ward(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_plastic(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_conductor(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_glass(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_mirror(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_oren_nayar(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_measured(const Scene& scene, const Material& material, const Looked& looked);
+  void resolve_metallic_roughness(const Scene& scene, const Material& material, const Looked& looked);
   void resolve_rough(Lobe lobe, float alpha_x, float alpha_y);
   void put_under_coat(const Rgb& base, float f0, float f90, float k_interreflection);
 
   bool above(const Vec3& wo, const Vec3& wi, Vec3& o, Vec3& i) const;
+  /// Does the base reflect otherwise than Lambert's, by direction?
+  bool uneven_base() const { return coated_ || rough_base_.rough(); }
   float coat_transmittance(const Vec3& w) const;
   float mean_coat_transmittance() const;
   Rgb schlick(float cos_theta) const;
@@ -162,8 +176,9 @@ class Bsdf {
   Rgb diffuse_{0};   // Lambert part
   Rgb specular_{0};  // ks, or reflectance at normal incidence (GGX, delta)
   Rgb base_{0};      // under a coat: k kd
-  Rgb sheet_{0};     // transmitted straight through
-  Rgb through_{0};   // transmitted diffusely
+  OrenNayar rough_base_;
+  Rgb sheet_{0};                                                // transmitted straight through
+  Rgb through_{0};                                              // transmitted diffusely
   float f90_ = 1, coat_f0_ = 0, coat_f90_ = 1, coat_mean_ = 1;  // coat_mean_: transmittance
   float alpha_x_ = 0, alpha_y_ = 0, exponent_ = 1, ior_ = 1.5f;
   Lobe lobe_ = Lobe::none;

@@ -48,6 +48,7 @@ Rgb Bsdf::schlick(float cos_theta) const {
 
 Rgb Bsdf::base_value(const Vec3& o, const Vec3& i) const {
   constexpr float kOverPi = 1 / kPi;
+  if (rough_base_.rough()) return rough_base_.value(o, i);
   if (!coated_) return kOverPi * diffuse_;
   return kOverPi * coat_transmittance(o) * coat_transmittance(i) * base_;
 }

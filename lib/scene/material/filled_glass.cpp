@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/connected_parts.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -48,7 +49,7 @@ std::vector<std::uint8_t> find_filled_glass(const Scene& scene) {
   std::vector<std::uint32_t> glass;  // triangles
   std::vector<Vec3> corner;
   for (std::uint32_t t = 0; t < scene.triangle.size(); ++t) {
-    if (scene.material_of(t).model != Model::dielectric) continue;
+    if (!is_solid_glass(scene.material_of(t))) continue;
     glass.push_back(t);
     for (const std::uint32_t v : scene.triangle[t].v) corner.push_back(scene.position[v]);
   }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -73,7 +74,7 @@ void make_sheets_thin(Scene& scene) {
   const std::size_t materials = scene.material.size();
   for (std::size_t material = 0; material < materials; ++material) {
     const Material& m = scene.material[material];
-    if (m.model != Model::dielectric || !(m.thickness_m > 0)) continue;
+    if (!is_solid_glass(m) || !(m.thickness_m > 0)) continue;
     // By the places that their corners share: the faces of a box may be nodes of their own.
     Unions unions(scene.instance.size());
     std::map<std::array<float, 3>, std::size_t> at;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/material/models.h"
+
 namespace phos {
 namespace {
 
@@ -36,7 +38,12 @@ bool passes_straight(const Scene& scene, const Material& m) {
         if (t.texel(i).w < 1) return true;
     }
   }
-  return m.model == Model::thin_dielectric || (m.model == Model::metallic_roughness && m.transmission > 0);
+  const Passage passage = row_of(m).passage;
+  return passage == Passage::pane || (passage == Passage::sheet && m.transmission > 0);
+}
+
+bool transmits(const Scene& scene, const Material& m) {
+  return is_solid_glass(m) || passes_straight(scene, m);
 }
 
 void StraightLight::add(const Crossing& crossing, const Vec3& direction) {
@@ -119,7 +126,7 @@ const PaneHit* find_crossings(const RayScene& rays, const Ray& ray, std::span<Pa
     if (twice(next.point)) continue;
     next.leave_m = next.point.distance_m;
     const Material& material = scene.material[next.point.material];
-    if (material.model == Model::dielectric) {
+    if (is_solid_glass(material)) {
       SurfacePoint behind;
       std::size_t k = i + 1;
       for (; k < hits.size(); ++k) {

@@ -13,6 +13,8 @@ namespace phos {
 /// Does light pass straight through a material, at some of its texels at least? Solid glass does only where
 /// its faces are plane and parallel; that is not told by the material.
 bool passes_straight(const Scene& scene, const Material& material);
+/// Does light pass a material, straight or into a solid?
+bool transmits(const Scene& scene, const Material& material);
 
 /// What a ray passes straight through: a thin pane, a sheet, a film, a plate of solid glass between parallel
 /// faces, or a pack of such panes, parallel and next to each other, with all interreflection in it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/material/bsdf.h"
+#include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
 namespace phos {
@@ -16,41 +17,17 @@ constexpr float kSharpExponent = 200;
 }  // namespace
 
 bool reflects_as_mirror(const Material& m) {
-  const auto smooth = [](float alpha_x, float alpha_y) {
-    return std::max(alpha_x, alpha_y) < Bsdf::kSmoothestAlpha;
-  };
-  switch (m.model) {
-    case Model::mirror:
-    case Model::ward:
-      return max_component(m.ks) > 0 && (m.model == Model::mirror || smooth(m.alpha_x, m.alpha_y));
-    case Model::dielectric:
-    case Model::thin_dielectric:
-      return m.ior != 1;
-    case Model::conductor:
-    case Model::plastic:
-      return smooth(m.alpha_x, m.alpha_y);
-    case Model::metallic_roughness:
-      return m.roughness * m.roughness < Bsdf::kSmoothestAlpha && (m.specular > 0 || m.metallic > 0);
-    default:
-      return false;
-  }
+  const GlossWidth gloss = gloss_width(m);
+  return gloss.kind == GlossWidth::Kind::mirror ||
+         (gloss.kind == GlossWidth::Kind::rough &&
+          std::max(gloss.alpha_x, gloss.alpha_y) < Bsdf::kSmoothestAlpha);
 }
 
 bool reflects_sharply(const Material& m) {
   if (reflects_as_mirror(m)) return true;
-  switch (m.model) {
-    case Model::phong:
-      return max_component(m.ks) > 0 && m.exponent > kSharpExponent;
-    case Model::ward:
-      return max_component(m.ks) > 0 && std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
-    case Model::conductor:
-    case Model::plastic:
-      return std::min(m.alpha_x, m.alpha_y) < kSharpAlpha;
-    case Model::metallic_roughness:
-      return m.roughness * m.roughness < kSharpAlpha && (m.specular > 0 || m.metallic > 0);
-    default:
-      return false;
-  }
+  const GlossWidth gloss = gloss_width(m);
+  if (gloss.kind == GlossWidth::Kind::exponent) return gloss.exponent > kSharpExponent;
+  return gloss.kind == GlossWidth::Kind::rough && std::min(gloss.alpha_x, gloss.alpha_y) < kSharpAlpha;
 }
 
 bool turns_light(const Scene& scene, std::uint32_t material) {
@@ -69,32 +46,22 @@ bool casts_caustics(const Scene& scene) {
 }
 
 double lobe_hit_share(const Scene& scene, const Material& m) {
-  const double n = static_cast<double>(m.exponent);
-  double ax = static_cast<double>(m.alpha_x), ay = static_cast<double>(m.alpha_y), factor = 12;
-  switch (m.model) {
-    case Model::phong:
-      return max_component(m.ks) > 0 ? std::min(1.0, 2 * (2 * n + 1) / ((n + 1) * (n + 1))) : 1;
-    case Model::ward:
-      if (!(max_component(m.ks) > 0)) return 1;
-      factor = 8;
-      break;
-    case Model::conductor:
-    case Model::plastic:
-      break;
-    case Model::metallic_roughness: {
-      const double rough =
-          std::clamp(static_cast<double>(m.roughness * mean_texel(scene, m.metallic_roughness).y), 0.0, 1.0);
-      const double bent = static_cast<double>(m.anisotropy * m.anisotropy);
-      if (!(m.specular > 0) && !(m.metallic > 0)) return 1;
-      ay = rough * rough, ax = ay + (1 - ay) * bent;
-      break;
-    }
-    default:
-      return 1;
+  const GlossWidth gloss = gloss_width(m);
+  if (gloss.kind == GlossWidth::Kind::exponent) {
+    const double n = static_cast<double>(gloss.exponent);
+    return std::min(1.0, 2 * (2 * n + 1) / ((n + 1) * (n + 1)));
+  }
+  if (gloss.kind != GlossWidth::Kind::rough) return 1;
+  double ax = static_cast<double>(gloss.alpha_x), ay = static_cast<double>(gloss.alpha_y);
+  if (row_of(m).gltf_core) {  // its texture at its mean
+    const double rough =
+        std::clamp(static_cast<double>(m.roughness * mean_texel(scene, m.metallic_roughness).y), 0.0, 1.0);
+    const double bent = static_cast<double>(m.anisotropy * m.anisotropy);
+    ay = rough * rough, ax = ay + (1 - ay) * bent;
   }
   const auto smoothest = static_cast<double>(Bsdf::kSmoothestAlpha);
   if (std::max(ax, ay) < smoothest) return 1;  // a mirror, not a lobe
-  return std::min(1.0, factor * std::max(ax, smoothest) * std::max(ay, smoothest));
+  return std::min(1.0, gloss.hit_factor * std::max(ax, smoothest) * std::max(ay, smoothest));
 }
 
 bool gathers_light(const Scene& scene) {
@@ -102,7 +69,7 @@ bool gathers_light(const Scene& scene) {
   for (const Instance& instance : scene.instance) {
     const Material& m = scene.material[instance.material];
     if (!reflects_as_mirror(m)) continue;
-    if (m.model == Model::dielectric || m.normal.used()) return true;
+    if (is_solid_glass(m) || m.normal.used()) return true;
     for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
          ++t) {
       const Vec3 n = geometric_normal(scene, t);

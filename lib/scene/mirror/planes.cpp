@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "scene/material/bsdf.h"
+#include "scene/material/models.h"
 #include "scene/mirror/sight.h"
 #include "scene/offset.h"
 
@@ -27,7 +28,7 @@ constexpr float kSamePlane = 1 - 1e-6f;  // cosine of normals
 /// Luminance that a material sends back as a mirror does at normal incidence; 0 of solid glass.
 float mirror_reflectance(const Scene& scene, std::uint32_t material) {
   const Material& m = scene.material[material];
-  if (m.model == Model::dielectric || m.normal.used()) return 0;
+  if (is_solid_glass(m) || m.normal.used()) return 0;
   const Bsdf bsdf(scene, material);
   BsdfSample branch[2];
   const int branches = bsdf.specular_branches(Vec3(0, 0, 1), branch);

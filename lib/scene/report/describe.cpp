@@ -8,6 +8,7 @@
 #include "core/origin.h"
 #include "scene/luminaire/photometric_file.h"
 #include "scene/material/merl.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/report/light_ways.h"
 #include "scene/report/unsampled.h"
@@ -18,72 +19,13 @@
 namespace phos {
 namespace {
 
-/// A dielectric's own highlight (4 %) counts as gloss below this roughness; above it, it is as good as
-/// diffuse.
-constexpr float kDullRoughness = 0.9f;
-
-/// Along the normal. Of a surface that is black but for its gloss, that; the base colour holds what others
-/// reflect together.
-double reflectance_of(const Scene& scene, const Material& m, double base) {
-  const float face = (m.ior - 1) / (m.ior + 1) * ((m.ior - 1) / (m.ior + 1));
-  const double gloss = luminance(m.specular * glm::min(face * m.specular_colour, Rgb(1)));
-  const double passes = m.transmission * mean_texel(scene, m.transmission_map).x, metal = m.metallic;
-  if (passes == 0) return std::max(base, (1 - metal) * gloss);
-  return metal * base + (1 - metal) * (gloss + (1 - gloss) * (1 - passes) * base);
-}
-
 /// `colour`: mean luminance of the vertex colours.
 void classify(const Scene& scene, double colour, MaterialSummary& s) {
   const Material& m = *s.material;
-  const double texture = luminance(Rgb(mean_texel(scene, m.base_colour))) * colour;
-  const double kd = luminance(m.kd) * texture, ks = luminance(m.ks);
+  const double base = luminance(Rgb(mean_texel(scene, m.base_colour))) * colour;
+  const double kd = luminance(m.kd) * base, ks = luminance(m.ks);
   const double through = m.diffuse_transmission * mean_texel(scene, m.diffuse_transmission_map).w;
-  switch (m.model) {
-    case Model::metallic_roughness:
-      s.reflectance = reflectance_of(scene, m, (1 - (1 - m.metallic) * through) * kd);
-      s.diffuse = (kd > 0 || through > 0) && m.metallic < 1 &&
-                  !(m.transmission == 1 && m.metallic == 0 && !m.transmission_map.used());
-      s.specular = m.transmission > 0 || (m.roughness == 0 && m.anisotropy == 0);
-      s.glossy = !(m.roughness == 0 && m.anisotropy == 0) &&
-                 (m.metallic > 0.1f || (m.roughness < kDullRoughness && m.specular > 0));
-      break;
-    case Model::lambert:
-      s.reflectance = kd;
-      s.diffuse = kd > 0 || through > 0;
-      break;
-    case Model::phong:
-    case Model::ward:
-      s.reflectance = kd + ks;
-      s.diffuse = kd > 0;
-      s.glossy = ks > 0;
-      break;
-    case Model::plastic:
-      s.reflectance = kd;
-      s.diffuse = kd > 0;
-      s.specular = m.alpha_x == 0 && m.alpha_y == 0;
-      s.glossy = !s.specular;
-      break;
-    case Model::conductor:
-      s.reflectance = ks;
-      s.specular = m.alpha_x == 0 && m.alpha_y == 0;
-      s.glossy = !s.specular;
-      break;
-    case Model::mirror:
-      s.reflectance = ks;
-      s.specular = ks > 0;
-      break;
-    case Model::dielectric:
-    case Model::thin_dielectric:
-      s.specular = true;
-      break;
-    case Model::measured: {
-      const MerlBrdf& measured = *scene.measured[static_cast<std::size_t>(m.measured)];
-      s.reflectance = luminance(measured.mean_albedo());
-      s.diffuse = max_component(measured.lambert()) > 0;
-      s.glossy = measured.glossy();
-      break;
-    }
-  }
+  static_cast<ReflectionSummary&>(s) = row_of(m).summarise({scene, m, base, kd, ks, through});
 }
 
 /// Mean luminance of the vertex colours of a triangle.
@@ -168,8 +110,8 @@ Json describe_material(const Scene& scene, const MaterialSummary& s) {
   j["reflectance"] = s.reflectance;
   j["kd"] = numbers(m.kd);
   if (max_component(m.ks) > 0) j["ks"] = numbers(m.ks);
-  if (m.model == Model::phong) j["exponent"] = m.exponent;
-  if (s.glossy && m.model != Model::phong) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
+  for (const ModelParameter& p : row_of(m).parameters) j[p.key] = m.*p.number;
+  if (s.glossy && row_of(m).tells_alpha) j["alpha"] = Json::Array{m.alpha_x, m.alpha_y};
   if (m.emits()) j["luminance_cd_m2"] = numbers(m.emission);
   if (passes_straight(scene, m)) {  // at normal incidence
     const auto index = static_cast<std::uint32_t>(&m - scene.material.data());
@@ -246,11 +188,7 @@ void add_ways(const std::vector<LightWay>& all, std::vector<Requirement>& out) {
 
 }  // namespace
 
-const char* model_name(Model model) {
-  constexpr const char* kNames[] = {"metallic-roughness", "lambert",    "phong",          "ward",   "plastic",
-                                    "conductor",          "dielectric", "thindielectric", "mirror", "merl"};
-  return kNames[static_cast<int>(model)];
-}
+const char* model_name(Model model) { return model_rows()[static_cast<std::size_t>(model)].name; }
 
 std::vector<MaterialSummary> summarize_materials(const Scene& scene) {
   std::vector<MaterialSummary> out(scene.material.size());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/json.h"
+#include "scene/material/models.h"
 #include "scene/report/lint.h"
 #include "scene/scene.h"
 
@@ -12,14 +13,10 @@ namespace phos {
 
 /// A material and what it does to light. Textures and vertex colours count by their mean
 /// (over the area that has the material).
-struct MaterialSummary {
+struct MaterialSummary : ReflectionSummary {
   const Material* material = nullptr;
   std::uint64_t triangles = 0;
-  double area_m2 = 0;      ///< of all its triangles, one side
-  double reflectance = 0;  ///< luminance of diffuse plus specular part; clear glass counts none
-  bool diffuse = false;    ///< has a Lambert part
-  bool glossy = false;     ///< has a rough specular part worth computing
-  bool specular = false;   ///< mirror, or light passes it straight
+  double area_m2 = 0;  ///< of all its triangles, one side
 };
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 const char* model_name(Model model);

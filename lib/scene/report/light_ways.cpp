@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "scene/lamp/probe.h"
 #include "scene/material/bsdf.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
 #include "scene/mirror/images.h"
@@ -190,7 +191,7 @@ class Finder {
     using What = Deed::What;
     const bool flat = plane(point);
     Deed deed{flat ? What::mirror : What::curved_mirror, point.material, !flat || branch.transmitted};
-    if (scene_.material[point.material].model == Model::dielectric || branch.transmitted)
+    if (is_solid_glass(scene_.material[point.material]) || branch.transmitted)
       deed.what = flat ? What::glass : What::curved_glass;
     else if (bsdf.passes_straight())
       deed.what = flat ? What::pane : What::curved_glass;
@@ -277,7 +278,7 @@ bool sends_light_on(const Scene& scene) {
     if (!used[m]) continue;
     const Material& material = scene.material[m];
     // At some of its texels it may be smooth.
-    const bool by_texel = material.model == Model::metallic_roughness && material.metallic_roughness.used();
+    const bool by_texel = row_of(material).gltf_core && material.metallic_roughness.used();
     if (by_texel || lobe_hit_share(scene, material) < kSharpLobe || turns_light(scene, m)) return true;
   }
   return false;

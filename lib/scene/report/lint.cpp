@@ -11,6 +11,7 @@
 #include "scene/lamp/spot_cone.h"
 #include "scene/load.h"
 #include "scene/material/merl.h"
+#include "scene/material/models.h"
 #include "scene/report/describe.h"
 #include "scene/sky/access.h"
 #include "scene/sky/daylight.h"
@@ -242,7 +243,7 @@ class Linter {
       const auto note = [&](Note::Level level, const char* code, const char* what) {
         notes.emplace_back(level, code, "material", name, figure + what);
       };
-      if (m.material->model == Model::measured) {
+      if (row_of(*m.material).measured) {
         check_measured("material \"" + name + "\"",
                        *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
       } else if (m.reflectance > 1.0001) {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text/named_files.h"
+#include "scene/material/models.h"
 
 namespace phos {
 namespace {
@@ -56,10 +57,6 @@ std::string all_names(const Scene& scene) {
   throw Error(ExitCode::usage, "--spectrum", text("\"", name, "\" ", what));
 }
 
-bool has_reflectance(Model model) {
-  return model != Model::dielectric && model != Model::thin_dielectric && model != Model::measured;
-}
-
 }  // namespace
 
 BandSpectra::BandSpectra(const Scene& scene, const BandOptions& options) {
@@ -102,12 +99,11 @@ void BandSpectra::give_material(const Scene& scene, std::size_t i, const std::st
   const Material& material = scene.material[i];
   if (shines(scene, i)) {
     emission_[i] = read(file, SpectrumKind::power);
-  } else if (has_reflectance(material.model)) {
+  } else if (const char* is = row_of(material).no_spectrum; !is) {
     reflectance_[i] = read(file, SpectrumKind::reflectance);
   } else {
     throw Error(ExitCode::usage, scene.path,
-                text("material \"", material.name, "\" is ",
-                     material.model == Model::measured ? "measured data" : "glass",
+                text("material \"", material.name, "\" is ", is,
                      ", which has no reflectance that a spectrum could give; leave its spectrum out"));
   }
 }

@@ -6,6 +6,7 @@
 #include "core/json.h"
 #include "core/parallel.h"
 #include "scene/material/merl.h"
+#include "scene/material/models.h"
 #include "scene/sky/environment.h"
 #include "scene/spectral/band_spectra.h"
 #include "scene/spectral/bands.h"
@@ -86,7 +87,7 @@ class ToBands {
     Material& m = scene_.material[i];
     m.emission = light_of(m.emission, spectra_.of_emission(i));
     const Spectrum* spectrum = spectra_.of_reflectance(i);
-    const bool polished = m.model == Model::mirror || m.model == Model::conductor;
+    const bool polished = row_of(m).spectrum_is_of_ks;
     const bool conserving = max_component(m.kd + m.ks) <= 1.0001f;
     m.kd = reflectance_of(m.kd, polished ? nullptr : spectrum);
     m.ks = reflectance_of(m.ks, polished ? spectrum : nullptr);
@@ -96,7 +97,7 @@ class ToBands {
     if (m.tint != Rgb(1)) m.tint = colours_.reflectance(m.tint);
     if (m.inside != Rgb(1)) m.inside = colours_.reflectance(m.inside);
     if (m.absorption_per_m != Rgb(0)) convert_absorption(m);
-    if ((m.model == Model::phong || m.model == Model::ward) && conserving) cut(m);
+    if (row_of(m).adds_ks && conserving) cut(m);
   }
 
   /// By the colour that is left of white light after one metre.
