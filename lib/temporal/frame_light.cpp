@@ -4,9 +4,6 @@
 
 #include "core/error.h"
 #include "estimate/density.h"
-#include "estimate/gather.h"
-#include "estimate/radiance_density.h"
-#include "estimate/radiance_gather.h"
 
 namespace phos {
 
@@ -56,21 +53,17 @@ const CoarseLevel& FrameLight::coarse(const RecordOptions& records, Counters& co
   return *coarse_;
 }
 
+EstimatorParts FrameLight::parts(const RecordOptions& records, Counters& counters) {
+  return {rays(),
+          lights_,
+          [this, &counters]() -> const PhotonMap& { return photons(counters); },
+          [this, &records, &counters] { return coarse(records, counters).source(); },
+          records,
+          options_.seed};
+}
+
 const Estimator& FrameLight::irradiance(Counters& counters) {
-  if (irradiance_) return *irradiance_;
-  const RecordOptions& r = options_.records;
-  switch (r.estimate) {
-    case Estimate::hull:
-    case Estimate::kernel:
-      irradiance_ = std::make_unique<DensityEstimator>(photons(counters), rays(), r, options_.seed);
-      break;
-    case Estimate::gather:
-      irradiance_ =
-          std::make_unique<GatherEstimator>(rays(), lights_, coarse(r, counters).source(), r, options_.seed);
-      break;
-    case Estimate::raster:
-      PHOS_CHECK(false, "FilmOptions::resolve() refuses it");
-  }
+  if (!irradiance_) irradiance_ = make_estimator(parts(options_.records, counters));
   return *irradiance_;
 }
 
@@ -83,14 +76,9 @@ const Estimator& FrameLight::source_records(Counters& counters) {
 
 const Estimator& FrameLight::radiance(int order, Counters& counters) {
   if (radiance_ && radiance_order_ == order) return *radiance_;
-  const RecordOptions& r = options_.radiance.records;
   radiance_order_ = order;
-  if (r.estimate == Estimate::hull)
-    radiance_ = std::make_unique<RadianceDensityEstimator>(photons(counters), rays(), r, order,
-                                                           options_.radiance.gradients, options_.seed);
-  else
-    radiance_ = std::make_unique<RadianceEstimator>(rays(), lights_, coarse(r, counters).source(), r, order,
-                                                    options_.radiance.gradients, options_.seed);
+  radiance_ =
+      make_radiance_estimator(parts(options_.radiance.records, counters), order, options_.radiance.gradients);
   return *radiance_;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "estimate/estimator.h"
+#include "estimate/registry.h"
 #include "photon/photon_map.h"
 #include "photon/trace.h"
 #include "place/radiance_placement.h"
@@ -77,6 +78,7 @@ class FrameLight {
   const Estimator& radiance(int order, Counters& counters);
 
  private:
+  EstimatorParts parts(const RecordOptions& records, Counters& counters);
   const CoarseLevel& coarse(const RecordOptions& records, Counters& counters);
   std::shared_ptr<const FrameScene> at_;
   const LightOptions& options_;

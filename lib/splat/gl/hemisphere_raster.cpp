@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "estimate/hemisphere/hemisphere_record.h"
+#include "estimate/registry.h"
 #include "splat/gl/raster.h"
 #include "splat/gl/raster_plane.h"
 
@@ -99,6 +100,13 @@ Made RasterEstimator::make(const RecordSite& site, Worker& worker) const {
   sample(site, w.hemisphere, w);
   const std::span<const Hemisphere> passes(&w.hemisphere, 1);
   return impl_->record(site, light_of(passes, impl_->options), passes, w);
+}
+
+void register_raster_estimator() {
+  register_estimator({Estimate::raster, [](const EstimatorParts& p) -> std::unique_ptr<Estimator> {
+                        return std::make_unique<RasterEstimator>(p.rays, p.lights, p.source(), p.options,
+                                                                 p.seed);
+                      }});
 }
 
 }  // namespace phos

@@ -32,4 +32,7 @@ class RasterEstimator : public Estimator {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Adds --estimate raster to the table of estimators (estimate/registry.h).
+void register_raster_estimator();
+
 }  // namespace phos
