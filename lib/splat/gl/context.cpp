@@ -1,6 +1,7 @@
 #include "splat/gl/context.h"
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #include <array>
 #include <cstdio>
@@ -33,9 +34,43 @@ void refuse_narrow_vectors() {
 #endif
 }
 
+/// OSMesa and the compiler behind it take long to load: only programs that draw load them.
+struct Library {
+  void* handle = ::dlopen(PHOS_OSMESA, RTLD_NOW | RTLD_LOCAL);
+  Library() {
+    if (handle != nullptr) return;
+    const std::string why = ::dlerror();
+    if (why.find("memory") != why.npos || why.find("map segment") != why.npos) throw std::bad_alloc();
+    no_context(why);
+  }
+  template <class Function>
+  Function* find(const char* name) const {
+    void* const found = ::dlsym(handle, name);
+    if (found == nullptr) no_context(text("it lacks ", name));
+    return reinterpret_cast<Function*>(found);
+  }
+};
+
+struct OsMesa {
+  Library library;
+#define PHOS_OSMESA_FUNCTION(name) \
+  decltype(::OSMesa##name)* name = library.find<decltype(::OSMesa##name)>("OSMesa" #name)
+  PHOS_OSMESA_FUNCTION(CreateContextAttribs);
+  PHOS_OSMESA_FUNCTION(DestroyContext);
+  PHOS_OSMESA_FUNCTION(GetCurrentContext);
+  PHOS_OSMESA_FUNCTION(GetProcAddress);
+  PHOS_OSMESA_FUNCTION(MakeCurrent);
+#undef PHOS_OSMESA_FUNCTION
+};
+
+const OsMesa& osmesa() {
+  static const OsMesa loaded;
+  return loaded;
+}
+
 template <class Pointer>
 void look_up(GlFunction<Pointer>& function, const char* name) {
-  const OSMESAproc found = OSMesaGetProcAddress(name);
+  const OSMESAproc found = osmesa().GetProcAddress(name);
   if (found == nullptr) no_context(text("it lacks ", name));
   function.set(reinterpret_cast<Pointer>(found));
 }
@@ -46,7 +81,7 @@ struct GlContext::Native {
   OSMesaContext context = nullptr;
   std::array<std::uint8_t, 16 * 16 * 4> dummy{};  // everything is drawn into framebuffer objects
   ~Native() {
-    if (context != nullptr) OSMesaDestroyContext(context);
+    if (context != nullptr) osmesa().DestroyContext(context);
   }
 };
 
@@ -64,7 +99,7 @@ GlContext::GlContext() : native_(std::make_unique<Native>()) {
                             5,
                             0};
   const NoFloatTraps traps;
-  native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
+  native_->context = osmesa().CreateContextAttribs(attributes, nullptr);
   if (native_->context == nullptr) no_context("it refuses to make one (is GALLIUM_DRIVER set?)");
   make_current();
 #define PHOS_GL_LOOK_UP(name) look_up(gl_.name, "gl" #name);
@@ -86,9 +121,9 @@ GlContext::GlContext() : native_(std::make_unique<Native>()) {
 GlContext::~GlContext() = default;
 
 void GlContext::make_current() const {
-  if (OSMesaGetCurrentContext() == native_->context) return;
+  if (osmesa().GetCurrentContext() == native_->context) return;
   const NoFloatTraps traps;
-  if (OSMesaMakeCurrent(native_->context, native_->dummy.data(), GL_UNSIGNED_BYTE, 16, 16) == GL_FALSE) {
+  if (osmesa().MakeCurrent(native_->context, native_->dummy.data(), GL_UNSIGNED_BYTE, 16, 16) == GL_FALSE) {
     no_context("it cannot be made current");
   }
 }
