@@ -1,7 +1,5 @@
 #include "splat/caches.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "temporal/film/inputs.h"
 
@@ -45,19 +43,6 @@ void add(RadianceCache& all, RadianceCache more) {
 }  // namespace
 
 bool is_radiance(const Container& file) { return file.provenance().kind == "radiance"; }
-
-std::vector<Container> open_caches(const std::vector<std::string>& paths) {
-  std::vector<Container> files;
-  for (const std::string& path : paths) {
-    files.push_back(Container::open(path));
-    if (!is_brdf(files.back()) && !is_radiance(files.back()))
-      files.back() = Container::open(path, "irradiance");
-  }
-  if (std::all_of(files.begin(), files.end(), is_brdf))
-    throw Error(ExitCode::bad_input, paths.empty() ? "CACHE" : paths.front(),
-                "is no irradiance cache; give one too (phos-irradiance makes it)");
-  return files;
-}
 
 SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy) {
   SplatCaches caches;

@@ -23,9 +23,6 @@ struct SplatCaches {
 /// Does a file hold radiance records?
 bool is_radiance(const Container& file);
 
-/// Opens .irradiance, .radiance and .brdf files, told from their content. Throws Error(bad_input) for any
-/// other, or where there are no records among them.
-std::vector<Container> open_caches(const std::vector<std::string>& paths);
 /// Films are taken as they are at the scene's frame. `glossy`: does the scene have glossy materials? Throws
 /// Error(mismatch) for records of different paths of light, or a film without that frame.
 SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy = true);

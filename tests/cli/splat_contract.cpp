@@ -83,6 +83,15 @@ TEST_F(Splat, SameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(slurp(path("one.exr")), slurp(path("three.exr")));
 }
 
+TEST_F(Splat, SceneAndCachesStandInAnyOrder) {
+  ASSERT_EQ(splat({"-o", path("usual.exr")}).code, 0);
+  const test::Run run =
+      run_tool({"splat", path("a.irradiance"), *scene_, "--width", "48", "--height", "48", "--pixel-samples",
+                "1", "--light-samples", "2", "--splat", "cpu", "-o", path("turned.exr")});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(slurp(path("turned.exr")), slurp(path("usual.exr")));
+}
+
 TEST_F(Splat, AnotherCameraNeedsNoNewCache) {
   const test::Run run = splat({"--camera", "left-view", "-o", path("left.exr")});
   EXPECT_EQ(run.code, 0) << run.err;

@@ -8,7 +8,7 @@
 // subtracted. Hulls subtract it themselves. The last columns tell of the check of which most is left (by
 // chance: one check in twenty is marked). All checks are well inside of surfaces and far from shadow edges:
 // photon_border_table tells what happens there.
-//   build/tests/splat_estimator_table [TIMES [PHOTONS]] > estimators.csv
+//   build/tests/stage_estimator_table [TIMES [PHOTONS]] > estimators.csv
 // TIMES: so many times the seeds [1]; PHOTONS: that land in a closed room, and as many start in an open scene
 // [1e5].
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 #include "core/parallel.h"
 #include "estimate/density.h"
-#include "splat/make_estimator.h"
+#include "stage/chosen_estimator.h"
 #include "support/records.h"
 
 namespace {
@@ -146,12 +146,12 @@ void measure(const test::AnalyticScene& s, int times, double landings) {
   for (int seed = 1; seed <= times * kMostSeeds; ++seed) {
     test::Lit lit = test::light_up(s.scene, std::lround(landings * (closed ? 1 - albedo : 1)),
                                    static_cast<std::uint64_t>(seed));
-    EstimateInputs inputs;
+    stage::RecordInputs inputs;
     inputs.photons = std::move(lit.photons);
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
       if (seed > times * kMethods[m].seeds) continue;
       const RecordOptions options = options_of(kMethods[m], s);
-      const ChosenEstimator estimator(*lit.rays, inputs, options, static_cast<std::uint64_t>(seed));
+      const stage::ChosenEstimator estimator(*lit.rays, inputs, options, static_cast<std::uint64_t>(seed));
       const auto worker = (*estimator).make_worker();
       for (std::size_t c = 0; c < s.checks.size(); ++c) {
         const test::Check& check = s.checks[c];

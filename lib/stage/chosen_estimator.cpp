@@ -1,16 +1,12 @@
-#include "splat/make_estimator.h"
+#include "stage/chosen_estimator.h"
 
 #include "core/error.h"
-#include "estimate/density.h"
-#include "estimate/gather.h"
-#include "estimate/radiance_density.h"
-#include "estimate/radiance_gather.h"
 #include "splat/gl/hemisphere_raster.h"
 
-namespace phos {
+namespace phos::stage {
 namespace {
 
-GlossCache gloss_cache(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options) {
+GlossCache gloss_cache(const RayScene& rays, const RecordInputs& inputs, const RecordOptions& options) {
   const RadianceCache& radiance = *inputs.radiance;
   Counters told_by_phos_brdf;
   GlossTables tables(rays.scene(), inputs.brdf, GlossBy::automatic, {}, told_by_phos_brdf);
@@ -26,8 +22,8 @@ GlossCache gloss_cache(const RayScene& rays, const EstimateInputs& inputs, const
   return gloss;
 }
 
-CoarseLevel coarse_of_diffuse(const RayScene& rays, const EstimateInputs& inputs,
-                              const RecordOptions& options, std::uint64_t seed) {
+CoarseLevel coarse_of_diffuse(const RayScene& rays, const RecordInputs& inputs, const RecordOptions& options,
+                              std::uint64_t seed) {
   const bool photons_only = of_photons_alone(options);
   if (photons_only && !inputs.photons) {
     throw Error(ExitCode::usage, "--estimate",
@@ -42,7 +38,7 @@ CoarseLevel coarse_of_diffuse(const RayScene& rays, const EstimateInputs& inputs
       "for more than the first bounce, give photons or an earlier cache too; --gather-bounces 1 needs none");
 }
 
-CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& options,
+CoarseLevel coarse_level(const RayScene& rays, const RecordInputs& inputs, const RecordOptions& options,
                          std::uint64_t seed) {
   CoarseLevel level = coarse_of_diffuse(rays, inputs, options, seed);
   if (inputs.radiance && options.gather_bounces != 1)
@@ -50,27 +46,27 @@ CoarseLevel coarse_level(const RayScene& rays, const EstimateInputs& inputs, con
   return level;
 }
 
+EstimatorParts parts_of(const RayScene& rays, const Luminaires& lights, const RecordInputs& inputs,
+                        const CoarseLevel& coarse, const RecordOptions& options, std::uint64_t seed) {
+  return {rays,
+          lights,
+          [&inputs]() -> const PhotonMap& { return *inputs.photons; },
+          [&coarse] { return coarse.source(); },
+          options,
+          seed};
+}
+
 }  // namespace
 
-ChosenEstimator::ChosenEstimator(const RayScene& rays, const EstimateInputs& inputs,
+ChosenEstimator::ChosenEstimator(const RayScene& rays, const RecordInputs& inputs,
                                  const RecordOptions& options, std::uint64_t seed)
     : lights_(rays.scene()), coarse_(coarse_level(rays, inputs, options, seed)) {
-  switch (options.estimate) {
-    case Estimate::hull:
-    case Estimate::kernel:
-      estimator_ = std::make_unique<DensityEstimator>(*inputs.photons, rays, options, seed);
-      break;
-    case Estimate::gather:
-      estimator_ = std::make_unique<GatherEstimator>(rays, lights_, coarse_.source(), options, seed);
-      break;
-    case Estimate::raster:
-      estimator_ = std::make_unique<RasterEstimator>(rays, lights_, coarse_.source(), options, seed);
-      break;
-  }
+  register_raster_estimator();
+  estimator_ = make_estimator(parts_of(rays, lights_, inputs, coarse_, options, seed));
 }
 ChosenEstimator::~ChosenEstimator() = default;
 
-ChosenRadianceEstimators::ChosenRadianceEstimators(const RayScene& rays, const EstimateInputs& inputs,
+ChosenRadianceEstimators::ChosenRadianceEstimators(const RayScene& rays, const RecordInputs& inputs,
                                                    const RadianceOptions& options, std::uint64_t seed)
     : rays_(rays),
       inputs_(inputs),
@@ -80,11 +76,8 @@ ChosenRadianceEstimators::ChosenRadianceEstimators(const RayScene& rays, const E
       coarse_(coarse_level(rays, inputs, options.records, seed)) {}
 
 std::unique_ptr<Estimator> ChosenRadianceEstimators::operator()(int order) const {
-  if (options_.records.estimate == Estimate::hull)
-    return std::make_unique<RadianceDensityEstimator>(*inputs_.photons, rays_, options_.records, order,
-                                                      options_.gradients, seed_);
-  return std::make_unique<RadianceEstimator>(rays_, lights_, coarse_.source(), options_.records, order,
-                                             options_.gradients, seed_);
+  return make_radiance_estimator(parts_of(rays_, lights_, inputs_, coarse_, options_.records, seed_), order,
+                                 options_.gradients);
 }
 
-}  // namespace phos
+}  // namespace phos::stage

@@ -3,21 +3,20 @@
 
 #include <memory>
 
-#include "estimate/estimator.h"
-#include "estimate/record_options.h"
+#include "estimate/registry.h"
 #include "place/radiance_placement.h"
 #include "place/two_level.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
-#include "splat/irradiance_inputs.h"
+#include "stage/record_inputs.h"
 
-namespace phos {
+namespace phos::stage {
 
 /// Throws Error(usage) if the estimate needs photons that are not there, Error(mismatch) for radiance records
 /// that no lobe can read. Holds references to rays and inputs.
 class ChosenEstimator {
  public:
-  ChosenEstimator(const RayScene& rays, const EstimateInputs& inputs, const RecordOptions& resolved,
+  ChosenEstimator(const RayScene& rays, const RecordInputs& inputs, const RecordOptions& resolved,
                   std::uint64_t seed);
   ~ChosenEstimator();
   const Estimator& operator*() const { return *estimator_; }
@@ -33,19 +32,19 @@ class ChosenEstimator {
 /// The same for radiance records, one estimator for each order.
 class ChosenRadianceEstimators {
  public:
-  ChosenRadianceEstimators(const RayScene& rays, const EstimateInputs& inputs,
-                           const RadianceOptions& resolved, std::uint64_t seed);
+  ChosenRadianceEstimators(const RayScene& rays, const RecordInputs& inputs, const RadianceOptions& resolved,
+                           std::uint64_t seed);
   /// Refers to this object.
   std::unique_ptr<Estimator> operator()(int order) const;
   std::size_t coarse_records() const { return coarse_.records(); }
 
  private:
   const RayScene& rays_;
-  const EstimateInputs& inputs_;
+  const RecordInputs& inputs_;
   RadianceOptions options_;
   std::uint64_t seed_;
   Luminaires lights_;
   CoarseLevel coarse_;
 };
 
-}  // namespace phos
+}  // namespace phos::stage

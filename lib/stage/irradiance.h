@@ -1,0 +1,31 @@
+// phos-irradiance: scene, photons or caches -> irradiance records.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimate/record_options.h"
+#include "file/tool.h"
+#include "place/placement.h"
+#include "scene/load.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kIrradianceAlgorithm = 19;
+
+struct IrradianceStage {
+  std::vector<std::string> inputs;
+  SceneOptions scene;
+  RecordOptions records;
+  PlacementOptions placement;
+  std::string at, add_to;  ///< files
+  std::string isa;
+  bool allow_mismatch = false;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
+/// that were left to it.
+void run(Tool& tool, IrradianceStage& asked);
+
+}  // namespace phos::stage

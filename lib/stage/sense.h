@@ -1,0 +1,35 @@
+// phos-sense: scene, caches, points -> lux and its standard error at sensors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/tool.h"
+#include "reference/method.h"
+#include "reference/point_irradiance.h"
+#include "scene/load.h"
+#include "sense/grid.h"
+#include "sense/sensors.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kSenseAlgorithm = 11;
+
+struct SenseStage {
+  std::vector<std::string> inputs;  ///< scene and caches
+  SceneOptions scene;
+  std::string points, summary;  ///< files
+  GridOptions grid;
+  SensorOptions sense;
+  PointOptions exactly;  ///< of --exact
+  ReferenceMethod method = ReferenceMethod::automatic;
+  std::string isa;
+  bool exact = false, allow_mismatch = false, factors = false;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
+/// that were left to it.
+void run(Tool& tool, SenseStage& asked);
+
+}  // namespace phos::stage

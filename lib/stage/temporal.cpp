@@ -1,0 +1,96 @@
+#include "stage/temporal.h"
+
+#include "place/typical_distance.h"
+#include "radiance/gloss_report.h"
+#include "stage/inputs.h"
+#include "temporal/film/inputs.h"
+#include "temporal/film/report.h"
+
+namespace phos::stage {
+namespace {
+
+/// The .brdf file among the inputs, if there is one, of these materials.
+std::vector<BrdfTable> lobes_of(const RecordFiles& files, const Scene& scene) {
+  if (files.brdf.empty()) return {};
+  const Container file = Container::open(files.brdf, "brdf");
+  require_together(file, files.scene, scene, false);
+  return read_brdf(file);
+}
+
+void refuse_inputs(const RecordFiles& files) {
+  const auto refuse = [](const std::string& path, const char* what) {
+    if (!path.empty()) throw Error(ExitCode::usage, path, what);
+  };
+  refuse(files.photons, "holds photons of one time; phos-temporal traces its own (--photons): leave it out");
+  refuse(files.source, "is an irradiance cache, which phos-temporal does not read; leave it out");
+}
+
+}  // namespace
+
+void run(Tool& tool, TemporalStage& asked) {
+  FilmJob& job = asked.job;
+  RecordOptions& records = job.light.records;
+  const FrameRange range = parse_frames(asked.frames);
+  const RecordFiles files = sort_record_inputs(asked.inputs);
+  add_inputs(tool, files, asked.scene);
+  refuse_inputs(files);
+  job.of_radiance = asked.kind == RecordKind::radiance;
+  job.options.resolve(tool.options(), records.estimate, job.of_radiance);
+  if (tool.up_to_date()) return;
+
+  {
+    const auto timer = tool.time("survey");
+    job.survey = survey(files.scene, asked.scene, range);
+  }
+  FrameScenes scenes(files.scene, asked.scene, asked.isa);
+  const std::shared_ptr<const FrameScene> first = scenes.at(range.first);
+  tell_losses(tool, first->scene);
+  job.light.radiance = radiance_options(records, tool.options());
+  job.light.photons.paths = job.options.photons, job.light.seed = tool.seed();
+  resolve_film_places(job.placement, first->scene,
+                      (job.of_radiance ? job.light.radiance.records : records).accuracy);
+  const TypicalDistance typical = typical_distance(first->rays, job.placement, {});
+  records.resolve(typical);
+  job.light.radiance.records.resolve(typical);
+  job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
+  if (!files.radiance.empty()) require_same_film(Container::open(files.radiance, "radiance"), job.survey);
+  if (job.of_radiance || job.covered_by_radiance)
+    job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), asked.gloss, {}, tool.counters());
+  tell_of_film(tool, job);
+
+  Film source;
+  if (needs_source(job)) {
+    const auto timer = tool.time("source");
+    source = make_source(job, scenes, tool.counters());
+    tool.stat("source_records", source.records.size());
+  }
+  const auto timer = tool.time("records");
+  const Film* read = needs_source(job) ? &source : nullptr;
+  const auto provenance = [&] {
+    return tool.provenance(job.of_radiance ? "radiance" : "irradiance", first->scene.hash,
+                           first->scene.parts);
+  };
+  FilmReport report;
+  if (!job.survey.light_changes) {
+    const std::vector<Key> keys = make_still(job, scenes, read, tool.counters(), report);
+    if (job.of_radiance)
+      write_radiance(tool.output(), still_radiance(job, keys), provenance());
+    else
+      write_irradiance(tool.output(), still_irradiance(job, keys), provenance());
+  } else {
+    EstimateJournal journal(tool.output() + ".journal", provenance().key, tool.options().given("reuse"));
+    if (journal.found() > 0)
+      tool.say(text(journal.found(), " estimates of an interrupted run are kept; the film goes on"));
+    job.journal = &journal;
+    const FilmChains made = journal.keeping([&] { return make_chains(job, scenes, read, tool.counters()); });
+    report = made.report;
+    if (job.of_radiance)
+      write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
+    else
+      write_film(tool.output(), film_of(made.chains, info_of(job), name_of(records.paths)), provenance());
+    journal.finish();
+  }
+  tell_of_records(tool, job, report);
+}
+
+}  // namespace phos::stage

@@ -1,0 +1,33 @@
+// phos-temporal: an animated scene -> records that live through its frames.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/tool.h"
+#include "radiance/gloss_tables.h"
+#include "scene/load.h"
+#include "temporal/make_film.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kTemporalAlgorithm = 18;
+
+enum class RecordKind { irradiance, radiance };
+
+struct TemporalStage {
+  TemporalStage() { job.light.records.estimate = Estimate::gather, job.placement.place = Place::view; }
+  std::vector<std::string> inputs;
+  std::string frames, isa;
+  SceneOptions scene;
+  FilmJob job;
+  RecordKind kind = RecordKind::irradiance;
+  GlossBy gloss = GlossBy::automatic;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
+/// that were left to it.
+void run(Tool& tool, TemporalStage& asked);
+
+}  // namespace phos::stage
