@@ -1,13 +1,6 @@
 // phos-compare: measures how far an image is from a reference, or a sequence from another.
-#include <cstdio>
+#include "stage/compare.h"
 
-#include "file/atomic_file.h"
-#include "file/frames.h"
-#include "file/tool.h"
-#include "image/compare_limits.h"
-#include "image/false_colour.h"
-
-namespace phos {
 namespace {
 
 constexpr const char* kDescription =
@@ -25,97 +18,14 @@ constexpr const char* kDescription =
     "after), "
     "times sqrt(2/3), so that noise of standard deviation s counts as s and an even drift as 0.";
 
-struct Compared {
-  std::string image, reference, second, frames, difference, per_frame;
-  CompareOptions options;
-  bool json = false, flicker = false;
-  double range = 0;
-};
+}  // namespace
 
-void write_difference(const Compared& c, const Image& image, const Image& reference) {
-  CompareOptions options = c.options;
-  if (c.difference.ends_with(".exr"))
-    return write_exr(c.difference, difference_image(image, reference, options));
-  if (options.layers.empty())
-    options.layers = {image.has_layer("") ? "beauty" : layer_label(all_layers(image)[0])};
-  const std::string& label = options.layers[0];
-  const std::vector<float> values =
-      layer_values(difference_image(image, reference, options), layer_from_label(label));
-  write_png(c.difference, difference_picture(values, image.width(), image.height(), c.range,
-                                             label + " - reference", layer_unit(layer_from_label(label))));
-}
-
-template <class Metrics>
-void print(const std::vector<Metrics>& all, bool json, bool passed) {
-  if (!json) {
-    std::fputs(to_table(all).c_str(), stdout);
-    return;
-  }
-  Json::Array layers;
-  for (const Metrics& m : all) layers.push_back(to_json(m));
-  Json result;
-  result["layers"] = std::move(layers), result["passed"] = passed;
-  std::puts(result.dump(2).c_str());
-}
-
-/// Says what is wrong; "" if nothing is.
-std::string compare_pair(Tool& tool, const Compared& c, const CompareLimits& limits) {
-  tool.add_input("image", c.image);
-  tool.add_input("reference", c.reference);
-  if (!c.second.empty()) tool.add_input("second reference", c.second);
-  const Image image = read_image(c.image), reference = read_image(c.reference);
-  std::optional<Image> second;
-  if (!c.second.empty()) second = read_image(c.second);
-  const std::vector<LayerMetrics> all =
-      compare_images(image, reference, c.options, second ? &*second : nullptr);
-  if (!c.difference.empty()) write_difference(c, image, reference);
-  std::string failure = limits.verdict(all);
-  print(all, c.json, failure.empty());
-  return failure;
-}
-
-std::string compare_sequences(const Compared& c, const CompareLimits& limits) {
-  const FrameRange range = parse_frames(c.frames);
-  if (range.count() < 3)
-    throw Error(ExitCode::usage, "--frames", "flicker needs three frames or more; give a longer range");
-  const FramePattern images = existing_sequence(c.image, range, "IMAGE"),
-                     references = existing_sequence(c.reference, range, "REFERENCE");
-  std::optional<FramePattern> seconds;
-  if (!c.second.empty()) seconds = existing_sequence(c.second, range, "--second-reference");
-  const FlickerMeter meter =
-      measure_flicker(images, references, seconds ? &*seconds : nullptr, range, c.options);
-  const std::vector<FlickerMetrics> all = meter.metrics();
-  if (c.difference.ends_with(".exr")) write_exr(c.difference, meter.picture());
-  if (c.difference.ends_with(".png"))
-    write_png(c.difference, flicker_picture(meter, 0, c.range > 0 ? std::optional(c.range) : std::nullopt));
-  if (!c.per_frame.empty()) {
-    AtomicFile file(c.per_frame);
-    file.write(to_csv(meter.frames()));
-    file.commit();
-  }
-  std::string failure = limits.verdict(all);
-  print(all, c.json, failure.empty());
-  return failure;
-}
-
-void check_usage(const Compared& c, const CompareLimits& limits) {
-  limits.require_measured(c.flicker);
-  if (c.flicker && c.frames.empty())
-    throw Error(ExitCode::usage, "--flicker", "compares sequences; say which frames: --frames 0:47");
-  if (!c.flicker && !c.frames.empty())
-    throw Error(ExitCode::usage, "--frames", "is for sequences; give --flicker too");
-  if (!c.flicker && !c.per_frame.empty())
-    throw Error(ExitCode::usage, "--per-frame", "is for sequences; give --flicker too");
-  if (!c.difference.empty() && !c.difference.ends_with(".exr") && !c.difference.ends_with(".png"))
-    throw Error(ExitCode::usage, "--difference", "the name must end in .png or .exr");
-}
-
-int main_of_tool(int argc, const char* const* argv) {
-  Tool tool("phos-compare", "measures how far an image is from a reference", kDescription, 1,
-            Tool::Output::none);
+int main(int argc, char** argv) {
+  using namespace phos;
+  Tool tool("phos-compare", "measures how far an image is from a reference", kDescription,
+            stage::kCompareAlgorithm, Tool::Output::none);
   Options& o = tool.options();
-  Compared c;
-  CompareLimits limits;
+  stage::CompareStage c;
   o.input("IMAGE", c.image, "the image to be judged; with --flicker, a folder or a name with %04d");
   o.input("REFERENCE", c.reference, "the image that is taken for right, or the sequence");
   o.section("What is compared");
@@ -139,7 +49,7 @@ int main_of_tool(int argc, const char* const* argv) {
   o.file("per-frame", c.per_frame, "with --flicker, write error and flicker of each frame there (CSV)",
          FileUse::written);
   o.section("Limits: exit code 1 beyond");
-  limits.declare(o);
+  c.limits.declare(o);
   o.example("phos-compare room.exr reference.exr --layer indirect --max-bias 0.01",
             "is indirect light within 1 % on average?");
   o.example("phos-compare a.exr b.exr --difference d.png", "where do they differ?");
@@ -147,16 +57,5 @@ int main_of_tool(int argc, const char* const* argv) {
       "phos-compare film/%04d.exr truth/%04d.exr --frames 0:99 --flicker --layer beauty --max-flicker 0.005",
       "does an animation flicker?");
 
-  return tool.run(argc, argv, [&] {
-    check_usage(c, limits);
-    const std::string failure = c.flicker ? compare_sequences(c, limits) : compare_pair(tool, c, limits);
-    if (failure.empty()) return;
-    tool.warn(failure);
-    tool.set_exit(ExitCode::check_failed);
-  });
+  return tool.run(argc, argv, [&] { stage::run(tool, c); });
 }
-
-}  // namespace
-}  // namespace phos
-
-int main(int argc, char** argv) { return phos::main_of_tool(argc, argv); }

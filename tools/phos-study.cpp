@@ -1,9 +1,5 @@
-// phos-study: what settings cost and what they buy, measured.
-#include <cstdio>
-
-#include "core/parallel.h"
-#include "file/tool.h"
-#include "study/study.h"
+// phos-study: measures what settings cost and what error they leave.
+#include "stage/study.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
@@ -21,8 +17,9 @@ int main(int argc, char** argv) {
             "[[reference.given]] with scene and camera. Stages that settings share run once; finished ones "
             "are not run again, and an interrupted study goes on where it was. The folder gets results.csv, "
             "results.json, plots and index.html, a page that needs nothing else.",
-            1, Tool::Output::none);
-  StudyOptions study;
+            stage::kStudyAlgorithm, Tool::Output::none);
+  stage::StudyStage asked;
+  StudyOptions& study = asked.study;
   Options& options = tool.options();
   options.input("STUDY", study.file, "study file (TOML)");
   options.file("output,o", study.folder, "folder for results and for what is kept to go on from",
@@ -38,20 +35,5 @@ int main(int argc, char** argv) {
   options.example("phos-study room.toml -o room-study", "run it, or go on with it");
   options.example("phos-study room.toml -o room-study --list", "what would it do?");
 
-  return tool.run(argc, argv, [&] {
-    if (options.given("seed"))
-      throw Error(ExitCode::usage, "--seed", "seeds are the study's own: [study] seeds = [0, 1, 2]");
-    tool.writes("--output", study.folder, {"results.csv", "results.json", "index.html"});
-    study.strict = tool.strict();
-    if (options.given("threads")) study.threads = thread_count();
-    const StudyOutcome outcome = run_study(
-        study, [&](const std::string& line) { tool.say(line); },
-        [&](const std::string& line) { tool.warn(line); });
-    std::fwrite(outcome.listing.data(), 1, outcome.listing.size(), stdout);
-    tool.stat("settings", outcome.settings), tool.stat("commands", outcome.commands);
-    tool.stat("failed", outcome.failed);
-    if (outcome.failed == 0) return;
-    tool.warn(text(outcome.failed, " of ", outcome.settings, " settings failed; results hold the rest"));
-    tool.set_exit(ExitCode::check_failed);
-  });
+  return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -1,0 +1,22 @@
+// phos-bands: the results of all triplets of bands -> one picture or one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/tool.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kBandsAlgorithm = 1;
+
+struct BandsStage {
+  std::vector<std::string> parts;  ///< files
+  std::vector<std::string> dark;   ///< numbers of triplets
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const BandsStage& asked);
+
+}  // namespace phos::stage

@@ -1,0 +1,24 @@
+// phos-brdf: scene -> glossy materials on hemispherical harmonics.
+#pragma once
+
+#include <string>
+
+#include "file/tool.h"
+#include "radiance/brdf/table.h"
+#include "scene/load.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kBrdfAlgorithm = 2;
+
+struct BrdfStage {
+  std::string scene_path, bases;  ///< files
+  SceneOptions scene;
+  BrdfTableOptions brdf;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const BrdfStage& asked);
+
+}  // namespace phos::stage

@@ -1,0 +1,25 @@
+// phos-info: what a phos file holds and how it was made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/inspect.h"
+#include "file/tool.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kInfoAlgorithm = 1;
+
+struct InfoStage {
+  std::string path, output;
+  std::vector<std::string> dump;
+  bool json = false, canonical = false, points = false, verify = false, decode = false;
+  PlyFormat ply = PlyFormat::ascii;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const InfoStage& asked);
+
+}  // namespace phos::stage

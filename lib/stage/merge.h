@@ -1,0 +1,21 @@
+// phos-merge: the shards of one run -> the file of the whole run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file/tool.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kMergeAlgorithm = 1;
+
+struct MergeStage {
+  std::vector<std::string> shards;  ///< or parts
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const MergeStage& asked);
+
+}  // namespace phos::stage

@@ -1,0 +1,23 @@
+// phos-picture: image of light, table or luminaire -> a picture for people.
+#pragma once
+
+#include "file/tool.h"
+#include "image/plot/csv_plot.h"
+#include "image/show.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kPictureAlgorithm = 1;
+
+struct PictureStage {
+  PictureSequence sequence;  ///< with the input
+  LayerPictureOptions picture;
+  CsvPlotOptions plot;
+  bool goniometric = false;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const PictureStage& asked);
+
+}  // namespace phos::stage

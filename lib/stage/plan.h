@@ -1,0 +1,24 @@
+// phos-plan: scene + error or seconds -> the pipeline that gives it, as a script; or carried out.
+#pragma once
+
+#include <string>
+
+#include "file/tool.h"
+#include "plan/options.h"
+#include "scene/load.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kPlanAlgorithm = 1;
+
+struct PlanStage {
+  std::string scene_path;
+  SceneOptions scene;
+  PlanOptions plan;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+void run(Tool& tool, const PlanStage& asked);
+
+}  // namespace phos::stage

@@ -1,0 +1,20 @@
+// phos-study: what settings cost and what they buy, measured.
+#pragma once
+
+#include "file/tool.h"
+#include "study/study.h"
+
+namespace phos::stage {
+
+/// Raised whenever the same command would give other numbers.
+inline constexpr int kStudyAlgorithm = 1;
+
+struct StudyStage {
+  StudyOptions study;
+};
+
+/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
+/// that were left to it.
+void run(Tool& tool, StudyStage& asked);
+
+}  // namespace phos::stage
