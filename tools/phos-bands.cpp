@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
       "columns "
       "are left out.",
       stage::kBandsAlgorithm, Tool::Output::optional);
-  stage::BandsStage asked;
+  stage::BandsCommand asked;
   Options& options = tool.options();
   options.inputs("PART", asked.parts, "the pictures (.exr) of all triplets, or their tables (.csv)");
   options.list("dark", asked.dark, "K", "triplets in which no lamp shines, so that there is no part");

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
             "need no table; a scene without gloss gives an empty file. The file feeds phos-radiance and "
             "phos-splat.",
             stage::kBrdfAlgorithm);
-  stage::BrdfStage asked;
+  stage::BrdfCommand asked;
   Options& options = tool.options();
   options.input("SCENE", asked.scene_path, "glTF (.glb, .gltf) or OBJ scene");
   declare_options(options, asked.brdf);

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   Tool tool("phos-compare", "measures how far an image is from a reference", kDescription,
             stage::kCompareAlgorithm, Tool::Output::none);
   Options& o = tool.options();
-  stage::CompareStage c;
+  stage::CompareCommand c;
   o.input("IMAGE", c.image, "the image to be judged; with --flicker, a folder or a name with %04d");
   o.input("REFERENCE", c.reference, "the image that is taken for right, or the sequence");
   o.section("What is compared");

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
             "tensor its shape, "
             "unit and range. Also its rows as CSV, its points as PLY, and whether it is undamaged.",
             stage::kInfoAlgorithm, Tool::Output::none);
-  stage::InfoStage asked;
+  stage::InfoCommand asked;
   Options& options = tool.options();
   options.input("FILE", asked.path, "any phos file");
   options.section("What to print");

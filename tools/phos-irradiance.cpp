@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       "irradiance too, so that the surfaces which they cover get none of their own.",
       stage::kIrradianceAlgorithm);
   tool.takes_strict();
-  stage::IrradianceStage asked;
+  stage::IrradianceCommand asked;
   Options& options = tool.options();
   options.inputs(
       "SCENE [PHOTONS] [CACHE] [RADIANCE] [BRDF]", asked.inputs,

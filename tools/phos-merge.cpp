@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
             "runs, shards given twice and missing shards are errors that name them. Kinds merged: photons, "
             "irradiance.",
             stage::kMergeAlgorithm);
-  stage::MergeStage asked;
+  stage::MergeCommand asked;
   tool.options().inputs("SHARD", asked.shards, "all shards of one run, in any order");
   tool.options().example("phos-merge a.photons b.photons -o room.photons",
                          "joins the files of --shard 1/2 and 2/2");

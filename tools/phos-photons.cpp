@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
             "over them, and "
             "feeds phos-irradiance. The same command gives the same bytes on any number of threads.",
             stage::kPhotonsAlgorithm);
-  stage::PhotonsStage asked;
+  stage::PhotonsCommand asked;
   tool.options().input("SCENE", asked.scene_path, "glTF (.glb, .gltf) or OBJ scene");
   declare_options(tool.options(), asked.photons);
   declare_options(tool.options(), asked.scene);

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   Tool tool("phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",
             kDescription, stage::kPictureAlgorithm);
   tool.output_has_no_key();
-  stage::PictureStage asked;
+  stage::PictureCommand asked;
   Options& options = tool.options();
   options.input(
       "INPUT", asked.sequence.input,

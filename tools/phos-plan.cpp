@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
            kErrorMeaning, " Predictions hold for this machine; times vary, and with them what is chosen."),
       stage::kPlanAlgorithm, Tool::Output::none);
   Options& options = tool.options();
-  stage::PlanStage asked;
+  stage::PlanCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
   declare_options(options, asked.plan);
   declare_options(options, asked.scene);

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
             "photons, and radiance, for gloss.",
             stage::kRadianceAlgorithm);
   tool.takes_strict();
-  stage::RadianceStage asked;
+  stage::RadianceCommand asked;
   Options& options = tool.options();
   options.inputs(
       "SCENE [PHOTONS] [BRDF] [CACHE]", asked.inputs,

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
       stage::kReferenceAlgorithm, Tool::Output::optional);
   tool.takes_strict();
   Options& options = tool.options();
-  stage::ReferenceStage asked;
+  stage::ReferenceCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
   declare_options(options, asked.reference);
   declare_options(options, asked.scene);

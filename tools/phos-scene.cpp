@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       "in cd. The kind \"spot\" has a \"direction\" and the half angles \"inner_deg\" and \"outer_deg\" too, "
       "\"directional\" a \"direction\" and its intensity in lx.",
       stage::kSceneAlgorithm, Tool::Output::none);
-  stage::SceneStage asked;
+  stage::SceneCommand asked;
   tool.options().input("SCENE", asked.path, "glTF (.glb, .gltf) or OBJ scene; or photometry (.ies, .ldt)");
   declare_options(tool.options(), asked.scene);
   declare_options(tool.options(), asked.gloss);

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
             stage::kSenseAlgorithm, Tool::Output::optional);
   tool.takes_strict();
   tool.output_has_no_key();
-  stage::SenseStage asked;
+  stage::SenseCommand asked;
   Options& options = tool.options();
   options.inputs("SCENE [CACHE]", asked.inputs,
                  "scene (.glb, .gltf, .obj), irradiance and radiance caches of it");

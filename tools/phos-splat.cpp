@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
             stage::kSplatAlgorithm);
   tool.takes_strict();
   Options& options = tool.options();
-  stage::SplatStage asked;
+  stage::SplatCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
   options.inputs(
       "CACHE", asked.caches,

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
             "are not run again, and an interrupted study goes on where it was. The folder gets results.csv, "
             "results.json, plots and index.html, a page that needs nothing else.",
             stage::kStudyAlgorithm, Tool::Output::none);
-  stage::StudyStage asked;
+  stage::StudyCommand asked;
   StudyOptions& study = asked.study;
   Options& options = tool.options();
   options.input("STUDY", study.file, "study file (TOML)");

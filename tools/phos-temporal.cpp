@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
             "whose surfaces then "
             "get none of their own.",
             stage::kTemporalAlgorithm);
-  stage::TemporalStage asked;
+  stage::TemporalCommand asked;
   Options& options = tool.options();
   options.inputs("SCENE [BRDF] [RADIANCE]", asked.inputs,
                  "animated scene (.glb, .gltf); its .brdf file; a radiance film");

@@ -51,7 +51,7 @@ void join(Tool& tool, const BandParts& parts) {
 
 }  // namespace
 
-void run(Tool& tool, const BandsStage& asked) {
+void run(Tool& tool, const BandsCommand& asked) {
   BandParts parts;
   parts.paths = asked.parts;
   for (const std::string& word : asked.dark) {

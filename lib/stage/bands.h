@@ -11,12 +11,12 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kBandsAlgorithm = 1;
 
-struct BandsStage {
+struct BandsCommand {
   std::vector<std::string> parts;  ///< files
   std::vector<std::string> dark;   ///< numbers of triplets
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const BandsStage& asked);
+void run(Tool& tool, const BandsCommand& asked);
 
 }  // namespace phos::stage

@@ -8,7 +8,7 @@
 #include "scene/report/describe.h"
 
 namespace phos::stage {
-void run(Tool& tool, const BrdfStage& asked) {
+void run(Tool& tool, const BrdfCommand& asked) {
   tool.add_input("scene", scene_files(asked.scene_path, asked.scene));
   if (tool.options().given("reuse") && !asked.bases.empty())
     throw Error(ExitCode::usage, "--bases", "is not written where nothing is made anew; leave out --reuse");

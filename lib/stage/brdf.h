@@ -12,13 +12,13 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kBrdfAlgorithm = 2;
 
-struct BrdfStage {
+struct BrdfCommand {
   std::string scene_path, bases;  ///< files
   SceneOptions scene;
   BrdfTableOptions brdf;
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const BrdfStage& asked);
+void run(Tool& tool, const BrdfCommand& asked);
 
 }  // namespace phos::stage

@@ -9,7 +9,7 @@
 namespace phos::stage {
 namespace {
 
-void write_difference(const CompareStage& c, const Image& image, const Image& reference) {
+void write_difference(const CompareCommand& c, const Image& image, const Image& reference) {
   CompareOptions options = c.options;
   if (c.difference.ends_with(".exr"))
     return write_exr(c.difference, difference_image(image, reference, options));
@@ -36,7 +36,7 @@ void print(const std::vector<Metrics>& all, bool json, bool passed) {
 }
 
 /// Says what is wrong; "" if nothing is.
-std::string compare_pair(Tool& tool, const CompareStage& c) {
+std::string compare_pair(Tool& tool, const CompareCommand& c) {
   tool.add_input("image", c.image);
   tool.add_input("reference", c.reference);
   if (!c.second.empty()) tool.add_input("second reference", c.second);
@@ -51,7 +51,7 @@ std::string compare_pair(Tool& tool, const CompareStage& c) {
   return failure;
 }
 
-std::string compare_sequences(const CompareStage& c) {
+std::string compare_sequences(const CompareCommand& c) {
   const FrameRange range = parse_frames(c.frames);
   if (range.count() < 3)
     throw Error(ExitCode::usage, "--frames", "flicker needs three frames or more; give a longer range");
@@ -75,7 +75,7 @@ std::string compare_sequences(const CompareStage& c) {
   return failure;
 }
 
-void check_usage(const CompareStage& c) {
+void check_usage(const CompareCommand& c) {
   c.limits.require_measured(c.flicker);
   if (c.flicker && c.frames.empty())
     throw Error(ExitCode::usage, "--flicker", "compares sequences; say which frames: --frames 0:47");
@@ -89,7 +89,7 @@ void check_usage(const CompareStage& c) {
 
 }  // namespace
 
-void run(Tool& tool, const CompareStage& asked) {
+void run(Tool& tool, const CompareCommand& asked) {
   check_usage(asked);
   const std::string failure = asked.flicker ? compare_sequences(asked) : compare_pair(tool, asked);
   if (failure.empty()) return;

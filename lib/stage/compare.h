@@ -12,7 +12,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kCompareAlgorithm = 1;
 
-struct CompareStage {
+struct CompareCommand {
   std::string image, reference, second, frames, difference, per_frame;
   CompareOptions options;
   CompareLimits limits;
@@ -21,6 +21,6 @@ struct CompareStage {
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const CompareStage& asked);
+void run(Tool& tool, const CompareCommand& asked);
 
 }  // namespace phos::stage

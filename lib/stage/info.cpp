@@ -5,7 +5,7 @@
 namespace phos::stage {
 namespace {
 
-void verify(Tool& tool, const InfoStage& r) {
+void verify(Tool& tool, const InfoCommand& r) {
   try {
     Container::open(r.path).verify();
   } catch (const Error& e) {
@@ -15,7 +15,7 @@ void verify(Tool& tool, const InfoStage& r) {
   }
 }
 
-void print(const InfoStage& r, const Sink& sink) {
+void print(const InfoCommand& r, const Sink& sink) {
   const Container file = Container::open(r.path);
   if (!r.dump.empty()) {
     dump_csv(file, r.dump, r.decode, sink);
@@ -30,7 +30,7 @@ void print(const InfoStage& r, const Sink& sink) {
 
 }  // namespace
 
-void run(Tool& tool, const InfoStage& asked) {
+void run(Tool& tool, const InfoCommand& asked) {
   const int wanted = asked.json + asked.canonical + asked.points + asked.verify + !asked.dump.empty();
   if (wanted > 1)
     throw Error(ExitCode::usage, "",

@@ -12,7 +12,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kInfoAlgorithm = 1;
 
-struct InfoStage {
+struct InfoCommand {
   std::string path, output;
   std::vector<std::string> dump;
   bool json = false, canonical = false, points = false, verify = false, decode = false;
@@ -20,6 +20,6 @@ struct InfoStage {
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const InfoStage& asked);
+void run(Tool& tool, const InfoCommand& asked);
 
 }  // namespace phos::stage

@@ -68,7 +68,7 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
 /// The cache to add to. Options that were not given become its own; one that was and differs throws
 /// Error(mismatch).
 IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, const Options& given,
-                             IrradianceStage& asked) {
+                             IrradianceCommand& asked) {
   const Container file = open_to_add(asked.add_to, "irradiance", files, scene, asked.allow_mismatch);
   adopt_options(asked.records, given, file);
   return read_irradiance(file);
@@ -76,7 +76,7 @@ IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, const
 
 }  // namespace
 
-void run(Tool& tool, IrradianceStage& asked) {
+void run(Tool& tool, IrradianceCommand& asked) {
   RecordOptions& records = asked.records;
   PlacementOptions& placement = asked.placement;
   require_one_light(tool.options());

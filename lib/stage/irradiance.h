@@ -14,7 +14,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kIrradianceAlgorithm = 19;
 
-struct IrradianceStage {
+struct IrradianceCommand {
   std::vector<std::string> inputs;
   SceneOptions scene;
   RecordOptions records;
@@ -26,6 +26,6 @@ struct IrradianceStage {
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
 /// that were left to it.
-void run(Tool& tool, IrradianceStage& asked);
+void run(Tool& tool, IrradianceCommand& asked);
 
 }  // namespace phos::stage

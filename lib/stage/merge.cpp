@@ -42,7 +42,7 @@ void merge_irradiance(Tool& tool, const std::vector<std::string>& parts) {
 
 }  // namespace
 
-void run(Tool& tool, const MergeStage& asked) {
+void run(Tool& tool, const MergeCommand& asked) {
   for (const std::string& path : asked.shards)
     if (records_of(Container::open(path)) == RecordsOf::film)
       throw Error(

@@ -11,11 +11,11 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kMergeAlgorithm = 1;
 
-struct MergeStage {
+struct MergeCommand {
   std::vector<std::string> shards;  ///< or parts
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const MergeStage& asked);
+void run(Tool& tool, const MergeCommand& asked);
 
 }  // namespace phos::stage

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/text/quantity.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 #include "scene/sky/access.h"
@@ -10,15 +11,14 @@
 namespace phos::stage {
 namespace {
 
-double percent(double part, double whole) { return whole > 0 ? std::round(1000 * part / whole) / 10 : 0; }
-
 void report(Tool& tool, const PhotonTotals& totals) {
   const double escaped = luminance(totals.escaped_flux_lm), emitted = luminance(totals.emitted_flux_lm);
   const double per_path =
       totals.paths > 0 ? static_cast<double>(totals.stored) / static_cast<double>(totals.paths) : 0;
   tool.say(text(totals.paths, " paths emitted, ", totals.stored, " photons stored (",
                 std::round(100 * per_path) / 100, " per path); ", luminance(totals.emitted_flux_lm),
-                " lm emitted, ", percent(escaped, emitted), " % of it left the scene"));
+                " lm emitted, ", percent_to_tenths(emitted > 0 ? escaped / emitted : 0),
+                " of it left the scene"));
   if (totals.stored == 0)
     tool.warn(totals.paths == 0
                   ? "no paths were emitted (--photons 0): the map is empty"
@@ -41,7 +41,7 @@ void check_events(const Counters& counters, const PhotonTotals& totals) {
 
 }  // namespace
 
-void run(Tool& tool, const PhotonsStage& asked) {
+void run(Tool& tool, const PhotonsCommand& asked) {
   const PhotonOptions& options = asked.photons;
   path_range(options.shard, options.paths);  // a wrong --shard is said before the work
   tool.add_input("scene", scene_files(asked.scene_path, asked.scene));

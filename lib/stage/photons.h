@@ -12,13 +12,13 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kPhotonsAlgorithm = 5;
 
-struct PhotonsStage {
+struct PhotonsCommand {
   std::string scene_path;
   SceneOptions scene;
   PhotonOptions photons;
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const PhotonsStage& asked);
+void run(Tool& tool, const PhotonsCommand& asked);
 
 }  // namespace phos::stage

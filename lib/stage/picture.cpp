@@ -88,7 +88,7 @@ void check_usage(const Options& options, const std::string& output, const Pictur
 
 }  // namespace
 
-void run(Tool& tool, const PictureStage& asked) {
+void run(Tool& tool, const PictureCommand& asked) {
   const PictureSequence& sequence = asked.sequence;
   const LayerPictureOptions& picture = asked.picture;
   const std::string& input = sequence.input;

@@ -10,7 +10,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kPictureAlgorithm = 1;
 
-struct PictureStage {
+struct PictureCommand {
   PictureSequence sequence;  ///< with the input
   LayerPictureOptions picture;
   CsvPlotOptions plot;
@@ -18,6 +18,6 @@ struct PictureStage {
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const PictureStage& asked);
+void run(Tool& tool, const PictureCommand& asked);
 
 }  // namespace phos::stage

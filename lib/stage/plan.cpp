@@ -13,7 +13,7 @@
 #include "scene/picture.h"
 
 namespace phos::stage {
-void run(Tool& tool, const PlanStage& asked) {
+void run(Tool& tool, const PlanCommand& asked) {
   const PlanOptions& plan = asked.plan;
   const Options& options = tool.options();
   if (plan.run && !plan.output.empty())

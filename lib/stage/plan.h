@@ -12,13 +12,13 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kPlanAlgorithm = 1;
 
-struct PlanStage {
+struct PlanCommand {
   std::string scene_path;
   SceneOptions scene;
   PlanOptions plan;
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const PlanStage& asked);
+void run(Tool& tool, const PlanCommand& asked);
 
 }  // namespace phos::stage

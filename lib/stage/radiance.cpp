@@ -30,7 +30,7 @@ void summarise(Tool& tool, const RadianceCache& cache, const std::vector<Radianc
 
 }  // namespace
 
-void run(Tool& tool, RadianceStage& asked) {
+void run(Tool& tool, RadianceCommand& asked) {
   RadianceOptions& radiance = asked.radiance;
   PlacementOptions& placement = asked.placement;
   const RecordFiles files = sort_record_inputs(asked.inputs);

@@ -15,7 +15,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kRadianceAlgorithm = 17;
 
-struct RadianceStage {
+struct RadianceCommand {
   std::vector<std::string> inputs;
   SceneOptions scene;
   RadianceOptions radiance;
@@ -28,6 +28,6 @@ struct RadianceStage {
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
 /// that were left to it.
-void run(Tool& tool, RadianceStage& asked);
+void run(Tool& tool, RadianceCommand& asked);
 
 }  // namespace phos::stage

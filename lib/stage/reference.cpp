@@ -101,7 +101,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
 
 }  // namespace
 
-void run(Tool& tool, ReferenceStage& asked) {
+void run(Tool& tool, ReferenceCommand& asked) {
   ReferenceOptions& reference = asked.reference;
   if (asked.points.empty() && tool.output().empty())
     throw Error(ExitCode::usage, "-o", "a picture needs an output file: -o room.exr (or give --points)");

@@ -12,7 +12,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kReferenceAlgorithm = 4;
 
-struct ReferenceStage {
+struct ReferenceCommand {
   std::string scene_path, points;  ///< files
   SceneOptions scene;
   ReferenceOptions reference;
@@ -20,6 +20,6 @@ struct ReferenceStage {
 
 /// The body of the program, for each frame: `asked` holds what the options of `tool` are declared to set, and
 /// gets the values that were left to it.
-void run(Tool& tool, ReferenceStage& asked);
+void run(Tool& tool, ReferenceCommand& asked);
 
 }  // namespace phos::stage

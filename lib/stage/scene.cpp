@@ -17,7 +17,7 @@ void print(const std::string& out) {
 
 }  // namespace
 
-void run(Tool& tool, const SceneStage& asked) {
+void run(Tool& tool, const SceneCommand& asked) {
   if (is_photometry(asked.path)) {
     std::string option = tool.options().first_given_in("Scene");
     if (option.empty()) option = tool.options().first_given({"gloss", "strict"});

@@ -12,7 +12,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kSceneAlgorithm = 1;
 
-struct SceneStage {
+struct SceneCommand {
   std::string path;
   SceneOptions scene;
   GlossBy gloss = GlossBy::automatic;
@@ -20,6 +20,6 @@ struct SceneStage {
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set.
-void run(Tool& tool, const SceneStage& asked);
+void run(Tool& tool, const SceneCommand& asked);
 
 }  // namespace phos::stage

@@ -14,7 +14,7 @@
 namespace phos::stage {
 namespace {
 
-void check_usage(const Options& options, const InputFiles& files, const SenseStage& asked) {
+void check_usage(const Options& options, const InputFiles& files, const SenseCommand& asked) {
   const SensorOptions& sense = asked.sense;
   const bool exact = asked.exact;
   if (exact && sense.direct_only)
@@ -59,7 +59,7 @@ void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std
 
 /// All light without caches.
 std::vector<Reading> read_exactly(Tool& tool, const Sensors& sensors, const RayScene& rays,
-                                  const Luminaires& lights, const SenseStage& asked,
+                                  const Luminaires& lights, const SenseCommand& asked,
                                   const std::vector<LightWay>& ways, SensorReport& report) {
   std::vector<SensorPoint> points;
   for (const SurfaceSample& p : sensors.points) points.push_back({p.position, p.normal});
@@ -107,7 +107,7 @@ void report_on(Tool& tool, const std::string& summary_path, const Sensors& senso
 
 }  // namespace
 
-void run(Tool& tool, SenseStage& asked) {
+void run(Tool& tool, SenseCommand& asked) {
   const InputFiles inputs = sort_inputs(asked.inputs, Beside::caches);
   const std::string summary = tool.frame_path(asked.summary, "--summary");
   if (tool.frames() && asked.points == "-")

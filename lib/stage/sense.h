@@ -16,7 +16,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kSenseAlgorithm = 11;
 
-struct SenseStage {
+struct SenseCommand {
   std::vector<std::string> inputs;  ///< scene and caches
   SceneOptions scene;
   std::string points, summary;  ///< files
@@ -30,6 +30,6 @@ struct SenseStage {
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
 /// that were left to it.
-void run(Tool& tool, SenseStage& asked);
+void run(Tool& tool, SenseCommand& asked);
 
 }  // namespace phos::stage

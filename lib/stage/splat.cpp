@@ -51,7 +51,7 @@ void require_finite(const Image& image) {
 
 }  // namespace
 
-void run(Tool& tool, SplatStage& asked) {
+void run(Tool& tool, SplatCommand& asked) {
   const InputFiles inputs = scene_and_others(asked.scene_path, asked.caches);
   RenderOptions& render = asked.render;
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));

@@ -15,7 +15,7 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kSplatAlgorithm = 14;
 
-struct SplatStage {
+struct SplatCommand {
   std::string scene_path;           ///< or one of the caches: the two may change places
   std::vector<std::string> caches;  ///< of irradiance and radiance, and lobes
   SceneOptions scene;
@@ -28,6 +28,6 @@ struct SplatStage {
 
 /// The body of the program, for each frame: `asked` holds what the options of `tool` are declared to set, and
 /// gets the values that were left to it.
-void run(Tool& tool, SplatStage& asked);
+void run(Tool& tool, SplatCommand& asked);
 
 }  // namespace phos::stage

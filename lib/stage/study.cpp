@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 
 namespace phos::stage {
-void run(Tool& tool, StudyStage& asked) {
+void run(Tool& tool, StudyCommand& asked) {
   StudyOptions& study = asked.study;
   const Options& options = tool.options();
   if (options.given("seed"))

@@ -9,12 +9,12 @@ namespace phos::stage {
 /// Raised whenever the same command would give other numbers.
 inline constexpr int kStudyAlgorithm = 1;
 
-struct StudyStage {
+struct StudyCommand {
   StudyOptions study;
 };
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
 /// that were left to it.
-void run(Tool& tool, StudyStage& asked);
+void run(Tool& tool, StudyCommand& asked);
 
 }  // namespace phos::stage

@@ -27,7 +27,7 @@ void refuse_inputs(const RecordFiles& files) {
 
 }  // namespace
 
-void run(Tool& tool, TemporalStage& asked) {
+void run(Tool& tool, TemporalCommand& asked) {
   FilmJob& job = asked.job;
   RecordOptions& records = job.light.records;
   const FrameRange range = parse_frames(asked.frames);

@@ -16,8 +16,8 @@ inline constexpr int kTemporalAlgorithm = 18;
 
 enum class RecordKind { irradiance, radiance };
 
-struct TemporalStage {
-  TemporalStage() { job.light.records.estimate = Estimate::gather, job.placement.place = Place::view; }
+struct TemporalCommand {
+  TemporalCommand() { job.light.records.estimate = Estimate::gather, job.placement.place = Place::view; }
   std::vector<std::string> inputs;
   std::string frames, isa;
   SceneOptions scene;
@@ -28,6 +28,6 @@ struct TemporalStage {
 
 /// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
 /// that were left to it.
-void run(Tool& tool, TemporalStage& asked);
+void run(Tool& tool, TemporalCommand& asked);
 
 }  // namespace phos::stage
