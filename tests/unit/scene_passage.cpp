@@ -241,7 +241,7 @@ TEST(Passage, BlocksWithThingsInThemAreNoPlates) {
     if (kind == Kind::showcase) add_block(scene, Vec3(-0.4f, 0.6f, -0.4f), Vec3(0.4f, 1.4f, 0.4f), false);
     if (kind != Kind::empty) {
       begin_instance(scene, "thing", 0);
-      add_block(scene, Vec3(-0.3f, 0.9f, -0.3f), Vec3(0, 1.1f, 0), true);
+      add_block(scene, Vec3(-0.3f, 0.5f, -0.3f), Vec3(0, 1.1f, 0), true);  // on the bottom
     }
     finalize(scene);
     const RayScene rays(scene);

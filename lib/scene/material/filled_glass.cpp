@@ -12,6 +12,8 @@ namespace {
 /// of a cube, .08 of a plate ten times as wide as thick.
 constexpr double kBlock = 0.1;
 
+constexpr float kSlack = 0.01f;
+
 struct Part {
   Bounds box;
   double volume_m3 = 0, area_m2 = 0;
@@ -20,8 +22,11 @@ struct Part {
   bool is_block() const { return 2 * std::fabs(volume_m3) / area_m2 > kBlock * std::sqrt(area_m2 / 2); }
 };
 
+/// What stands on the bottom, or sticks out a little, is within.
 bool within(const Bounds& inner, const Bounds& outer) {
-  return glm::all(glm::greaterThan(inner.lo, outer.lo)) && glm::all(glm::lessThan(inner.hi, outer.hi));
+  const Vec3 slack = kSlack * outer.size();
+  return glm::all(glm::greaterThan(inner.lo, outer.lo - slack)) &&
+         glm::all(glm::lessThan(inner.hi, outer.hi + slack));
 }
 
 Bounds box_of(const Scene& scene, const Instance& instance) {
@@ -36,7 +41,8 @@ Bounds box_of(const Scene& scene, const Instance& instance) {
 bool is_filled(const Scene& scene, const Part& part, const std::vector<Part>& parts,
                const std::vector<Bounds>& box_of_instance) {
   for (const Part& other : parts)
-    if (other.material == part.material && (within(other.box, part.box) || within(part.box, other.box)))
+    if (&other != &part && other.material == part.material &&
+        (within(other.box, part.box) || within(part.box, other.box)))
       return false;
   for (std::size_t i = 0; i < scene.instance.size(); ++i)
     if (scene.instance[i].material != part.material && within(box_of_instance[i], part.box)) return true;
