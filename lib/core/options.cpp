@@ -28,6 +28,8 @@ struct Declaration {
   Recorded recorded = Recorded::yes;
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
+  std::function<void(const std::string&)> set;  // of what takes one value
+  bool adopted = false;
   FileUse use = FileUse::read;
   std::function<std::vector<std::string>()> paths;  // of what names files
   std::string default_text;
@@ -141,6 +143,7 @@ struct Options::Impl {
   /// An option that takes one value; `set` gets its text.
   void add(Declaration& d, const std::function<void(const std::string&)>& set) {
     d.initial = d.value();
+    d.set = set;
     d.parsed = app.add_option_function<std::string>(flags_of(d), set)->take_last();
   }
   /// An option that may be given several times, each time with several items, which `split` takes apart.
@@ -155,6 +158,11 @@ struct Options::Impl {
                    ->expected(1)
                    ->take_all()
                    ->allow_extra_args(false);
+  }
+  Declaration* find(const std::string& name) {
+    for (Declaration& d : declarations)
+      if (d.name == name) return &d;
+    return nullptr;
   }
   const Declaration* find(const std::string& name) const {
     for (const Declaration& d : declarations)
@@ -447,6 +455,13 @@ bool Options::parse(int argc, const char* const* argv) {
   return true;
 }
 
+void Options::adopt(const std::string& name, const Json& value) {
+  Declaration* d = impl_->find(name);
+  PHOS_CHECK(d != nullptr && d->set && d->recorded != Recorded::no, "option ", name);
+  d->set(value.is_string() ? value.as_string() : value.dump());
+  d->adopted = true;
+}
+
 bool Options::given(const std::string& name) const {
   const Declaration* d = impl_->find(name);
   PHOS_CHECK(d != nullptr, "option ", name);
@@ -463,6 +478,13 @@ std::string Options::first_given_in(const std::string& section) const {
   for (const Declaration& d : impl_->declarations)
     if (!d.is_input && d.section == section && given(d.name)) return "--" + d.name;
   return "";
+}
+
+std::vector<std::string> Options::names() const {
+  std::vector<std::string> names;
+  for (const Declaration& d : impl_->declarations)
+    if (!d.is_input) names.push_back(d.name);
+  return names;
 }
 
 std::vector<GivenFile> Options::files() const {
@@ -485,7 +507,7 @@ Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations) {
     const Json value = d.value();
-    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && given(d.name)) ||
+    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && (d.adopted || given(d.name))) ||
         (d.recorded == Recorded::unless_default && !(value == d.initial)))
       all[d.name] = value;
   }

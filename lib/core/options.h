@@ -108,12 +108,18 @@ class Options {
   /// per line, name=value or a flag).
   bool parse(int argc, const char* const* argv);
 
+  /// Sets an option that was not given to a value that recorded() of another run has, and records it as if it
+  /// had been given. Not for flags, lists and files. Throws Error(usage) as parse() does.
+  void adopt(const std::string& name, const Json& value);
+
   /// Was the option given on the command line?
   bool given(const std::string& name) const;
   /// The first of these that was, "--" before it; "" if none was.
   std::string first_given(std::initializer_list<const char*> names) const;
   /// The same of all options that were declared in a section.
   std::string first_given_in(const std::string& section) const;
+  /// Of every option, in the order of declaration.
+  std::vector<std::string> names() const;
   /// Every path that the command line names: inputs, files, the FILEs of NAME=FILE, and files of options.
   std::vector<GivenFile> files() const;
   /// The value of an option as it is now; null where there is none of that name.

@@ -10,6 +10,7 @@
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
+#include "stage/site.h"
 
 namespace phos::stage {
 namespace {
@@ -81,6 +82,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   PlacementOptions& placement = asked.placement;
   require_one_light(tool.options());
   const RecordFiles files = sort_record_inputs(asked.inputs);
+  take_site(tool, {files.photons, files.source, files.radiance, asked.add_to}, asked.allow_mismatch);
   add_inputs(tool, files, asked.scene);
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("irradiance", asked.add_to);

@@ -11,6 +11,7 @@
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
+#include "stage/site.h"
 
 namespace phos::stage {
 namespace {
@@ -34,6 +35,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   RadianceOptions& radiance = asked.radiance;
   PlacementOptions& placement = asked.placement;
   const RecordFiles files = sort_record_inputs(asked.inputs);
+  take_site(tool, {files.photons, files.source, files.radiance, asked.add_to}, asked.allow_mismatch);
   add_inputs(tool, files, asked.scene);
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("radiance", asked.add_to);

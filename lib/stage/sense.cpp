@@ -9,6 +9,7 @@
 #include "scene/sky/daylight.h"
 #include "sense/daylight_factor.h"
 #include "stage/inputs.h"
+#include "stage/site.h"
 #include "temporal/film/inputs.h"
 
 namespace phos::stage {
@@ -114,6 +115,7 @@ void run(Tool& tool, SenseCommand& asked) {
     throw Error(ExitCode::usage, "--points", "stdin has no points for several frames; give a file");
   check_usage(tool.options(), inputs, asked);
   check(asked.grid, asked.points);
+  take_site(tool, inputs.phos, asked.allow_mismatch);
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));
   const Scene scene = load_scene(inputs.scene, asked.scene);
   tell_losses(tool, scene);

@@ -17,6 +17,7 @@
 #include "splat/picture/noise_target.h"
 #include "splat/picture/report.h"
 #include "stage/inputs.h"
+#include "stage/site.h"
 
 namespace phos::stage {
 namespace {
@@ -54,6 +55,7 @@ void require_finite(const Image& image) {
 void run(Tool& tool, SplatCommand& asked) {
   const InputFiles inputs = scene_and_others(asked.scene_path, asked.caches);
   RenderOptions& render = asked.render;
+  take_site(tool, inputs.phos, asked.allow_mismatch);
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));
   for (std::size_t i = 0; i < inputs.phos.size(); ++i) tool.add_input(text("cache ", i), inputs.phos[i]);
   render.seed = tool.seed();

@@ -3,6 +3,7 @@
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
 #include "stage/inputs.h"
+#include "stage/site.h"
 #include "temporal/film/inputs.h"
 #include "temporal/film/report.h"
 
@@ -32,6 +33,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   RecordOptions& records = job.light.records;
   const FrameRange range = parse_frames(asked.frames);
   const RecordFiles files = sort_record_inputs(asked.inputs);
+  take_site(tool, {files.radiance}, false);
   add_inputs(tool, files, asked.scene);
   refuse_inputs(files);
   job.of_radiance = asked.kind == RecordKind::radiance;

@@ -251,11 +251,19 @@ TEST(BandOptions, CachesKnowTheirTriplet) {
   const std::string cache = made() + "/2.irradiance", out = made() + "/wrong.exr";
   expect_refused("splat", Words{grey().room, cache, "-o", out} + in_triplet(3), 4,
                  "made with --bands 12 --triplet 2, not with --bands 12 --triplet 3");
-  expect_refused("splat", {grey().room, cache, "-o", out}, 4, "not in RGB");
+  expect_refused("splat", {grey().room, cache, "--bands", "12", "--triplet", "1", "-o", out}, 4,
+                 "not with --bands 12 --triplet 1");
   expect_refused("splat", Words{grey().room, made() + "/rgb.irradiance", "-o", out} + in_triplet(3), 4,
                  "made in RGB");
   const auto info = run_tool({"info", cache});
   EXPECT_NE(info.out.find("--bands 12"), std::string::npos) << info.out;
+  // What is not given is the cache's.
+  const Words view{"splat", grey().room, cache, "--width", "16", "--splat", "cpu", "-o"};
+  const auto silent = run_tool(view + Words{made() + "/silent.exr"});
+  ASSERT_EQ(silent.code, 0) << silent.err;
+  EXPECT_NE(silent.err.find("bands 12, triplet 2: as of " + cache), std::string::npos) << silent.err;
+  ASSERT_EQ(run_tool(view + Words{made() + "/said.exr"} + in_triplet(2)).code, 0);
+  EXPECT_EQ(slurp(made() + "/silent.exr"), slurp(made() + "/said.exr"));
 }
 
 TEST(BandOptions, SceneReportsSayWhichLightItIs) {

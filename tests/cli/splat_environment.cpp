@@ -92,6 +92,20 @@ TEST(EnvironmentTools, RefuseCachesOfAnotherEnvironment) {
                       f + "/b.irradiance"})
                 .code,
             0);
+  refused({"--sky", "overcast"}, "made under an environment map, not --sky overcast");
+  // How the map is turned is the photons'.
+  const std::string turned = f + "/turned.photons";
+  ASSERT_EQ(run_tool({"photons", scene, "--environment", map, "--environment-rotation", "90", "--photons",
+                      "1000", "-o", turned})
+                .code,
+            0);
+  const std::vector<std::string> silent = {"irradiance", scene, turned, "--environment", map, "-o"};
+  std::vector<std::string> said = silent, unsaid = silent;
+  said.insert(said.end(), {f + "/said.irradiance", "--environment-rotation", "90"});
+  unsaid.push_back(f + "/unsaid.irradiance");
+  EXPECT_EQ(run_tool(said).code, 0);
+  EXPECT_EQ(run_tool(unsaid).code, 0);
+  EXPECT_EQ(slurp(f + "/said.irradiance"), slurp(f + "/unsaid.irradiance"));
 }
 
 TEST(EnvironmentTools, RefuseWhatIsNoMap) {

@@ -131,15 +131,52 @@ TEST(DaylightTools, RefuseCachesOfAnotherSky) {
   const auto refused = [&](const Words& other, const char* why) {
     expect_refused("irradiance", Words{kRoom, photons, "-o", f + "/a.irradiance"} + other, 4, why);
   };
-  refused({}, "it had an environment or a sky");
-  refused({"--sky", "overcast"}, "another --environment, --sky or --sun");
-  refused({"--sky", "clear", "--sun", "160,36"}, "another --environment, --sky or --sun");
-  refused(sky + Words{"--ground-albedo", "0.3"}, "another --environment, --sky or --sun");
-  refused(sky + Words{"--north", "10"}, "another --environment, --sky or --sun");
-  refused(sky + Words{"--sun-illuminance", "50000"}, "another --environment, --sky or --sun");
+  refused({"--sky", "overcast"}, "was made with --sky clear, not overcast");
+  refused({"--sky", "clear", "--sun", "160,36"}, "was made with --sun 160,35, not 160,36");
+  refused({"--sun", "160,36"}, "was made with --sun 160,35, not 160,36");
+  refused({"--sky", "cie:12", "--sun", "160,36"}, "was made with --sun 160,35, not 160,36");
+  refused(sky + Words{"--ground-albedo", "0.3"}, "without --ground-albedo 0.3");
+  refused(sky + Words{"--north", "10"}, "without --north 10");
+  refused(sky + Words{"--sun-illuminance", "50000"}, "without --sun-illuminance 50000");
+  refused({"--location", "52.5,13.4", "--when", "2026-06-21T12:00+02:00"},
+          "was made with --sky clear --sun 160,35 and without --location 52.5,13.4");
+  refused({"--environment", data("sky.hdr")}, "not an environment map");
+  const std::string dark = f + "/dark.photons";
+  ASSERT_EQ(run_tool({"photons", data("cornell-measured.glb"), "--photons", "1000", "-o", dark}).code, 0);
+  expect_refused("irradiance", Words{data("cornell-measured.glb"), dark, "-o", f + "/a.irradiance"} + sky, 4,
+                 "was made without --sky");
   // The same said otherwise.
   const Words same = {"--sky", "cie:12", "--sun", "-200,35", "--ground-albedo", "0.2"};
   EXPECT_EQ(run_tool(Words{"irradiance", kRoom, photons, "-o", f + "/a.irradiance"} + same).code, 0);
+}
+
+/// What stands in the photons need not be said again: the same bytes, of every stage.
+TEST(DaylightTools, StagesTakeTheSkyFromTheirCaches) {
+  const std::string f = scratch("daylight-once");
+  const Words sky = {"--sky", "clear", "--sun", "160,35", "--sky-illuminance", "12000", "--portals", "auto"};
+  ASSERT_EQ(run_tool(Words{"photons", kRoom, "--photons", "20000", "-o", f + "/room.photons"} + sky).code, 0);
+  const auto stage = [&](const Words& command, const std::string& from, const std::string& to) {
+    const auto said = run_tool(command + Words{"-o", f + "/said" + to} + sky);
+    EXPECT_EQ(said.code, 0) << said.err;
+    EXPECT_EQ(said.err.find("as of"), std::string::npos) << said.err;
+    const auto silent = run_tool(command + Words{"-o", f + "/silent" + to});
+    EXPECT_EQ(silent.code, 0) << silent.err;
+    EXPECT_NE(silent.err.find("sky clear, sky-illuminance 12000, sun 160,35, portals auto: as of " + from),
+              std::string::npos)
+        << silent.err;
+    EXPECT_EQ(slurp(f + "/said" + to), slurp(f + "/silent" + to)) << to;
+  };
+  const std::string photons = f + "/room.photons", records = f + "/said.irradiance";
+  stage({"irradiance", kRoom, photons, "--place", "surface"}, photons, ".irradiance");
+  stage({"irradiance", kRoom, photons, "--place", "surface", "--add-to", records}, photons,
+        ".more.irradiance");
+  stage({"splat", kRoom, records, "--width", "24", "--splat", "cpu"}, records, ".exr");
+  stage({"sense", kRoom, records, "--grid", "1", "--height", "0.8"}, records, ".csv");
+  // Nothing is to be made anew.
+  const auto again = run_tool({"irradiance", kRoom, photons, "--place", "surface", "--reuse", "-o", records});
+  EXPECT_NE(again.err.find("up to date"), std::string::npos) << again.err;
+  expect_refused("sense", {kRoom, records, "--portals", "glass", "--grid", "1", "--height", "0.8"}, 4,
+                 "was made with --portals auto, not glass");
 }
 
 /// The same bytes on any number of threads, and from shards.

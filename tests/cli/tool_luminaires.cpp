@@ -150,7 +150,7 @@ TEST(LuminaireTools, AgreeWithTheReference) {
     words.insert(words.begin(), {scene, f + "/a.irradiance", "-o", f + "/no.exr"});
     expect_refused("splat", words, 4, why);
   };
-  refused({}, "another --luminaire");
+  refused({}, "was made with --luminaire lamp=FILE, and files are not recorded; give the same --luminaire");
   refused({"--luminaire", "lamp=" + data("luminaires/street.ies")}, "another --luminaire");
   EXPECT_FALSE(std::filesystem::exists(f + "/no.exr"));
 }

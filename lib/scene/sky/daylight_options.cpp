@@ -13,9 +13,9 @@ constexpr TextOption kTexts[] = {
     {"sky", "SKY",
      "light of a sky: overcast ((1 + 2 sin elevation) / 3, the traditional one), clear (CIE type 12), cie:1 "
      "to "
-     "cie:15 (CIE S 011 / ISO 15469; cie:16 is overcast) or perez (from irradiances); up is +Y; give it to "
-     "every "
-     "stage",
+     "cie:15 (CIE S 011 / ISO 15469; cie:16 is overcast) or perez (from irradiances); up is +Y. What "
+     "is not given of sky, sun, place and time, bands and portals is taken from the photons or caches that a "
+     "stage reads; files are to be given to every stage",
      &DaylightOptions::sky},
     {"sun", "AZIMUTH,ELEVATION",
      "where the sun stands, in degrees: clockwise from north, and above the horizon", &DaylightOptions::sun},

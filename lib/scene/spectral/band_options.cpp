@@ -18,7 +18,7 @@ void declare_options(Options& options, BandOptions& bands) {
       {0, Bands::kMost}, Recorded::if_given);
   options.integer("triplet", bands.triplet, "K",
                   "with --bands: bands 3 K - 2 to 3 K. Lux, lumens and cd/m2 are then those of the light in "
-                  "these bands; give it to every stage",
+                  "these bands",
                   {1, (Bands::kMost + 2) / 3}, Recorded::if_given);
   options.named_files(
       "spectrum", bands.spectra,

@@ -1,0 +1,245 @@
+#include "stage/site.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "scene/load.h"
+#include "scene/sky/daylight.h"
+
+namespace phos::stage {
+namespace {
+
+/// Recorded values by the name of their option.
+using Values = std::map<std::string, Json>;
+
+bool is_stated(const Json* value) {
+  if (!value || value->is_null()) return false;
+  return !(value->is_string() && value->as_string().empty()) &&
+         !(value->is_array() && value->as_array().empty());
+}
+
+std::string shown(const Json& value) { return value.is_string() ? value.as_string() : value.dump(); }
+
+const Json* recorded(const Container& file, const std::string& name) {
+  const Json* value = file.provenance().parameters.find(name);
+  return is_stated(value) ? value : nullptr;
+}
+
+template <class T>
+std::vector<std::string> names_of() {
+  Options options("", "", "");
+  T values;
+  declare_options(options, values);
+  return options.names();
+}
+
+DaylightOptions daylight_of(const Values& values) {
+  Options options("", "", "");
+  DaylightOptions daylight;
+  declare_options(options, daylight);
+  for (const auto& [name, value] : values) options.adopt(name, value);
+  return daylight;
+}
+
+/// Equal where the light is; nothing for values that do not go together.
+std::optional<std::string> recipe_of(const Values& values) {
+  try {
+    return resolve(daylight_of(values)).recipe;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// Takes over option by option from one file after another.
+class Site {
+ public:
+  Site(Options& options, bool allow_mismatch) : options_(options), allow_mismatch_(allow_mismatch) {
+    for (std::string& name : options.names()) known_.insert(std::move(name));
+  }
+
+  /// The line that says what was taken; "" for nothing.
+  std::string take(const Container& file) {
+    taken_.clear();
+    file_ = &file;
+    take_daylight();
+    take_environment();
+    require_files("luminaire");
+    require_files("spectrum");
+    for (const char* name : {"luminaires-as", "bands", "triplet"}) take_one(name);
+    take_portals();
+    take_time();
+    return taken_.empty() ? "" : text(taken_, ": as of ", file.path());
+  }
+
+ private:
+  bool given(const std::string& name) const { return known_.contains(name) && options_.given(name); }
+  const Json* was(const std::string& name) const { return recorded(*file_, name); }
+
+  void take_one(const std::string& name) {
+    const Json* value = was(name);
+    if (!value || !known_.contains(name) || options_.given(name) || !settled_.insert(name).second) return;
+    if (value->is_array() || value->is_object() || value->is_bool()) damaged(name, "is of another kind");
+    try {
+      options_.adopt(name, *value);
+    } catch (const Error& e) {
+      damaged(name, e.what());
+    }
+    taken_ += text(taken_.empty() ? "" : ", ", name, " ", shown(*value));
+  }
+
+  void take_daylight() {
+    Values then, asked, now;
+    for (const std::string& name : names_of<DaylightOptions>()) {
+      if (!known_.contains(name)) continue;
+      if (const Json* value = was(name)) then[name] = *value;
+      if (const Json value = options_.value(name); options_.given(name) && is_stated(&value))
+        asked[name] = value;
+    }
+    if (given("environment")) {
+      if (!then.empty())
+        refuse(text("was made under ", words_of(then), ", not an environment map; leave --environment out"));
+      return;
+    }
+    now = then;
+    for (const auto& [name, value] : asked) now[name] = value;
+    if (!asked.empty() && !agree(then, asked, now)) return;
+    if (then.empty() || daylight_settled_) return;
+    daylight_settled_ = true;
+    for (const auto& [name, value] : then) take_one(name);
+  }
+
+  /// Is it the same light? Throws where it is not, and where that is not allowed.
+  bool agree(const Values& then, const Values& asked, const Values& now) const {
+    const std::optional<std::string> meant = recipe_of(now), was_meant = recipe_of(then);
+    if (!meant && !recipe_of(asked)) return false;  // the command line is wrong, which is told elsewhere
+    if (meant && was_meant && *meant == *was_meant) return true;
+    if (then.empty()) {
+      if (has_environment()) {
+        refuse(text("was made under an environment map, not ", words_of(asked),
+                    "; give the same --environment instead"));
+        return false;
+      }
+      refuse(text("was made without --", asked.begin()->first, "; leave it out"));
+      return false;
+    }
+    const std::string culprit = contradiction(then, asked, now, was_meant);
+    const auto value = then.find(culprit);
+    if (value != then.end())
+      refuse(text("was made with --", culprit, " ", shown(value->second), ", not ", shown(asked.at(culprit)),
+                  "; leave --", culprit, " out"));
+    else
+      refuse(text("was made with ", words_of(then), " and without --", culprit, " ", shown(asked.at(culprit)),
+                  "; leave --", culprit, " out"));
+    return false;
+  }
+
+  /// The option that alone makes the difference, or the first that differs.
+  static std::string contradiction(const Values& then, const Values& asked, const Values& now,
+                                   const std::optional<std::string>& was_meant) {
+    std::string first;
+    for (const bool stated : {true, false}) {
+      for (const auto& [name, value] : asked) {
+        const auto before = then.find(name);
+        if ((before != then.end()) != stated || (stated && before->second.dump() == value.dump())) continue;
+        if (first.empty()) first = name;
+        Values without = now;
+        if (stated)
+          without[name] = before->second;
+        else
+          without.erase(name);
+        if (recipe_of(without) == was_meant) return name;
+      }
+    }
+    return first.empty() ? asked.begin()->first : first;
+  }
+
+  void take_environment() {
+    const std::vector<std::string> daylight = names_of<DaylightOptions>();
+    if (!has_environment() ||
+        std::any_of(daylight.begin(), daylight.end(), [&](const std::string& name) { return was(name); }))
+      return;
+    if (given("environment")) {
+      take_one("environment-rotation");
+      take_one("environment-scale");
+    } else if (std::none_of(daylight.begin(), daylight.end(),
+                            [&](const std::string& name) { return given(name); })) {
+      refuse("was made under an environment map, and its file is not recorded; give the same --environment");
+    }
+  }
+
+  /// Of NAME=FILE only names are recorded.
+  void require_files(const std::string& option) const {
+    const Json* names = was(option);
+    if (!names || !names->is_array() || !known_.contains(option) || options_.given(option)) return;
+    std::string words;
+    for (const Json& name : names->as_array())
+      if (name.is_string()) words += text(" --", option, " ", name.as_string(), "=FILE");
+    refuse(text("was made with", words, ", and files are not recorded; give the same --", option));
+  }
+
+  /// They aim light that is the same without them: a file without portals contradicts none.
+  void take_portals() {
+    const Json* value = was("portals");
+    if (value && given("portals") && shown(*value) != shown(options_.value("portals")))
+      refuse(text("was made with --portals ", shown(*value), ", not ", shown(options_.value("portals")),
+                  "; leave --portals out"));
+    take_one("portals");
+  }
+
+  void take_time() {
+    const Json frames = options_.value("frames");
+    if (is_stated(&frames) || given("time") || given("frame") || time_settled_) return;
+    for (const char* name : {"time", "frame"})
+      if (was(name) && known_.contains(name)) {
+        time_settled_ = true;
+        return take_one(name);
+      }
+  }
+
+  bool has_environment() const { return is_stated(file_->provenance().scene_parts.find("environment")); }
+
+  static std::string words_of(const Values& values) {
+    std::string words;
+    for (const auto& [name, value] : values)
+      words += text(words.empty() ? "--" : " --", name, " ", shown(value));
+    return words;
+  }
+
+  void refuse(const std::string& message) const {
+    if (!allow_mismatch_) throw Error(ExitCode::mismatch, file_->path(), message);
+  }
+  [[noreturn]] void damaged(const std::string& name, const std::string& why) const {
+    throw Error(ExitCode::bad_input, file_->path(), text("damaged metadata: --", name, ": ", why));
+  }
+
+  Options& options_;
+  bool allow_mismatch_;
+  const Container* file_ = nullptr;
+  std::set<std::string> known_, settled_;  // options of the program; those that a file has settled
+  bool daylight_settled_ = false, time_settled_ = false;
+  std::string taken_;
+};
+
+}  // namespace
+
+std::vector<std::string> adopt_site(Options& options, const std::vector<Container>& files,
+                                    bool allow_mismatch) {
+  Site site(options, allow_mismatch);
+  std::vector<std::string> lines;
+  for (const Container& file : files)
+    if (file.provenance().kind != "brdf" && !file.provenance().parameters.is_null())
+      if (std::string line = site.take(file); !line.empty()) lines.push_back(std::move(line));
+  return lines;
+}
+
+void take_site(Tool& tool, const std::vector<std::string>& paths, bool allow_mismatch) {
+  std::vector<Container> files;
+  for (const std::string& path : paths)
+    if (!path.empty() && is_container(path)) files.push_back(Container::open(path));
+  for (const std::string& line : adopt_site(tool.options(), files, allow_mismatch)) tool.say(line);
+}
+
+}  // namespace phos::stage
