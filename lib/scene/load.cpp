@@ -50,7 +50,8 @@ void aim(Scene& scene, const std::string& portals) {
 
 void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
-  options.number("time", scene.time_s, "SECONDS", "when animations are evaluated (default: 0)");
+  options.number("time", scene.time_s, "SECONDS",
+                 "when animations are evaluated (default: when those of the caches are, or 0)");
   options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
   declare_light_options(options, scene);
 }

@@ -186,7 +186,15 @@ class Site {
     if (value && given("portals") && shown(*value) != shown(options_.value("portals")))
       refuse(text("was made with --portals ", shown(*value), ", not ", shown(options_.value("portals")),
                   "; leave --portals out"));
-    take_one("portals");
+    if (sees_beyond()) take_one("portals");
+  }
+
+  /// Does the scene get light from infinity? Not of a map that --allow-mismatch leaves out.
+  bool sees_beyond() const {
+    if (given("environment")) return true;
+    for (const std::string& name : names_of<DaylightOptions>())
+      if (const Json value = options_.value(name); is_stated(&value)) return true;
+    return false;
   }
 
   void take_time() {

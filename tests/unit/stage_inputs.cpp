@@ -190,6 +190,8 @@ TEST_F(Site, FilesHaveToBeGiven) {
   expect_mismatch({"--sky", "overcast"}, map, "made under an environment map, not --sky overcast");
   EXPECT_EQ(recorded({"--environment", "sky.hdr"}, map).find("environment-rotation")->as_number(), 90);
   EXPECT_TRUE(recorded({}, map, true).find("environment-rotation")->is_null());
+  const Json aimed = Json::Object{{"portals", "auto"}};
+  EXPECT_EQ(recorded({}, {file("photons", aimed, true)}, true).find("portals"), nullptr) << "at nothing";
   const std::vector<Container> lamps{file(
       "irradiance", Json::Object{{"luminaire", Json::Array{"a lamp", "b"}}, {"luminaires-as", "points"}})};
   expect_mismatch({}, lamps, "made with --luminaire a lamp=FILE --luminaire b=FILE");
