@@ -57,6 +57,34 @@ TEST_F(SplatSequences, FilesAreThoseOfSingleFrames) {
   EXPECT_EQ(stats.find("frames")->as_array()[1].find("frame")->as_integer(), 5);
 }
 
+/// Stages take the frame of their photons; a sequence has its own.
+TEST_F(SplatSequences, OneFrameIsThatOfTheCache) {
+  const std::string scene = data("moving-light.glb");
+  ASSERT_EQ(run_tool({"photons", scene, "--frame", "100", "--photons", "5000", "-o", path("f.photons")}).code,
+            0);
+  const auto stage = [&](std::vector<std::string> words, const std::string& to) {
+    words.insert(words.end(), {"-o", path("silent" + to)});
+    const test::Run silent = run_tool(words);
+    ASSERT_EQ(silent.code, 0) << silent.err;
+    EXPECT_NE(silent.err.find("frame 100: as of "), std::string::npos) << silent.err;
+    words.back() = path("said" + to);
+    words.insert(words.end(), {"--frame", "100"});
+    ASSERT_EQ(run_tool(words).code, 0);
+    EXPECT_EQ(slurp(path("silent" + to)), slurp(path("said" + to))) << to;
+  };
+  stage({"irradiance", scene, path("f.photons"), "--place", "surface"}, ".irradiance");
+  const std::vector<std::string> splat{"splat",   scene, path("said.irradiance"), "--width", "16",
+                                       "--splat", "cpu"};
+  stage(splat, ".exr");
+  std::vector<std::string> other = splat;
+  other.insert(other.end(), {"--frame", "0", "-o", path("other.exr")});
+  EXPECT_EQ(run_tool(other).code, 4);
+  other = splat;
+  other.insert(other.end(), {"--frames", "100:100", "-o", path("f%d.exr")});
+  EXPECT_EQ(run_tool(other).code, 0);
+  EXPECT_EQ(slurp(path("f100.exr")), slurp(path("said.exr")));
+}
+
 TEST_F(SplatSequences, Refuses) {
   const auto refused = [](const std::vector<std::string>& more, const std::string& word) {
     const test::Run run = splat(more);

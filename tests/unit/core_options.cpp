@@ -163,5 +163,34 @@ TEST(Options, HelpAndManualHoldEveryOption) {
     EXPECT_LE(end - begin, 110u) << help.substr(begin, end - begin);
 }
 
+/// What another run recorded is recorded as if it had been given; it was not.
+TEST(Options, AdoptedValuesAreRecordedAsGiven) {
+  const auto recorded = [](std::vector<const char*> words, bool adopt) {
+    Options options("phos-x", "", "");
+    std::string sky;
+    std::optional<double> sun;
+    std::int64_t bands = 0;
+    options.text("sky", sky, "SKY", "", Recorded::if_given);
+    options.number("sun", sun, "LUX", "", kPositive, Recorded::if_given);
+    options.integer("bands", bands, "N", "", {0, 100}, Recorded::if_given);
+    EXPECT_EQ(options.names(), (std::vector<std::string>{"sky", "sun", "bands"}));
+    words.insert(words.begin(), "phos-x");
+    options.parse(static_cast<int>(words.size()), words.data());
+    if (adopt) {
+      options.adopt("sky", "clear");
+      options.adopt("sun", 0.1);
+      options.adopt("bands", 12);
+      EXPECT_FALSE(options.given("sky"));
+      EXPECT_EQ(sky, "clear");
+      EXPECT_EQ(sun, 0.1);
+      EXPECT_EQ(bands, 12);
+      EXPECT_THROW(options.adopt("bands", 101), Error);
+      EXPECT_THROW(options.adopt("sun", "bright"), Error);
+    }
+    return options.recorded().dump() + options.command();
+  };
+  EXPECT_EQ(recorded({}, true), recorded({"--sky", "clear", "--sun", "0.1", "--bands", "12"}, false));
+}
+
 }  // namespace
 }  // namespace phos
