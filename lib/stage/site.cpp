@@ -180,12 +180,13 @@ class Site {
     refuse(text("was made with", words, ", and files are not recorded; give the same --", option));
   }
 
-  /// They aim light that is the same without them: a file without portals contradicts none.
+  /// They aim light that is the same without them: a file without portals contradicts none, and a command may
+  /// do without (--portals "").
   void take_portals() {
     const Json* value = was("portals");
-    if (value && given("portals") && shown(*value) != shown(options_.value("portals")))
-      refuse(text("was made with --portals ", shown(*value), ", not ", shown(options_.value("portals")),
-                  "; leave --portals out"));
+    const Json now = options_.value("portals");
+    if (value && is_stated(&now) && given("portals") && shown(*value) != shown(now))
+      refuse(text("was made with --portals ", shown(*value), ", not ", shown(now), "; leave --portals out"));
     if (sees_beyond()) take_one("portals");
   }
 

@@ -184,6 +184,13 @@ TEST_F(Site, PortalsContradictNoFileWithoutThem) {
             "auto");
 }
 
+TEST_F(Site, PortalsMayBeLeftOut) {
+  const Json taken = recorded({"--portals", ""}, {file("photons", clear_sky(), true)});
+  EXPECT_EQ(taken.find("portals")->as_string(), "");
+  EXPECT_EQ(taken.find("sun")->as_string(), "200,40");
+  EXPECT_TRUE(scene_.portals.empty());
+}
+
 TEST_F(Site, FilesHaveToBeGiven) {
   const std::vector<Container> map{file("photons", Json::Object{{"environment-rotation", 90}}, true)};
   expect_mismatch({}, map, "give the same --environment");
