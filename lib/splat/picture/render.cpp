@@ -123,8 +123,10 @@ void declare_options(Options& options, RenderOptions& r) {
        {"none", DirectBy::none}},
       "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one diffuse surface share "
       "theirs, at edges too, and more of them only where a lamp is seen in part (a fraction of the time; "
-      "blurs shadows over up to 4 pixels, less with more rays, not at all with 64, of lamps of uneven light "
-      "or many faces with 4096); by shadow maps (fast preview, diffuse only); or left out");
+      "blurs shadows over up to 4 pixels, less with more rays, not at all with 64; of the sky and other "
+      "lamps "
+      "of uneven light or many faces faint shadows alone, until 4096); by shadow maps (fast preview, diffuse "
+      "only); or left out");
   options.integer("light-samples", r.light_samples, "N",
                   "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
                   "at least); or "
