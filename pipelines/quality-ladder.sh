@@ -22,7 +22,7 @@ sum() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a + b }'; }
 
 # 1. Photons serve all three.
 phos-photons "$scene" --photons "$photons" --quiet --stats "$stats" -o "$base.photons"
-seconds=$(figure seconds.total)
+seconds=$(figure seconds.total "$stats")
 rm -f "$base.irradiance"
 rows=()
 
@@ -36,10 +36,10 @@ step() { # name, share of the width, reach of a record when read, samples of a p
   phos-irradiance "$scene" "$base.photons" --place view "${name[@]}" --width "$place" "${earlier[@]}" --quiet --stats "$stats" \
     -o "$base.irradiance"
   local records fresh
-  records=$(figure records) fresh=$(figure records_new) seconds=$(sum "$seconds" "$(figure seconds.total)")
+  records=$(figure records "$stats") fresh=$(figure records_new "$stats") seconds=$(sum "$seconds" "$(figure seconds.total "$stats")")
   phos-splat "$scene" "$base.irradiance" "${name[@]}" --width "$width" --accuracy "$3" --pixel-samples "$4" --light-samples "$5" \
     --quiet --stats "$stats" -o "$folder/$1.exr"
-  seconds=$(sum "$seconds" "$(figure seconds.total)")
+  seconds=$(sum "$seconds" "$(figure seconds.total "$stats")")
   phos-picture "$folder/$1.exr" --quiet -o "$folder/$1.png"
   rows+=("$1,$records,$fresh,$seconds")
 }
@@ -51,7 +51,7 @@ step final 1 0.4 16 64
 echo "picture,records,new_records,seconds,rmse_to_final" >"$folder/ladder.csv"
 for row in "${rows[@]}"; do
   phos-compare "$folder/${row%%,*}.exr" "$folder/final.exr" --layer beauty --ignore-emission --json >"$stats"
-  echo "$row,$(figure relative_rmse)" >>"$folder/ladder.csv"
+  echo "$row,$(figure relative_rmse "$stats")" >>"$folder/ladder.csv"
 done
 rm -f "$stats"
 cat "$folder/ladder.csv"

@@ -25,7 +25,7 @@ requires() { grep -q "\"what\": \"$1\"" <<<"$required"; }
 records=(--estimate gather --accuracy "$accuracy" --rays "$rays")
 stage() { # program, arguments...
   "$@" --quiet --stats "$stats"
-  seconds=$(awk -v a="$seconds" -v b="$(figure seconds.total)" 'BEGIN { printf "%.3f", a + b }')
+  seconds=$(awk -v a="$seconds" -v b="$(figure seconds.total "$stats")" 'BEGIN { printf "%.3f", a + b }')
 }
 draw() { # name, options of phos-irradiance, ":", options of phos-splat
   local name=$1 of_records=() caches=("$folder/$1.irradiance")
@@ -47,7 +47,7 @@ draw() { # name, options of phos-irradiance, ":", options of phos-splat
 }
 change() { # name: against the picture with everything
   phos-compare "$folder/$1.exr" "$folder/all.exr" --layer beauty --ignore-emission --json >"$stats"
-  figure relative_rmse
+  figure relative_rmse "$stats"
 }
 compared() { # name, what is left out
   echo "$1,\"$2\",$whole,$seconds,$(change "$1")" >>"$folder/costs.csv"
