@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/connected_parts.h"
+#include "scene/instance_bounds.h"
 #include "scene/material/models.h"
 
 namespace phos {
@@ -27,14 +28,6 @@ bool within(const Bounds& inner, const Bounds& outer) {
   const Vec3 slack = kSlack * outer.size();
   return glm::all(glm::greaterThan(inner.lo, outer.lo - slack)) &&
          glm::all(glm::lessThan(inner.hi, outer.hi + slack));
-}
-
-Bounds box_of(const Scene& scene, const Instance& instance) {
-  Bounds box;
-  for (std::uint32_t t = 0; t < instance.triangle_count; ++t)
-    for (const std::uint32_t v : scene.triangle[instance.first_triangle + t].v)
-      box.include(scene.position[v]);
-  return box;
 }
 
 /// Is it full of anything, and not hollow, nor a hollow?
@@ -75,7 +68,7 @@ std::vector<std::uint8_t> find_filled_glass(const Scene& scene) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!parts[i].is_block()) continue;
     if (box_of_instance.empty())
-      for (const Instance& instance : scene.instance) box_of_instance.push_back(box_of(scene, instance));
+      for (const Instance& instance : scene.instance) box_of_instance.push_back(bounds_of(scene, instance));
     filled_part[i] = is_filled(scene, parts[i], parts, box_of_instance);
   }
   for (std::size_t k = 0; k < glass.size(); ++k) {

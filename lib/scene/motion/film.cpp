@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/instance_bounds.h"
 #include "scene/luminaire/photometry.h"
 
 namespace phos {
@@ -137,17 +138,13 @@ bool has_area(const Scene& scene, std::size_t instance) {
   return false;
 }
 
-Bounds bounds_of(const Scene& scene, std::size_t instance) {
-  Bounds bounds;
-  for_each_vertex(scene, instance, [&](std::uint32_t v) { bounds.include(scene.position[v]); });
-  return bounds;
-}
-
 float object_step_m(const Scene& a, const Scene& b, std::size_t instance) {
   const bool from = has_area(a, instance), to = has_area(b, instance);
   if (!from && !to) return 0;
   // Where it was while nothing saw it is no matter, but how large.
-  const Vec3 way = from && to ? Vec3(0) : bounds_of(b, instance).centre() - bounds_of(a, instance).centre();
+  const Vec3 way =
+      from && to ? Vec3(0)
+                 : bounds_of(b, b.instance[instance]).centre() - bounds_of(a, a.instance[instance]).centre();
   float step = 0;
   for_each_vertex(a, instance, [&](std::uint32_t v) {
     step = std::max(step, glm::distance(a.position[v], b.position[v] - way));
@@ -159,7 +156,8 @@ bool object_jumps(const Scene& a, const Scene& b, const Scene& c, const Scene& d
                   float scene_m) {
   const float step = object_step_m(b, c, i);
   if (step == 0) return false;
-  const float size = std::max(bounds_of(b, i).diagonal_m(), bounds_of(c, i).diagonal_m());
+  const float size =
+      std::max(bounds_of(b, b.instance[i]).diagonal_m(), bounds_of(c, c.instance[i]).diagonal_m());
   if (is_turned_over(b, c, i)) return true;
   const float large = std::min(kOwnSize * size, kSceneSize * scene_m);
   return step > large && is_jump(object_step_m(a, b, i), step, object_step_m(c, d, i), large);

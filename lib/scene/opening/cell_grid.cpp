@@ -4,6 +4,11 @@
 #include <array>
 
 namespace phos {
+namespace {
+
+constexpr float kLeastCosine = 0.05f;
+
+}  // namespace
 
 CellGrid::CellGrid(const Portal& rectangle, int side)
     : rectangle_(rectangle),
@@ -12,6 +17,10 @@ CellGrid::CellGrid(const Portal& rectangle, int side)
 
 bool CellGrid::any_open() const {
   return std::any_of(open_.begin(), open_.end(), [](std::uint8_t open) { return open != 0; });
+}
+
+bool CellGrid::crosses_clearly(const Vec3& direction) const {
+  return -glm::dot(direction, rectangle_.inwards) > kLeastCosine;
 }
 
 std::size_t CellGrid::cell_at(const Vec3& place) const {

@@ -18,6 +18,9 @@ class CellGrid {
   bool is_open(std::size_t cell) const { return open_[cell] != 0; }
   void open(std::size_t cell) { open_[cell] = 1; }
   bool any_open() const;
+  /// Does a line cross the rectangle outwards, not along it? Lines along it carry little light, and cross it
+  /// far from the opening before it.
+  bool crosses_clearly(const Vec3& direction) const;
 
   /// The cell that holds a place of the rectangle; of places beyond it, the nearest.
   std::size_t cell_at(const Vec3& place) const;

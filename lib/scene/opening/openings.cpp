@@ -12,8 +12,6 @@ namespace {
 constexpr std::uint32_t kLooks = 16;       // at each cell
 constexpr std::uint32_t kCloseLooks = 64;  // at each neighbour of an open cell
 constexpr std::size_t kWitnesses = 4;      // kept of each cell
-/// Cosine to the rectangle: lines along it carry little light, and cross it far from the opening before it.
-constexpr float kLeastCosine = 0.05f;
 
 }  // namespace
 
@@ -26,12 +24,8 @@ void Openings::open(std::size_t cell, std::uint32_t looker) {
   if (witness_[cell].size() < kWitnesses) witness_[cell].push_back(looker);
 }
 
-bool Openings::crosses_clearly(const Vec3& direction) const {
-  return -glm::dot(direction, grid_.rectangle().inwards) > kLeastCosine;
-}
-
 void Openings::mark(std::size_t looker, const Vec3& direction, const Vec3& place) {
-  if (crosses_clearly(direction)) open(grid_.cell_at(place), static_cast<std::uint32_t>(looker));
+  if (grid_.crosses_clearly(direction)) open(grid_.cell_at(place), static_cast<std::uint32_t>(looker));
 }
 
 /// One that sees the sky through the cell, kNobody if none does: looks are by turns of those who know it and
@@ -49,7 +43,7 @@ std::uint32_t Openings::find_looker(std::size_t cell, std::uint32_t looks,
         knows ? knowing[pick(knowing.size())] : static_cast<std::uint32_t>(pick(lookers_.size()));
     const Looker& looker = lookers_[who];
     const Vec3 direction = normalized_or_zero(grid_.place_in(cell, random.uniform2()) - looker.position);
-    if (glm::dot(direction, looker.normal) > 0 && crosses_clearly(direction) &&
+    if (glm::dot(direction, looker.normal) > 0 && grid_.crosses_clearly(direction) &&
         sees_sky(rays_, {looker.position, direction}))
       return who;
   }

@@ -35,7 +35,6 @@ class Openings {
  private:
   static constexpr std::uint32_t kNobody = 0xffffffffu;
   void open(std::size_t cell, std::uint32_t looker);
-  bool crosses_clearly(const Vec3& direction) const;
   std::uint32_t find_looker(std::size_t cell, std::uint32_t looks,
                             std::span<const std::uint32_t> knowing) const;
   std::vector<std::uint32_t> look_at(std::span<const std::size_t> cells, std::uint32_t looks,

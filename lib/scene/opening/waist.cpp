@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <span>
 
@@ -12,8 +11,6 @@
 namespace phos {
 namespace {
 
-/// Cosine to a face: lines along it carry little light.
-constexpr float kLeastCosine = 0.05f;
 /// A waist saves so much of the area before it at least.
 constexpr double kLeastNarrowed = 0.1;
 /// Parts of the lookers that may lie before a waist.
@@ -29,7 +26,7 @@ double open_area_m2(std::span<const Looker> lookers, const Bounds& box) {
     for (const Vec3& direction : looker.sky) {
       const auto [f, place] = way_out(box, looker.position, direction);
       CellGrid& grid = face[static_cast<std::size_t>(f)];
-      if (std::fabs(direction[f / 2]) > kLeastCosine) grid.open(grid.cell_at(place));
+      if (grid.crosses_clearly(direction)) grid.open(grid.cell_at(place));
     }
   double sum = 0;
   for (const CellGrid& grid : face)

@@ -1,0 +1,11 @@
+// The box about an instance.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace phos {
+
+/// About the corners of its triangles, in the world; empty where it has none.
+Bounds bounds_of(const Scene& scene, const Instance& instance);
+
+}  // namespace phos
