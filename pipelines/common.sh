@@ -32,13 +32,18 @@ take_all_options() {
 # need_file FILE: ends with code 3 where there is none.
 need_file() { [[ -f $1 ]] || { echo "${0##*/}: $1: no such file" >&2; exit 3; }; }
 
-# need_programs: those on PATH, or else in build/release/bin; ends with code 3 where there are none.
+# need_programs: those on PATH, or else in build/release/bin (of an installation: in its bin); ends with code 3 where there are none.
 need_programs() {
-  PATH=$PATH:$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/../build/release/bin
-  command -v phos-splat >/dev/null || {
-    echo "${0##*/}: phos-splat: not on PATH, nor in build/release/bin; run pipelines/build.sh first" >&2
-    exit 3
-  }
+  local here bin advice
+  here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
+  if [[ -f $here/build.sh ]]; then
+    bin=$here/../build/release/bin advice='nor in build/release/bin; run pipelines/build.sh first'
+  else
+    bin=$(realpath -m "$here/../../../bin")
+    advice="nor in $bin; put their folder on PATH"
+  fi
+  PATH=$PATH:$bin
+  command -v phos-splat >/dev/null || { echo "${0##*/}: phos-splat: not on PATH, $advice" >&2; exit 3; }
 }
 
 # figure NAME [FILE]: the first value of that name anywhere in a JSON file, or in what is read; nothing where there is none.

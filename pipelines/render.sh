@@ -3,7 +3,7 @@
 #   pipelines/render.sh SCENE FOLDER [--quality draft|good|final] [--width W] [--camera NAME] [options of the scene, e.g. --sky clear]
 #                       [--photons N] [--accuracy A] [--rays N] [--samples N] [--rounds N]
 # Quality is the error of the picture over its mean, about: 10, 5 (good, which is usual) or 2 %. The options of the second line override
-# what follows from it. Needs the programs on PATH, or else in build/release/bin. Writes FOLDER/scene.photons, .irradiance (records where
+# what follows from it. Needs the programs on PATH, or where they were built or installed. Writes FOLDER/scene.photons, .irradiance (records where
 # the camera looks), .view.irradiance (and of what they missed), .exr, .png and -lux.png.
 set -euo pipefail
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env bash
 # For cie171.sh to source: estimate_NAME prints a table of id,x,y,z,nx,ny,nz,E_lx,stderr_lx,... of $points in $scene, with ${options[@]}.
 
 sense() { phos-sense "$scene" "$@" "${options[@]}" --points "$points"; }

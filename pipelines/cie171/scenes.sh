@@ -1,4 +1,3 @@
-#!/usr/bin/env bash
 # For cie171.sh to source: the scenes of CIE 171:2006 and their sensors. Metres; X east, Y up, Z south. The room is 4 x 3 x 4 m and black.
 # scene_CASE VARIANT writes a scene for scene.awk; points_CASE VARIANT writes sensors for phos-sense.
 
