@@ -13,7 +13,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// One record. Radiance L(w) that arrives along w is the sum of c_i H_i(w), HSH of hsh/basis.h, w in the
 /// record's frame; light that comes straight from a lamp is not in it. Numbers of RGB stand side by side.
@@ -61,7 +61,9 @@ struct RadianceCache {
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
 /// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
-inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.6); }
+inline double reading_accuracy(const RadianceCache& cache) {
+  return phos::reading_accuracy(cache.accuracy, 0.6);
+}
 
 /// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy x
 /// max(1, R / D). A record's radius R is where its light is about another one (at most the mean distance D,
@@ -131,4 +133,4 @@ class RadianceTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline radiance

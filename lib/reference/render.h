@@ -13,7 +13,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 struct ReferenceOptions {
   std::string camera;  ///< "" = the scene's first
@@ -32,6 +32,9 @@ struct ReferenceOptions {
 void declare_options(Options& options, ReferenceOptions& reference);
 /// Fills width and height in. Throws Error(usage) for a picture of more than 2^28 pixels.
 void resolve_size(ReferenceOptions& reference, const Camera& camera);
+
+/// Bytes that render_reference() takes for the pixels at most; width and height above 0.
+double reference_bytes(const ReferenceOptions& options);
 
 struct ReferencePicture {
   /// R G B; emission, direct, indirect (as in PathSample; glossy and specular where there is any); stderr and
@@ -57,4 +60,4 @@ struct ReferencePicture {
 ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
                                   const ReferenceOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline reference
