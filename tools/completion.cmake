@@ -1,5 +1,6 @@
-# Writes the completion of a program for bash, from its --options-json and completion.bash.in:
-#   cmake -DPROGRAM=PATH -DOUTPUT=FILE -P completion.cmake
+# Writes the completion of a program for bash, from its --options-json and completion.bash.in (phos:
+# completion-phos.bash.in, and the names that follow phos):
+#   cmake -DPROGRAM=PATH -DOUTPUT=FILE [-DNAMES="info scene ..."] -P completion.cmake
 # An option is completed by its choices, by file names where its unit has a FILE, and by nothing where it takes another
 # value.
 get_filename_component(program ${PROGRAM} NAME)
@@ -35,4 +36,9 @@ if(NOT free STREQUAL "")
   set(cases "    ${free}) words='' ;;\n${cases}")
 endif()
 string(MAKE_C_IDENTIFIER "_${program}" function)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/completion.bash.in ${OUTPUT} @ONLY)
+set(template completion.bash.in)
+if(program STREQUAL "phos")
+  set(template completion-phos.bash.in)
+endif()
+set(names "${NAMES}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/${template} ${OUTPUT} @ONLY)

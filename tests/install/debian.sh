@@ -27,7 +27,7 @@ echo "$(basename "$package"), $(du -h "$package" | cut -f1)"
 for need in libosmesa6 jq libembree libc6; do
   [[ $(field Depends) == *"$need"* ]] || wrong "it does not depend on $need: $(field Depends)"
 done
-lintian --allow-root --fail-on error "$package" >"$scratch/log" 2>/dev/null || wrong "lintian finds errors"
+TMPDIR=$scratch lintian --allow-root --fail-on error "$package" >"$scratch/log" 2>/dev/null || wrong "lintian finds errors"
 sed 's/^/lintian: /' "$scratch/log"
 
 # 2. Use of it in a new Debian, from another folder than phos lies in; and what its removal leaves.

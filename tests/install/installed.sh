@@ -24,7 +24,7 @@ for file in share/doc/phos/README.md share/doc/phos/copyright share/phos/data/co
   [[ -f $prefix/$file ]] || wrong "there is no $file"
 done
 
-# complete WORD...: fills COMPREPLY as bash would where the cursor is at the end of the last word.
+# complete_words WORD...: fills COMPREPLY as bash would where the cursor is at the end of the last word.
 complete_words() {
   COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
   local function
@@ -78,6 +78,13 @@ try phos-splat --luminaire lamp = room '=>' room.irradiance
 try phos-splat @ room '=>' room.irradiance
 complete_words phos-splat @
 offers room.irradiance || wrong "phos-splat @: completion gives '${COMPREPLY[*]}'"
+
+if [[ -x $prefix/bin/phos ]]; then
+  try phos spl '=>' splat
+  try phos help spl '=>' splat
+  try phos splat --splat = c '=>' cpu
+  try phos splat -o room '=>' room.irradiance
+fi
 
 # A picture by a pipeline that finds the programs on PATH, figures by one that finds them and its data by itself.
 pipelines=$prefix/share/phos/pipelines
