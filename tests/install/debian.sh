@@ -3,6 +3,7 @@
 # it into a new Debian, runs programs and a pipeline there, and removes it. The new Debian (mmdebstrap) needs root rights and the mirror
 # that apt uses here. Prints what is wrong; exit 1 if anything is, 77 where this machine cannot do it.
 set -euo pipefail
+umask 022
 build=$(cd "$1" && pwd)
 skip() { echo "skipped: $*"; exit 77; }
 for tool in cpack dpkg-shlibdeps dpkg-scanpackages mmdebstrap lintian; do

@@ -2,6 +2,7 @@
 # Does an installation work? installed.sh BUILD installs the build folder BUILD, without building, into a folder of its own and tries
 # programs, manual pages, completion and pipelines there. Prints what is wrong; exit 1 if anything is.
 set -euo pipefail
+umask 022
 build=$(cd "$1" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
