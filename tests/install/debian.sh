@@ -11,11 +11,15 @@ for tool in cpack dpkg-shlibdeps dpkg-scanpackages mmdebstrap lintian; do
 done
 ((EUID == 0)) || skip "a new Debian takes root rights"
 # In memory, if there is room for a Debian, it is set up several times as fast.
-free=$(df --output=avail -k /dev/shm 2>/dev/null | tail -n 1)
+free=$(df --output=avail -k /dev/shm 2>/dev/null | tail -n 1) || free=0
 [[ -n ${TMPDIR:-} ]] || ((${free:-0} < 4000000)) || export TMPDIR=/dev/shm
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 chmod 755 "$scratch" # apt reads there as a user of its own
+mapfile -t sources < <(apt-get indextargets --format '$(ORIGIN)|deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
+  sed -n 's/^Debian|//p' | sort -u)
+((${#sources[@]} > 0)) || skip "apt has no lists of Debian; run apt-get update"
+(cd "$scratch" && apt-get download hostname >/dev/null 2>&1) || skip "apt cannot fetch from its mirror; run apt-get update"
 failed=0
 wrong() { echo "debian.sh: $*" >&2; failed=1; }
 
@@ -53,10 +57,6 @@ find / \( -path /proc -o -path /sys -o -path /dev -o -path /tmp -o -path /var/ca
   -o -name '*phos[-.]*' -print -o -name phos -print | sed 's/^/left: /'
 echo tried
 TRY
-mapfile -t sources < <(apt-get indextargets --format '$(ORIGIN)|deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
-  sed -n 's/^Debian|//p' | sort -u)
-((${#sources[@]} > 0)) || skip "apt has no lists of Debian; run apt-get update"
-(cd "$scratch" && apt-get download hostname >/dev/null 2>&1) || skip "apt cannot fetch from its mirror; run apt-get update"
 mkdir "$scratch/repository"
 cp "$package" "$scratch/repository"
 (cd "$scratch/repository" && dpkg-scanpackages . >Packages 2>/dev/null)
