@@ -127,7 +127,7 @@ void Growth::accept(const Made& made) {
   Made start = made;
   IrradianceRecord& placed = start.record;
   if (by_ == GrowthBy::error)
-    placed.radius_m = std::min(kStartReach * placed.distance_m / accuracy_, most_m_);
+    placed.radius_m = std::min(kStartReach * std::min(placed.distance_m, made.light_m) / accuracy_, most_m_);
   placed.radius_m = rules_.add(start, [&](std::size_t i, float radius_m) { shrink(i, radius_m); });
   tree_.insert(placed);
   if (as_read_) as_read_->insert(placed);
