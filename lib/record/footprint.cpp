@@ -5,7 +5,7 @@
 
 #include "record/weight.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 constexpr int kAxes = AdaptiveFootprint::kAxes;
@@ -96,4 +96,4 @@ const char* what_is_wrong(const AdaptiveFootprint& f, const Vec3& normal) {
   return nullptr;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

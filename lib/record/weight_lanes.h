@@ -1,6 +1,7 @@
-// record/weight.inc for loops over places: Real is float or a vector of floats, units are given as their inverses.
-// Nothing here is shared between sources, because some are compiled for newer machines than others. Values of vectors
-// are handed over by value; all functions are inlined, and sources are compiled with -Wno-psabi.
+// record/weight.inc for loops over places: Real is float or a vector of floats, units are given as their
+// inverses. Nothing here is shared between sources, because some are compiled for newer machines than others.
+// Values of vectors are handed over by value; all functions are inlined, and sources are compiled with
+// -Wno-psabi.
 #pragma once
 
 #define PHOS_INLINED __attribute__((always_inline)) inline

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+#include "record/weight.h"
+
+namespace phos::inline estimate {
 namespace {
 
 constexpr int kAxes = AdaptiveFootprint::kAxes;
@@ -273,4 +275,4 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
   return fitted;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate
