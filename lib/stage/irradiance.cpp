@@ -5,6 +5,7 @@
 #include "estimate/record_ways.h"
 #include "place/parts.h"
 #include "place/points_on_surfaces.h"
+#include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "scene/inside_solid.h"
 #include "stage/chosen_estimator.h"

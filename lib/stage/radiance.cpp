@@ -6,6 +6,7 @@
 #include "estimate/record_ways.h"
 #include "place/points_on_surfaces.h"
 #include "place/radiance_report.h"
+#include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
 #include "stage/chosen_estimator.h"
