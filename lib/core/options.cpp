@@ -25,8 +25,7 @@ struct Declaration {
   const char* kind = "text";
   std::vector<std::string> choices;
   Range range;
-  Recorded recorded = Recorded::yes;
-  Adopted adopted = Adopted::no;
+  InFiles in_files;
   std::string other_name;  // of the option whose value this one sets
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
@@ -124,19 +123,19 @@ struct Options::Impl {
   bool help = false, version = false, manual = false, options_json = false;
 
   Declaration& declare(const std::string& names, const std::string& unit, const std::string& help_text,
-                       Recorded recorded, Adopted adopted = Adopted::no) {
-    PHOS_CHECK(adopted == Adopted::no || recorded != Recorded::no, "option ", names);
+                       InFiles in_files) {
+    PHOS_CHECK(in_files.adopted == Adopted::no || in_files.recorded != Recorded::no, "option ", names);
     Declaration d;
     const std::size_t comma = names.find(',');
     d.name = names.substr(0, comma);
     if (comma != std::string::npos) d.short_name = names.substr(comma + 1);
-    d.section = section, d.unit = unit, d.help = help_text, d.recorded = recorded, d.adopted = adopted;
+    d.section = section, d.unit = unit, d.help = help_text, d.in_files = in_files;
     declarations.push_back(std::move(d));
     return declarations.back();
   }
   Declaration& declare_number(const std::string& names, const std::string& unit, const std::string& help_text,
-                              const char* kind, const Range& range, Recorded recorded, Adopted adopted) {
-    Declaration& d = declare(names, unit, help_text, recorded, adopted);
+                              const char* kind, const Range& range, InFiles in_files) {
+    Declaration& d = declare(names, unit, help_text, in_files);
     d.kind = kind, d.range = range, d.limits = limits_text(range);
     return d;
   }
@@ -181,7 +180,7 @@ struct Options::Impl {
   std::vector<std::string> names(Adopted adopted) const {
     std::vector<std::string> names;
     for (const Declaration& d : declarations)
-      if (!d.is_input && d.adopted == adopted) names.push_back(d.name);
+      if (!d.is_input && d.in_files.adopted == adopted) names.push_back(d.name);
     return names;
   }
   std::string detail(const Declaration& d) const {
@@ -222,9 +221,10 @@ struct Options::Impl {
       Json o;
       o["name"] = d.name, o["kind"] = d.kind, o["unit"] = d.unit, o["help"] = d.help;
       o["default"] = d.is_input ? Json() : d.value();
-      o["required"] = d.required, o["recorded"] = d.recorded != Recorded::no;
+      o["required"] = d.required, o["recorded"] = d.in_files.recorded != Recorded::no;
       if (!d.is_input) o["section"] = d.section;
-      if (d.adopted != Adopted::no) o["adopted"] = d.adopted == Adopted::estimate ? "estimate" : "site";
+      if (d.in_files.adopted != Adopted::no)
+        o["adopted"] = d.in_files.adopted == Adopted::estimate ? "estimate" : "site";
       if (!d.short_name.empty()) o["short"] = d.short_name;
       if (!d.choices.empty()) o["choices"] = Json::Array(d.choices.begin(), d.choices.end());
       if (std::isfinite(d.range.lo)) o["min"] = d.range.lo, o["min_excluded"] = d.range.lo_open;
@@ -264,9 +264,8 @@ void Options::example(const std::string& command, const std::string& what) {
   impl_->examples.push_back({command, what});
 }
 
-void Options::flag(const std::string& name, bool& value, const std::string& help, Recorded recorded,
-                   Adopted adopted) {
-  Declaration& d = impl_->declare(name, "", help, recorded, adopted);
+void Options::flag(const std::string& name, bool& value, const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, "", help, in_files);
   d.is_flag = true, d.kind = "flag";
   d.value = [&value] { return Json(value); };
   d.initial = d.value();
@@ -275,8 +274,8 @@ void Options::flag(const std::string& name, bool& value, const std::string& help
 }
 
 void Options::number(const std::string& name, double& value, const std::string& unit, const std::string& help,
-                     Range range, Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded, adopted);
+                     Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, in_files);
   d.default_text = shortest(value);
   d.value = [&value] { return Json(value); };
   impl_->add(
@@ -284,8 +283,8 @@ void Options::number(const std::string& name, double& value, const std::string& 
 }
 
 void Options::number(const std::string& name, std::optional<double>& value, const std::string& unit,
-                     const std::string& help, Range range, Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded, adopted);
+                     const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, in_files);
   d.default_text = value ? shortest(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
   impl_->add(
@@ -293,8 +292,8 @@ void Options::number(const std::string& name, std::optional<double>& value, cons
 }
 
 void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit,
-                      const std::string& help, Range range, Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded, adopted);
+                      const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, in_files);
   d.default_text = std::to_string(value);
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value, range, n = d.name](const std::string& s) {
@@ -303,8 +302,8 @@ void Options::integer(const std::string& name, std::int64_t& value, const std::s
 }
 
 void Options::integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
-                      const std::string& help, Range range, Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded, adopted);
+                      const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, in_files);
   d.default_text = value ? std::to_string(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
   impl_->add(d, [&value, range, n = d.name](const std::string& s) {
@@ -313,16 +312,16 @@ void Options::integer(const std::string& name, std::optional<std::int64_t>& valu
 }
 
 void Options::text(const std::string& name, std::string& value, const std::string& unit,
-                   const std::string& help, Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare(name, unit, help, recorded, adopted);
+                   const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, unit, help, in_files);
   d.default_text = value;
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value](const std::string& s) { value = s; });
 }
 
 void Options::list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
-                   const std::string& help, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
+                   const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, unit, help, in_files);
   d.kind = "list";
   d.value = [&value] {
     Json items = Json::Array{};
@@ -335,7 +334,7 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
 void Options::named_files(const std::string& name, std::vector<std::string>& value, const std::string& help,
                           Adopted adopted) {
   Declaration& d = impl_->declare(name, "NAME=FILE", phos::text(help, "; ", kNamedFileCommas),
-                                  Recorded::if_given, adopted);
+                                  {Recorded::if_given, adopted});
   d.kind = "list";
   d.value = [&value] {
     Json names = Json::Array{};
@@ -366,8 +365,8 @@ void Options::file(const std::string& name, std::string& value, const std::strin
 void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names,
                               std::size_t index, std::function<void(std::size_t)> set,
                               std::function<std::size_t()> current, const std::string& help,
-                              Recorded recorded, Adopted adopted) {
-  Declaration& d = impl_->declare(name, "WHICH", help, recorded, adopted);
+                              InFiles in_files) {
+  Declaration& d = impl_->declare(name, "WHICH", help, in_files);
   d.choices = names, d.default_text = names[index], d.kind = "choice";
   d.value = [current, names] { return Json(names[current()]); };
   impl_->add(d, [names, set, n = d.name](const std::string& s) {
@@ -485,7 +484,7 @@ void Options::another_name(const std::string& name, const std::string& other) {
 
 void Options::adopt(const std::string& name, const Json& value) {
   Declaration* d = impl_->find(name);
-  PHOS_CHECK(d != nullptr && d->set && d->recorded != Recorded::no, "option ", name);
+  PHOS_CHECK(d != nullptr && d->set && d->in_files.recorded != Recorded::no, "option ", name);
   const std::string kind = d->kind;
   const bool fits = kind == "flag"                          ? value.is_bool()
                     : kind == "number" || kind == "integer" ? value.is_number()
@@ -547,16 +546,16 @@ Json Options::value(const std::string& name) const {
 
 Json Options::unrecorded_value(const std::string& name) const {
   const Declaration* d = impl_->find(name);
-  return d && d->recorded == Recorded::unless_default ? d->initial : Json();
+  return d && d->in_files.recorded == Recorded::unless_default ? d->initial : Json();
 }
 
 Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations) {
     const Json value = d.value();
-    if (d.recorded == Recorded::yes ||
-        (d.recorded == Recorded::if_given && (d.was_adopted || given(d.name))) ||
-        (d.recorded == Recorded::unless_default && !(value == d.initial)))
+    if (d.in_files.recorded == Recorded::yes ||
+        (d.in_files.recorded == Recorded::if_given && (d.was_adopted || given(d.name))) ||
+        (d.in_files.recorded == Recorded::unless_default && !(value == d.initial)))
       all[d.name] = value;
   }
   return all;

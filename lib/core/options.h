@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/json.h"
 
 namespace phos {
@@ -29,6 +30,14 @@ enum class Adopted {
   site,      ///< what the scene stands under: from each cache that is read (adopt_site())
 };
 
+/// What files hold of an option, and give back.
+struct InFiles {
+  InFiles(Recorded r = Recorded::yes, Adopted a = Adopted::no) : recorded(r), adopted(a) {}
+  InFiles(Adopted a) : InFiles(Recorded::yes, a) {}
+  Recorded recorded;
+  Adopted adopted;
+};
+
 struct Range {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -36,6 +45,17 @@ struct Range {
 };
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity(), false};
+
+/// Values of a choice by name.
+template <class E>
+using Names = std::vector<std::pair<std::string, E>>;
+
+template <class E>
+const std::string& name_in(const Names<E>& names, E value) {
+  for (const auto& [name, e] : names)
+    if (e == value) return name;
+  PHOS_CHECK(false, "value ", static_cast<int>(value));
+}
 
 /// What becomes of a file that the command line names.
 enum class FileUse {
@@ -63,21 +83,20 @@ class Options {
   /// Heading in the help for the options declared after it.
   void section(const std::string& title);
 
-  void flag(const std::string& name, bool& value, const std::string& help, Recorded = Recorded::yes,
-            Adopted = Adopted::no);
+  void flag(const std::string& name, bool& value, const std::string& help, InFiles = {});
   void number(const std::string& name, double& value, const std::string& unit, const std::string& help,
-              Range = {}, Recorded = Recorded::yes, Adopted = Adopted::no);
+              Range = {}, InFiles = {});
   void number(const std::string& name, std::optional<double>& value, const std::string& unit,
-              const std::string& help, Range = {}, Recorded = Recorded::yes, Adopted = Adopted::no);
+              const std::string& help, Range = {}, InFiles = {});
   void integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
-               Range = {}, Recorded = Recorded::yes, Adopted = Adopted::no);
+               Range = {}, InFiles = {});
   void integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
-               const std::string& help, Range = {}, Recorded = Recorded::yes, Adopted = Adopted::no);
+               const std::string& help, Range = {}, InFiles = {});
   void text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
-            Recorded = Recorded::yes, Adopted = Adopted::no);
+            InFiles = {});
   /// May be given several times, or once with commas (split_at_commas()).
   void list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
-            const std::string& help, Recorded = Recorded::yes);
+            const std::string& help, InFiles = {});
   /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
   void file(const std::string& name, std::string& value, const std::string& help, FileUse use = FileUse::read,
             bool required = false);
@@ -87,8 +106,8 @@ class Options {
                    Adopted = Adopted::no);
   /// One of named values.
   template <class E>
-  void choice(const std::string& name, E& value, const std::vector<std::pair<std::string, E>>& values,
-              const std::string& help, Recorded recorded = Recorded::yes, Adopted adopted = Adopted::no) {
+  void choice(const std::string& name, E& value, const Names<E>& values, const std::string& help,
+              InFiles in_files = {}) {
     std::vector<std::string> names;
     std::size_t index = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -102,7 +121,7 @@ class Options {
     };
     choice_of_names(
         name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, current, help,
-        recorded, adopted);
+        in_files);
   }
   /// Says that `name` sets the value of `other`, both declared before: parse() refuses a command line that
   /// gives both, and given_as(other) finds either.
@@ -122,7 +141,8 @@ class Options {
   bool parse(int argc, const char* const* argv);
 
   /// Sets an option that was not given to a value that recorded() of another run has, and records it as if it
-  /// had been given. Not for lists and files. Throws Error(usage) as parse() does, and for a value of another kind.
+  /// had been given. Not for lists and files. Throws Error(usage) as parse() does, and for a value of another
+  /// kind.
   void adopt(const std::string& name, const Json& value);
 
   /// Was the option given on the command line?
@@ -155,7 +175,7 @@ class Options {
  private:
   void choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
                        std::function<void(std::size_t)> set, std::function<std::size_t()> current,
-                       const std::string& help, Recorded recorded, Adopted adopted);
+                       const std::string& help, InFiles in_files);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
