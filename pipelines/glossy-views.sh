@@ -28,9 +28,10 @@ count() { figure "$1" "$folder/stats.json"; }
 echo "camera,radiance_records,radiance_new,irradiance_records,irradiance_new" >"$folder/records.csv"
 for camera in "${cameras[@]}"; do
   view=(--place view --camera "$camera" --width "$width" --stats "$folder/stats.json")
-  earlier=(--accuracy "$accuracy" --rays "$rays")
+  earlier=()
   [[ ! -f $base.radiance ]] || earlier=(--add-to "$base.radiance")
-  phos-radiance "$scene" "$base.photons" "$base.brdf" "${view[@]}" "${earlier[@]}" -o "$base.radiance"
+  phos-radiance "$scene" "$base.photons" "$base.brdf" "${view[@]}" --accuracy "$accuracy" --rays "$rays" "${earlier[@]}" \
+    -o "$base.radiance"
   line=$camera,$(count records),$(count records_new)
   earlier=()
   [[ ! -f $base.irradiance ]] || earlier=(--add-to "$base.irradiance")
