@@ -9,7 +9,7 @@
 #include "direct/light_cut.h"
 #include "direct/limits.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// How well direct light is to be known.
 struct DirectTarget {
@@ -58,4 +58,4 @@ class DirectReader {
   std::vector<std::uint32_t> aimed_;  // lights that are no part of the tree
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

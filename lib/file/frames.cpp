@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "file/limits.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 [[noreturn]] void refuse(const std::string& frames) {
@@ -150,4 +150,4 @@ FramePattern existing_sequence(const std::string& path, const FrameRange& range,
   return {folder + "/" + *patterns.begin(), where};
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -9,7 +9,7 @@
 #include "core/text/line.h"
 #include "file/limits.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -115,4 +115,4 @@ Json parse_json(std::string_view s, const std::string& where) {
   return std::move(builder.root);
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

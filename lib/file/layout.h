@@ -10,7 +10,7 @@
 #include "file/container.h"
 #include "file/limits.h"
 
-namespace phos {
+namespace phos::inline file {
 
 inline constexpr auto kMaxHeaderBytes = kMostHeaderBytes.as<std::size_t>();
 inline constexpr std::size_t kDataAlignment = 64;
@@ -42,4 +42,4 @@ std::span<const std::byte> phos_header_bytes(std::span<const std::byte> file);
 /// Does the file begin as a phos container does, and end within its header?
 bool is_cut_in_header(std::span<const std::byte> file);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "file/limits.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 bool read_number(const char*& at, const char* end, std::uint64_t& value) {
@@ -112,4 +112,4 @@ void refuse_other_run(const Shard& a, const Shard& b, const ShardKind& kind, con
 
 std::string key_of_whole(const Provenance& shard) { return shard.key.substr(0, shard.key.find(':')); }
 
-}  // namespace phos
+}  // namespace phos::inline file

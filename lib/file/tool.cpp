@@ -20,7 +20,7 @@
 #include "file/reuse.h"
 #include "file/standard_streams.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -284,4 +284,4 @@ Tool::Timer::~Timer() { tool_.stat("seconds." + name_, seconds()); }
 
 double Tool::Timer::seconds() const { return seconds_since(start_); }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -9,7 +9,7 @@
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr auto kMaxBounces =
@@ -251,4 +251,4 @@ void PathTracer::send_through_portals(const Bsdf& bsdf, const SurfacePoint& poin
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -10,7 +10,7 @@
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 namespace {
 
@@ -280,4 +280,4 @@ Rgb EyePathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) 
   return lux + kPi * sum.total();  // cos / density = pi
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -6,7 +6,7 @@
 #include "core/sampling.h"
 #include "scene/limits.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& width, std::int64_t& height) {
   const double aspect =
@@ -37,4 +37,4 @@ Vec2 subpixel_offset(int i, int n) {
   return i < centre ? Vec2(0.5f) : further_offset(i - centre, n - centre, 0);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -14,7 +14,7 @@
 #include "scene/inside_solid.h"
 #include "sense/limits.h"
 
-namespace phos {
+namespace phos::inline sense {
 namespace {
 
 constexpr auto kMostPoints = kMostGridPoints.as<double>();
@@ -351,4 +351,4 @@ Sensors workplane(const RayScene& rays, const GridOptions& grid) {
   return sensors;
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

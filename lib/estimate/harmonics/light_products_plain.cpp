@@ -3,7 +3,7 @@
 #include "core/processor.h"
 #include "estimate/harmonics/light_products.inc"
 
-namespace phos {
+namespace phos::inline estimate {
 
 const LightKernel& best_light_kernel() {
 #ifdef PHOS_ESTIMATE_AVX2
@@ -12,4 +12,4 @@ const LightKernel& best_light_kernel() {
   return light_kernel_plain;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -8,7 +8,7 @@
 #include "hsh/limits.h"
 #include "radiance/lobe_dot.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -229,4 +229,4 @@ int BrdfLookup::coefficients(const Vec3& wo, std::vector<float>& out) const {
   return n;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

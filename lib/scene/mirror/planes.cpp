@@ -11,7 +11,7 @@
 #include "scene/mirror/sight.h"
 #include "scene/offset.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr auto kMostPlanes = kMostMirrorPlanes.as<std::size_t>(),
@@ -204,4 +204,4 @@ Vec3 MirrorPlanes::image_of_direction(std::int32_t chain, const Vec3& towards) c
                                                              : image_of_direction(c.before, towards));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

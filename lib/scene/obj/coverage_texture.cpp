@@ -5,7 +5,7 @@
 
 #include "scene/limits.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A band of one texel across one along would take the memory of a square.
@@ -91,4 +91,4 @@ Texture without_alpha(const Texture& colour) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -12,7 +12,7 @@
 #include "scene/limits.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A byte holds no more than this (PNG: a bit a pixel, deflated 1032-fold); decoders would fill the rest of a
@@ -170,4 +170,4 @@ std::vector<std::int32_t> TexturePool::decode(Scene& scene) {
   return place;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

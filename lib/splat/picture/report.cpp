@@ -4,7 +4,7 @@
 
 #include "splat/limits.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 void put_stats(Tool& tool, const Rendering& rendering, const PictureGloss& gloss) {
@@ -84,4 +84,4 @@ void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& ta
         text("the noise asked for takes more than ", kMostNoiseRays.most, " rays a pixel; so many are sent"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

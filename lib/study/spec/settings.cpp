@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "study/limits.h"
 
-namespace phos {
+namespace phos::inline study {
 
 std::vector<Setting> expand_settings(const StudyFile& study) {
   constexpr auto kMost = kMostSettings.as<std::size_t>();
@@ -39,4 +39,4 @@ std::string describe(const StudyFile& study, const Setting& setting) {
   return words.empty() ? "as given" : words;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

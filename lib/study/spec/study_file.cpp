@@ -11,7 +11,7 @@
 #include "study/spec/sections.h"
 #include "study/spec/stages.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -157,4 +157,4 @@ StudyFile read_study(const std::string& path, const CommandRunner& runner) {
   return study;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study
