@@ -24,7 +24,8 @@ struct Row {
 };
 
 Row row_of(const Run& run, const std::string& name) {
-  for (const Json& row : parse_json(run.out, "doctor").find("checks")->as_array())
+  const Json all = parse_json(run.out, "doctor");
+  for (const Json& row : all.find("checks")->as_array())
     if (row.find("name")->as_string() == name)
       return {row.find("ok")->as_bool(), row.find("required")->as_bool(), row.find("found")->as_string(),
               row.find("remedy")->as_string()};

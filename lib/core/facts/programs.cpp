@@ -28,7 +28,7 @@ constexpr Program kPrograms[] = {
     {"phos-sense", "computes illuminance at sensor points, with its standard error", "scene, caches", ".csv"},
     {"phos-reference", "renders a scene by path tracing, to judge other stages by", "scene", ".exr, .csv"},
     {"phos-bands", "joins what was computed in bands of wavelength", ".exr, .csv", ".exr, .csv"},
-    {"phos-compare", "measures how far an image is from a reference", ".exr, .hdr", "text, JSON"},
+    {"phos-compare", "measures how far an image is from a reference", ".exr, .hdr", "text, JSON, .exr"},
     {"phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",
      ".exr, .hdr, .csv, luminaire", ".png, .hdr, .csv, .svg, video"},
     {"phos-plan", "chooses the pipeline and its settings for an error or a time", "scene", "shell script"},

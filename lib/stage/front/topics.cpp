@@ -111,7 +111,7 @@ std::string files() {
 
 /// Cut out of the help that a program has.
 std::string options() {
-  Tool tool("phos-X", "", "", 1);
+  Tool tool("phos-X", "", "", 1, Tool::Output::optional);
   tool.declare_common();
   const std::string help = tool.options().help();
   const std::size_t from = help.find("Common options:"), to = help.find("\nExit codes:");
