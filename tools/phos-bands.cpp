@@ -4,7 +4,7 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
-      "phos-bands", "joins what was computed in bands of wavelength",
+      program("phos-bands"),
       "Takes the results of every triplet of --bands N. Pictures (of phos-splat or phos-reference) become "
       "one "
       "in linear Rec.709, cd/m2, with the same layers. Tables of phos-sense become one: lux and its "

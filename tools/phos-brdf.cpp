@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-brdf", "projects glossy materials on hemispherical harmonics",
+  Tool tool(program("phos-brdf"),
             "For each glossy material of the scene, and each direction of view, finds the lowest order of "
             "harmonics that holds its cosine-weighted lobe, and the coefficients. Directions for which no "
             "order up to --max-order does are marked to be traced. Lambert parts, mirrors and smooth glass "

@@ -22,8 +22,7 @@ constexpr const char* kDescription =
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-compare", "measures how far an image is from a reference", kDescription,
-            stage::kCompareAlgorithm, Tool::Output::none);
+  Tool tool(program("phos-compare"), kDescription, stage::kCompareAlgorithm, Tool::Output::none);
   Options& o = tool.options();
   stage::CompareCommand c;
   o.input("IMAGE", c.image, "the image to be judged; with --flicker, a folder or a name with %04d");

@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-info", "says what a phos file holds and how it was made",
+  Tool tool(program("phos-info"),
             "Prints the kind of the file, the command, parameters and inputs that made it, and of each "
             "tensor its shape, "
             "unit and range. Also its rows as CSV, its points as PLY, and whether it is undamaged.",

@@ -4,7 +4,7 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
-      "phos-irradiance", "places irradiance records and estimates them from photons or rays",
+      program("phos-irradiance"),
       "Records are placed where photons landed, at given points, where a camera looks or on every surface, "
       "until "
       "each such place is within reach of one. A record holds the irradiance there with its standard error "

@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-merge", "joins the shards of a run into the file that the whole run would have made",
+  Tool tool(program("phos-merge"),
             "Takes every shard of one run of phos-photons (--shard 1/N ... N/N), or every part of one run of "
             "phos-irradiance (--place every --part 1/N ... N/N), in any order, and writes the file that the "
             "same command without --shard or --part writes: the same bytes, header included. Shards of other "

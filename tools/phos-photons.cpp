@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-photons", "traces photons from the lights and stores where they land",
+  Tool tool(program("phos-photons"),
             "Emits photons from every light of the scene, follows them from surface to surface (Russian "
             "roulette, no limit "
             "on bounces) and stores one at each surface they reach. The file holds the photons and a kd-tree "

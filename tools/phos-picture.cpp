@@ -21,8 +21,7 @@ constexpr const char* kDescription =
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",
-            kDescription, stage::kPictureAlgorithm);
+  Tool tool(program("phos-picture"), kDescription, stage::kPictureAlgorithm);
   tool.output_has_no_key();
   stage::PictureCommand asked;
   Options& options = tool.options();

@@ -6,7 +6,7 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
-      "phos-plan", "chooses the pipeline and its settings for an error or a time",
+      program("phos-plan"),
       text("Finds what the scene requires, makes a few small runs (the pilot) that tell noise from bias and "
            "fixed "
            "from growing times, and chooses the cheapest settings that meet the error, or the best that keep "

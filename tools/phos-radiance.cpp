@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-radiance", "places radiance records on glossy surfaces and estimates them",
+  Tool tool(program("phos-radiance"),
             "A radiance record holds the light that arrives from every direction, as hemispherical "
             "harmonics, with its standard error and gradients. Records are placed on materials whose lobes "
             "phos-brdf finds broad enough, each with the bands that its material needs, until each wanted "

@@ -4,7 +4,7 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
-      "phos-reference", "renders a scene by path tracing, to judge other stages by",
+      program("phos-reference"),
       "Unbiased path tracing with next-event estimation, multiple importance sampling and Russian "
       "roulette; it "
       "shares no estimator with the caches. --method bidirectional follows paths from the lamps too, and "

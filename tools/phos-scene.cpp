@@ -4,7 +4,7 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
-      "phos-scene", "checks a scene and says what computing its light requires",
+      program("phos-scene"),
       "Reads a glTF 2.0 or OBJ scene and prints its triangles, bounds, materials, lights with their lumens, "
       "cameras "
       "and animations; what its light requires, each with a reason; what computes the gloss of each glossy "

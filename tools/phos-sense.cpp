@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-sense", "illuminance at sensor points, with its standard error",
+  Tool tool(program("phos-sense"),
             "Direct light comes from shadow rays, indirect light from irradiance and radiance caches; where "
             "these have no "
             "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "

@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-splat", "renders a scene from its caches",
+  Tool tool(program("phos-splat"),
             "Draws every record of the caches over the visible surface, adds direct light by shadow rays and "
             "what mirrors, glass and glossy surfaces reflect, and writes an OpenEXR image with the layers "
             "beauty (R G B), direct, indirect, glossy, specular, emission, stderr, albedo in cd/m2, "

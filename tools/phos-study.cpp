@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-study", "measures what settings cost and what error they leave",
+  Tool tool(program("phos-study"),
             "Runs the stages that a study file (TOML) names, with every combination of the values that it "
             "lists, and judges pictures and lux against a reference. "
             "Sections [photons], [brdf], [radiance], [irradiance], [temporal], [splat] and [sense] hold "

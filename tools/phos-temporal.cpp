@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool("phos-temporal", "places records that live through the frames of an animation",
+  Tool tool(program("phos-temporal"),
             "Objects, lamps and the camera move: records are anchored to the surfaces that they lie on, and "
             "the light at "
             "each is computed at as few frames as its change allows, with the same random numbers at all of "

@@ -11,9 +11,12 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/facts/exit_codes.h"
+#include "core/facts/limit.h"
 #include "core/text/comma_list.h"
 #include "core/text/likeness.h"
 #include "core/text/named_files.h"
+#include "core/text/wrap.h"
 
 namespace phos {
 
@@ -69,23 +72,6 @@ T parse_number(const std::string& name, const std::string& s, const Range& range
   return v;
 }
 
-/// Breaks at spaces to `width` columns; every line after the first starts with `indent` spaces.
-std::string wrap(const std::string& s, std::size_t indent, std::size_t width) {
-  std::string out;
-  std::size_t column = indent;
-  std::istringstream words(s);
-  for (std::string word; words >> word;) {
-    if (column > indent && column + 1 + word.size() > width) {
-      out += '\n' + std::string(indent, ' ');
-      column = indent;
-    }
-    if (column > indent) out += ' ', ++column;
-    out += word;
-    column += word.size();
-  }
-  return out;
-}
-
 std::string roff(const std::string& s) {
   std::string out;
   for (const char c : s) {
@@ -101,16 +87,7 @@ std::string roff(const std::string& s) {
   return out;
 }
 
-constexpr std::pair<int, const char*> kExitCodes[] = {
-    {0, "done"},
-    {1, "a comparison or check failed"},
-    {2, "the command line is wrong"},
-    {3, "an input is unreadable, malformed or damaged, or the output cannot be written"},
-    {4, "inputs do not belong together"},
-    {5, "a numerical guard tripped more often than it may"},
-    {6, "memory ran out; what was there before is unchanged"},
-    {130, "interrupted; what was there before is unchanged"},
-};
+std::string exit_code(const ExitMeaning& row) { return std::to_string(static_cast<int>(row.code)); }
 
 }  // namespace
 
@@ -402,7 +379,7 @@ namespace {
 
 /// Any file, or a pipe; not without end.
 std::string options_text(const std::string& path) {
-  constexpr std::size_t kMost = 1 << 20;
+  constexpr auto kMost = kMostOptionsFileBytes.as<std::size_t>();
   std::ifstream in(path, std::ios::binary);
   std::string text(kMost + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -582,16 +559,11 @@ std::string Options::command() const {
 }
 
 std::string Options::help() const {
-  constexpr std::size_t kColumn = 28, kWidth = 100;
+  constexpr std::size_t kColumn = 28;
   std::string out = impl_->tool + " - " + impl_->summary + "\n\nUsage: " + impl_->usage() + "\n\n" +
-                    wrap(impl_->description, 0, kWidth) + "\n";
+                    wrap(impl_->description, 0) + "\n";
   const auto line = [&](const std::string& left, const std::string& right) {
-    std::string s = "  " + left;
-    if (s.size() + 2 > kColumn)
-      s += "\n" + std::string(kColumn, ' ');
-    else
-      s.resize(kColumn, ' ');
-    out += s + wrap(right, kColumn, kWidth) + "\n";
+    out += list_entry(left, right, kColumn);
   };
   bool heading = false;
   for (const Declaration& d : impl_->declarations) {
@@ -612,10 +584,9 @@ std::string Options::help() const {
   line("--options-json", "every option with its kind, unit, range, choices and default, for other programs");
   line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!impl_->examples.empty()) out += "\nExamples:\n";
-  for (const Example& e : impl_->examples)
-    out += "  " + e.command + "\n      " + wrap(e.what, 6, kWidth) + "\n";
+  for (const Example& e : impl_->examples) out += "  " + e.command + "\n      " + wrap(e.what, 6) + "\n";
   out += "\nExit codes:\n";
-  for (const auto& [code, what] : kExitCodes) line(std::to_string(code), what);
+  for (const ExitMeaning& row : exit_meanings()) line(exit_code(row), std::string(row.meaning));
   return out;
 }
 
@@ -641,7 +612,7 @@ std::string Options::manual() const {
   if (!impl_->examples.empty()) out += ".SH EXAMPLES\n";
   for (const Example& e : impl_->examples) entry(e.command, e.what);
   out += ".SH EXIT STATUS\n";
-  for (const auto& [code, what] : kExitCodes) entry(std::to_string(code), what);
+  for (const ExitMeaning& row : exit_meanings()) entry(exit_code(row), std::string(row.meaning));
   return out;
 }
 

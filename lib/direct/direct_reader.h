@@ -7,6 +7,7 @@
 
 #include "direct/direct_light.h"
 #include "direct/light_cut.h"
+#include "direct/limits.h"
 
 namespace phos::inline direct {
 
@@ -39,7 +40,7 @@ class DirectReader {
   DirectReading read(const SurfacePoint& at, const DirectTarget& target, std::uint64_t seed,
                      std::uint64_t item) const;
 
-  static constexpr int kMostRays = 4096;
+  static constexpr int kMostRays = kMostShadowRays.as<int>();
 
   /// Are lamps so many (more than 1000 that stand somewhere, and no mirror) that the target is met by a cut
   /// through their hierarchy (light_by_cut())?

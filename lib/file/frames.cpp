@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 namespace {
@@ -70,8 +71,9 @@ FrameRange parse_frames(const std::string& frames) {
   if (range.last < range.first)
     throw Error(ExitCode::usage, "--frames",
                 text(frames, " ends before it begins; give ", range.last, ":", range.first));
-  if (range.last > std::int64_t{1} << 30)
-    throw Error(ExitCode::usage, "--frames", text(frames, " is out of range; frames go up to 2^30"));
+  if (range.last > kMostFrame.most)
+    throw Error(ExitCode::usage, "--frames",
+                text(frames, " is out of range; frames go up to ", written(kMostFrame)));
   return range;
 }
 

@@ -9,13 +9,14 @@
 #include "core/interrupt.h"
 #include "core/origin.h"
 #include "file/inspect.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 
 namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 16;
-constexpr std::size_t kMostColumns = 4096;
+constexpr auto kMostColumns = kMostTableColumns.as<std::size_t>();
 
 template <class T>
 void append_number(std::string& out, T v) {

@@ -7,12 +7,11 @@
 
 #include "core/error.h"
 #include "core/text/line.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 
 namespace {
-
-constexpr std::size_t kMaxDepth = 256;
 
 /// Builds a Json from the parser's events. Returning false stops the parser.
 class Builder {
@@ -82,8 +81,8 @@ class Builder {
   };
 
   bool open(bool is_object) {
-    if (levels_.size() == kMaxDepth) {
-      error = text("nested deeper than ", kMaxDepth, " levels");
+    if (levels_.size() == kMostJsonLevels.as<std::size_t>()) {
+      error = text("nested deeper than ", written(kMostJsonLevels), " levels");
       return false;
     }
     levels_.push_back({is_object, {}, {}, {}});

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "file/container.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 
-inline constexpr std::size_t kMaxHeaderBytes = std::size_t{256} << 20;
+inline constexpr auto kMaxHeaderBytes = kMostHeaderBytes.as<std::size_t>();
 inline constexpr std::size_t kDataAlignment = 64;
 
 struct LayoutHeader {

@@ -4,11 +4,10 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 namespace {
-
-constexpr std::uint64_t kMostShares = 1u << 20;
 
 bool read_number(const char*& at, const char* end, std::uint64_t& value) {
   const auto [next, failure] = std::from_chars(at, end, value);
@@ -22,7 +21,7 @@ bool read_share(const std::string& text, Share& share) {
   const char *at = text.data(), *end = at + text.size();
   return read_number(at, end, share.index) && at != end && *at++ == '/' &&
          read_number(at, end, share.count) && at == end && share.index >= 1 && share.index <= share.count &&
-         share.count <= kMostShares;
+         share.count <= kMostShares.as<std::uint64_t>();
 }
 
 Shard open_shard(const std::string& path, const ShardKind& kind) {
@@ -82,8 +81,9 @@ void require_each_once(const std::vector<Shard>& shards, const ShardKind& kind) 
 Share parse_share(const std::string& option, const std::string& value) {
   Share share;
   if (value.empty() || read_share(value, share)) return share;
-  throw Error(ExitCode::usage, option,
-              text("\"", value, "\" is not K/N with 1 <= K <= N <= ", kMostShares, " (for instance 2/4)"));
+  throw Error(
+      ExitCode::usage, option,
+      text("\"", value, "\" is not K/N with 1 <= K <= N <= ", kMostShares.most, " (for instance 2/4)"));
 }
 
 ItemRange range_of(const Share& share, std::uint64_t total) {

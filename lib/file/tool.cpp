@@ -1,6 +1,5 @@
 #include "file/tool.h"
 
-#include <fcntl.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -11,37 +10,19 @@
 #include <iostream>
 #include <new>
 
+#include "core/facts/limit.h"
 #include "core/interrupt.h"
 #include "core/last_words.h"
 #include "core/parallel.h"
-#include "core/text/line.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
 #include "file/reuse.h"
+#include "file/standard_streams.h"
 
 namespace phos::inline file {
 
 namespace {
-
-void print_line(const std::string& line) {
-  const std::string whole = one_line(line) + '\n';  // one call, so that lines of several programs do not mix
-  std::fwrite(whole.data(), 1, whole.size(), stderr);
-}
-
-/// Makes a full disk behind a redirected stdout an error.
-void finish_stdout() {
-  std::cout.flush();
-  if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw Error(ExitCode::bad_input, "standard output",
-                "cannot write; free some space, or redirect it elsewhere");
-}
-
-/// A file opened while 0, 1 or 2 is closed would take that number, and messages would be written into it.
-void occupy_standard_streams() {
-  for (int fd = 0; fd <= 2; ++fd)
-    if (::fcntl(fd, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDWR));
-}
 
 /// Buffers of pictures and photons come and go; pages that the system takes back in between it must clear
 /// again, a sixth of a picture's time.
@@ -75,14 +56,17 @@ Tool::Tool(const std::string& name, const std::string& summary, const std::strin
   install_last_words();
 }
 
+Tool::Tool(const Program& program, const std::string& description, int algorithm, Output output)
+    : Tool(std::string(program.name), std::string(program.summary), description, algorithm, output) {}
+
 void Tool::declare_common() {
   options_.section("Common options");
   if (wants_output_ != Output::none)
     options_.file("output,o", output_, "where the result goes; it appears whole or not at all",
                   FileUse::written, wants_output_ == Output::required);
   options_.integer("threads", threads_, "N",
-                   "threads to use; 0 is all cores (the result does not depend on it)", {0, 4096, false},
-                   Recorded::no);
+                   "threads to use; 0 is all cores (the result does not depend on it)",
+                   {0, kMostThreads.as<double>(), false}, Recorded::no);
   options_.integer("seed", seed_, "N", "seed of the random numbers", kNotNegative);
   options_.file("stats", stats_path_, "write times, counts and memory to this file (JSON)", FileUse::written);
   options_.choice<ProgressMode>("progress", progress_,

@@ -11,6 +11,7 @@
 
 #include "core/counters.h"
 #include "core/error.h"
+#include "core/facts/programs.h"
 #include "core/json.h"
 #include "core/options.h"
 #include "core/progress.h"
@@ -21,7 +22,7 @@ namespace phos::inline file {
 
 /// One run of one program. Typical main:
 ///
-///   Tool tool("phos-photons", "traces photons ...", "long description", 1);
+///   Tool tool(program("phos-photons"), "long description", 1);
 ///   PhotonOptions options;  std::string scene_path;
 ///   tool.options().input("SCENE", scene_path, "glTF or OBJ scene");
 ///   declare_options(tool.options(), options);
@@ -39,8 +40,14 @@ class Tool {
   /// `algorithm` is raised whenever the same command would give other numbers: it invalidates --reuse.
   Tool(const std::string& name, const std::string& summary, const std::string& description, int algorithm,
        Output output = Output::required);
+  /// Of a row of the table of programs.
+  Tool(const Program& program, const std::string& description, int algorithm,
+       Output output = Output::required);
 
   Options& options() { return options_; }
+  /// Declares the options that programs share. run() does so; call it only for the help of a tool that does
+  /// not run.
+  void declare_common();
 
   /// Adds the common options (--threads --seed -o --stats --progress --quiet --verbose --reuse --why ...),
   /// parses, calls body, writes --stats, and turns every exception into one line on stderr and an exit code.
@@ -139,7 +146,6 @@ class Tool {
   Timer time(const std::string& name) { return Timer(*this, name); }
 
  private:
-  void declare_common();
   void begin();
   void require_frames_of_pattern() const;
   void refuse_shared_files();

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/processor.h"
 #define PHOS_HSH_KERNEL evaluate_batch_plain
 #define PHOS_HSH_GRADIENT_KERNEL evaluate_gradients_plain
 #include "hsh/basis_kernel.inc"
@@ -36,16 +37,6 @@ const BasisTables<Real>& basis_tables() {
   return tables;
 }
 
-namespace {
-
-#ifdef PHOS_HSH_AVX2
-/// Whether this machine can run what basis_avx2.cpp holds.
-const bool kAvx2 =
-    __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-#endif
-
-}  // namespace
-
 template <class Real>
 HarmonicBasis<Real>::HarmonicBasis(int order) : order_(order) {
   if (order < 1 || order > kMaxOrder) {
@@ -70,7 +61,7 @@ void HarmonicBasis<Real>::evaluate_batch(BasisKind kind, std::size_t n, const Re
                                          const Real* z, Real* out) const {
   const BasisTables<Real>& t = basis_tables<Real>();
 #ifdef PHOS_HSH_AVX2
-  if (kAvx2) return evaluate_batch_avx2(t, kind, order_, n, x, y, z, out);
+  if (has_avx2()) return evaluate_batch_avx2(t, kind, order_, n, x, y, z, out);
 #endif
   evaluate_batch_plain(t, kind, order_, n, x, y, z, out);
 }
@@ -80,7 +71,7 @@ void HarmonicBasis<Real>::evaluate_batch(BasisKind kind, std::size_t n, const Re
                                          const Real* z, Real* out, Real* gx, Real* gy, Real* gz) const {
   const BasisTables<Real>& t = basis_tables<Real>();
 #ifdef PHOS_HSH_AVX2
-  if (kAvx2) return evaluate_gradients_avx2(t, kind, order_, n, x, y, z, out, gx, gy, gz);
+  if (has_avx2()) return evaluate_gradients_avx2(t, kind, order_, n, x, y, z, out, gx, gy, gz);
 #endif
   evaluate_gradients_plain(t, kind, order_, n, x, y, z, out, gx, gy, gz);
 }

@@ -6,6 +6,7 @@
 
 #include "core/vector.h"
 #include "hsh/basis.h"
+#include "hsh/limits.h"
 
 namespace phos::inline hsh {
 
@@ -36,7 +37,7 @@ enum class HshRotation : unsigned char {
 /// thread; the same numbers for any number of threads.
 class HshRotator {
  public:
-  static constexpr int kMaxOrder = 30;
+  static constexpr int kMaxOrder = kMostOrder.as<int>();
   /// Throws Error(usage) for an order outside 1 .. 30, or max_beta outside [0, pi/2].
   HshRotator(int order, HshRotation method = HshRotation::constant_fill, float max_beta = 0.55f);
   ~HshRotator();

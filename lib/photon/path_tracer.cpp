@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "photon/limits.h"
 #include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
@@ -11,7 +12,8 @@
 namespace phos::inline photon {
 namespace {
 
-constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
+constexpr auto kMaxBounces =
+    kMostPhotonEvents.as<std::uint32_t>();  // the last that a random stream can number
 // Light that total reflection keeps in glass that absorbs nothing may stay for ever: from so many events on
 // it plays Russian roulette.
 constexpr std::uint32_t kLongInGlass = 16384;

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "file/shards.h"
 #include "place/placement.h"
+#include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/picture.h"
 
@@ -35,10 +36,11 @@ void declare_place_options(Options& options, PlacementOptions& p) {
   options.integer("passes", p.passes, "N", "passes over the candidates at most", {1, 100});
   options.text("camera", p.camera, "NAME", "with --place view: camera of the scene; the first if not given");
   options.integer("width", p.width, "PIXELS",
-                  "with --place view: width; 0: from the height and the camera's aspect", {0, 65536});
+                  "with --place view: width; 0: from the height and the camera's aspect",
+                  {0, kMostPictureSide.as<double>()});
   options.integer("height", p.height, "PIXELS",
                   "with --place view: height; 0: from the width; both 0: 1000 on the longer side",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.number(
       "min-radius-pixels", p.min_radius_pixels, "PIXELS",
       "with --place view: smallest radius as seen there, down to a quarter of it where indirect light is "

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "file/folder.h"
+#include "scene/limits.h"
 #include "scene/opening/find_portals.h"
 #include "scene/rays.h"
 
@@ -21,9 +22,9 @@ void declare_options(Options& options, PlanOptions& p) {
                      "what is wanted: a picture, lux at sensors, or both");
   options.text("camera", p.camera, "NAME", "camera of the scene; the first one if not given");
   options.integer("width", p.width, "PIXELS", "width; 0: from the height and the camera's aspect",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.integer("height", p.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.section("Sensors");
   options.file("sensors", p.points,
                "CSV with the columns x,y,z,nx,ny,nz and perhaps id, or six numbers a line");

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/sampling.h"
+#include "reference/limits.h"
 #include "reference/roulette.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
@@ -302,7 +303,7 @@ BidirectionalTracer::Next BidirectionalTracer::scatter(const Vertex& at, Walk& w
   if (!at.bsdf->sample(at.wo, u_lobe, random.uniform2(), next)) return Next::none;
   ++walk.events;
   walk.throughput *= next.weight;
-  if (!positive(walk.throughput) || walk.events >= kMostEvents) return Next::none;
+  if (!positive(walk.throughput) || walk.events >= kMostEvents.most) return Next::none;
   if (next.straight) return Next::straight;
   walk.every_lamp = samples_every_lamp(walk.scatterings);
   if (at.visible) {

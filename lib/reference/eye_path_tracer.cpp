@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "reference/limits.h"
 #include "reference/roulette.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
@@ -212,7 +213,7 @@ EyePathTracer::Next EyePathTracer::scatter(const SurfacePoint& point, const Bsdf
     // No event of the path: densities and distances count from where the ray began.
     walk.throughput *= next.weight;
     if (walk.scatterings == 0) walk.mirrored = true;  // the eye sees it through glass
-    return positive(walk.throughput) && walk.events < kMostEvents ? Next::straight : Next::none;
+    return positive(walk.throughput) && walk.events < kMostEvents.most ? Next::straight : Next::none;
   }
   if (!next.specular) walk.every_light = every_light;
   if (walk.scatterings == 0) {
@@ -228,7 +229,7 @@ EyePathTracer::Next EyePathTracer::scatter(const SurfacePoint& point, const Bsdf
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
   ++walk.scatterings;
   if (!survives(walk.scatterings, max_component(walk.throughput), random, walk.throughput)) return Next::none;
-  return positive(walk.throughput) && walk.events < kMostEvents ? Next::ray : Next::none;
+  return positive(walk.throughput) && walk.events < kMostEvents.most ? Next::ray : Next::none;
 }
 
 void EyePathTracer::follow(Walk walk, PathSample& sum, RandomStream& random) const {

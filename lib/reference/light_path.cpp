@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "reference/limits.h"
 #include "reference/roulette.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
@@ -85,7 +86,7 @@ bool LightTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Walk& wal
   ++walk.events;
   walk.flux *= next.weight;
   walk.straight = next.straight;
-  if (!(max_component(walk.flux) > 0) || walk.events >= kMostEvents) return false;
+  if (!(max_component(walk.flux) > 0) || walk.events >= kMostEvents.most) return false;
   if (next.straight) return true;
   ++walk.scatterings;
   if (options_.bounces >= 0 && walk.scatterings >= options_.bounces) return false;

@@ -1,4 +1,5 @@
 #include "reference/render.h"
+#include "scene/limits.h"
 #include "scene/picture.h"
 
 namespace phos::inline reference {
@@ -7,9 +8,9 @@ void declare_options(Options& options, ReferenceOptions& r) {
   options.section("Picture");
   options.text("camera", r.camera, "NAME", "camera of the scene; the first one if not given");
   options.integer("width", r.width, "PIXELS", "width; 0: from the height and the camera's aspect",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.integer("height", r.height, "PIXELS", "height; 0: from the width; both 0: 512 on the longer side",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.flag("illuminance", r.illuminance, "also the layer illuminance.Y, lx, by one more path a sample");
   options.section("Light");
   options.integer("samples", r.samples, "N", "paths a pixel (or a point); the most, if --error is given",

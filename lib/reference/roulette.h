@@ -13,9 +13,6 @@ namespace phos::inline reference {
 /// atrium). Survival stays below 1, so that paths end where nothing absorbs.
 inline constexpr std::int64_t kRouletteFrom = 4;
 inline constexpr float kMostSurvival = 0.999f;
-/// Scatterings and panes passed, at most: RandomStream counts so many bounces. Reached with probability
-/// kMostSurvival^65534 at most.
-inline constexpr std::int32_t kMostEvents = 65534;
 /// The bounce of the numbers that a path starts with.
 inline constexpr std::uint32_t kStartBounce = 0xffff;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/limits.h"
 #include "scene/shading_frame.h"
 
 namespace phos::inline scene {
@@ -254,9 +255,9 @@ void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const
     scene.events["normals repaired"] += n;
   }
   if (make_tangents && mesh.tangent.empty() && !mesh.uv0.empty()) make_tangents_from_uv(mesh);
-  if (scene.position.size() + mesh.position.size() > std::numeric_limits<std::int32_t>::max()) {
+  if (scene.position.size() + mesh.position.size() > kMostVertices.as<std::size_t>()) {
     throw Error(ExitCode::bad_input, scene.path,
-                "more than 2147483647 vertices; leave out part of the scene");
+                text("more than ", kMostVertices.most, " vertices; leave out part of the scene"));
   }
   Instance instance;
   instance.node = node;

@@ -12,11 +12,12 @@
 #include "core/sampling.h"
 #include "direct/direct_light.h"
 #include "scene/inside_solid.h"
+#include "sense/limits.h"
 
 namespace phos::inline sense {
 namespace {
 
-constexpr double kMostPoints = 1e8;
+constexpr auto kMostPoints = kMostGridPoints.as<double>();
 constexpr float kLevel = 0.99f;       // cosine between a floor and the vertical
 constexpr double kFloorShare = 0.01;  // of the plan that a floor covers at least
 constexpr float kFlat = 0.9999f;      // cosine between the pieces of one plane

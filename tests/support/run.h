@@ -53,11 +53,11 @@ inline std::string shared(const std::string& name) {
 /// A program started and not yet waited for.
 class Process {
  public:
-  /// arguments[0] is the tool without "phos-".
+  /// arguments[0] is the tool without "phos-", or "phos".
   explicit Process(const std::vector<std::string>& arguments, const std::string& folder = "") {
     files_ = scratch("run" + std::to_string(counter()++));
     std::vector<std::string> words = arguments;
-    words[0] = std::string(PHOS_TOOLS) + "/phos-" + words[0];
+    words[0] = std::string(PHOS_TOOLS) + (words[0] == "phos" ? "/" : "/phos-") + words[0];
     std::vector<char*> argv;
     for (std::string& w : words) argv.push_back(w.data());
     argv.push_back(nullptr);

@@ -1,5 +1,7 @@
 #include "hsh/turn/kernel.h"
 
+#include "core/processor.h"
+
 namespace phos::inline hsh {
 namespace {
 
@@ -23,9 +25,7 @@ PackedTurn pack(const Turn& turn) {
 
 TurnKernel* best_turn_kernel() {
 #ifdef PHOS_HSH_AVX2
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
-    return turn_avx2;
-  }
+  if (has_avx2()) return turn_avx2;
 #endif
   return turn_plain;
 }

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "photon/limits.h"
 #include "photon/tree/build.h"
 #include "photon/tree/check.h"
 #include "photon/tree/flann_compress.h"
@@ -24,7 +25,8 @@ using Tree = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
 // nothing.
 constexpr int kLeafSize = 16;
 constexpr std::size_t kCheckChunk = 1 << 16;
-constexpr auto kMostPoints = static_cast<std::size_t>(std::numeric_limits<int>::max());
+constexpr auto kMostPoints = kMostPhotons.as<std::size_t>();
+static_assert(kMostPhotons.most <= std::numeric_limits<int>::max(), "FLANN counts in int");
 
 // FLANN takes a mutable pointer but never writes through it (reorder = false).
 flann::Matrix<float> matrix(std::span<const Vec3> points) {
@@ -193,7 +195,8 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 void KdTree::require_fit(std::span<const Vec3> points) {
   if (points.size() > kMostPoints)
     throw Error(ExitCode::numerical, "",
-                text(points.size(), " photons are more than one map can hold (2147483647); use fewer paths"));
+                text(points.size(), " photons are more than one map can hold (", kMostPhotons.most,
+                     "); use fewer paths"));
   if (const std::size_t bad = count_out_of_range(points); bad > 0)
     throw Error(ExitCode::numerical, "",
                 text(bad, " of ", points.size(), " photon positions are not finite or beyond ",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hsh/basis.h"
+#include "hsh/limits.h"
 #include "radiance/lobe_dot.h"
 
 namespace phos::inline radiance {
@@ -60,7 +61,8 @@ void declare_options(Options& options, BrdfTableOptions& brdf) {
       "0.01 is 0.1",
       {0, 1});
   options.integer("max-order", brdf.max_order, "N",
-                  "highest order; for directions that need more see --too-sharp", {1, 30});
+                  "highest order; for directions that need more see --too-sharp",
+                  {1, kMostOrder.as<double>()});
   options.choice<TooSharp>(
       "too-sharp", brdf.too_sharp, {{"trace", TooSharp::trace}, {"cut", TooSharp::cut}},
       "directions that need a higher order are marked to be traced, or their bands are cut off there, which "

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/limits.h"
 #include "scene/luminaire/photometric_lines.h"
 
 namespace phos::inline scene {
@@ -57,7 +58,7 @@ class Reader {
   }
 
  private:
-  static constexpr std::size_t kMostAngles = 100000;
+  static constexpr auto kMostAngles = kMostPhotometryAngles.as<std::size_t>();
 
   void warn(const std::string& message) { file_.warnings.push_back(message); }
   [[noreturn]] void fail(const std::string& message) const {

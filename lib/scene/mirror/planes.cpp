@@ -5,6 +5,7 @@
 #include <cmath>
 #include <queue>
 
+#include "scene/limits.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/models.h"
 #include "scene/mirror/sight.h"
@@ -13,7 +14,8 @@
 namespace phos::inline scene {
 namespace {
 
-constexpr std::size_t kMostPlanes = 32, kMostChains = 256;
+constexpr auto kMostPlanes = kMostMirrorPlanes.as<std::size_t>(),
+               kMostChains = kMostMirrorChains.as<std::size_t>();
 /// Of planes that reflect less than this, panes for instance, few are taken: each costs shadow rays
 /// everywhere.
 constexpr float kWeak = 0.2f;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/limits.h"
+
 namespace phos::inline scene {
 namespace {
 
 /// A band of one texel across one along would take the memory of a square.
-constexpr std::int64_t kMostPixels = 1 << 26;
+constexpr std::int64_t kMostPixels = kMostTexturePixels.most;
 
 float coverage_of(const Vec4& texel, CoverageOf channel) {
   switch (channel) {

@@ -5,6 +5,7 @@
 
 #include "core/sampling.h"
 #include "scene/connected_parts.h"
+#include "scene/limits.h"
 #include "scene/material/passage.h"
 #include "scene/sky/access.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kFewestSlats = 3;
 constexpr std::size_t kMostTriangles = 512;  // of a slat
-constexpr std::size_t kMostSlats = 4096;     // of a scene; with more, none is looked for
 constexpr double kLeastLength = 3;           // of a slat, of its width
 constexpr double kFarthest = 3;              // from one slat to the next, of its width
 constexpr double kAlike = 0.01;              // lengths and ends, of the length
@@ -92,7 +92,7 @@ std::vector<Slat> find_slats(const Scene& scene) {
       for (std::size_t k = 0; k < 3; ++k) own.emplace_back(corner[3 * t + k]);
     Slat slat = slat_of(std::move(own));
     if (slat.length_m > 0) slats.push_back(std::move(slat));
-    if (slats.size() > kMostSlats) return {};
+    if (slats.size() > kMostSlats.as<std::size_t>()) return {};
   }
   return slats;
 }

@@ -2,19 +2,19 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "file/lfs_pointer.h"
+#include "scene/limits.h"
 #include "scene/texture/texture.h"
 
 namespace phos::inline scene {
 namespace {
 
-/// A side longer than this, or more pixels (1 GiB of texels), is a damaged header or a mistake.
-constexpr std::int64_t kMaxSide = 1 << 15, kMaxPixels = 1 << 26;
 /// A byte holds no more than this (PNG: a bit a pixel, deflated 1032-fold); decoders would fill the rest of a
 /// file that is cut off.
 constexpr std::int64_t kPixelsPerByte = 8256, kPixelsOfAnyFile = 1 << 20;
@@ -95,7 +95,8 @@ std::string decode_image(const std::string& bytes, bool srgb, Texture& texture) 
   if (is_lfs_pointer(bytes)) return text("is ", kLfsPointer);
   const Size size = header_size(bytes);
   if (size.width <= 0 || size.height <= 0) return "is neither PNG, JPEG, BMP nor TGA";
-  if (size.width > kMaxSide || size.height > kMaxSide || size.width * size.height > kMaxPixels) {
+  if (std::max(size.width, size.height) > kMostTextureSide.most ||
+      size.width * size.height > kMostTexturePixels.most) {
     return text("has ", size.width, " x ", size.height, " pixels, which is too large");
   }
   if (size.width * size.height > kPixelsOfAnyFile + kPixelsPerByte * static_cast<std::int64_t>(bytes.size()))

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/processor.h"
 #include "splat/cpu/gloss_kernel.h"
 #include "splat/gl/gloss_rows.h"
 #include "splat/splatter.h"
@@ -316,8 +317,7 @@ Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb&
 
 const GlossKernel& best_gloss_kernel() {
 #ifdef PHOS_SPLAT_AVX2
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    return gloss_kernel_avx2;
+  if (has_avx2()) return gloss_kernel_avx2;
 #endif
   return gloss_kernel_plain;
 }

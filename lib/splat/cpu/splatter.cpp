@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/processor.h"
 #include "splat/splatter.h"
 #include "splat/tiles.h"
 
@@ -84,9 +85,7 @@ PackedFootprint pack_footprint(const IrradianceRecord& r) {
 
 SplatKernels best_splat_kernels() {
 #ifdef PHOS_SPLAT_AVX2
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
-    return {splat_tile_avx2, splat_footprint_avx2};
-  }
+  if (has_avx2()) return {splat_tile_avx2, splat_footprint_avx2};
 #endif
   return {splat_tile_plain, splat_footprint_plain};
 }

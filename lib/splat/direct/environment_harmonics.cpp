@@ -8,14 +8,13 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hsh/basis.h"
+#include "hsh/limits.h"
 #include "hsh/quadrature.h"
 #include "hsh/rotation.h"
 
 namespace phos::inline splat {
 
 namespace {
-
-constexpr std::int64_t kMostOrder = 30;
 
 /// Points of a plane have one frame: each thread keeps its latest.
 struct Latest {
@@ -156,8 +155,9 @@ EnvironmentHarmonics::EnvironmentHarmonics(const Scene& scene, const Environment
       sh_order_(by == EnvironmentBy::sh ? order : 2 * order),
       tables_(tables.begin(), tables.end()),
       table_of_(scene.material.size(), -1) {
-  if (order < 1 || order > kMostOrder)
-    throw Error(ExitCode::usage, "", text("order ", order, " of an environment is not in 1 .. ", kMostOrder));
+  if (order < 1 || order > kMostOrder.most)
+    throw Error(ExitCode::usage, "",
+                text("order ", order, " of an environment is not in 1 .. ", kMostOrder.most));
   BrdfTableOptions options;
   options.max_order = order;
   for (const std::uint32_t material : glossy_materials(scene)) {

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "splat/limits.h"
 
 namespace phos::inline splat {
 namespace {
 
 constexpr std::int64_t kPilotSide = 128;  // pixels, of the longer side
 constexpr std::int64_t kPilotRays = 64;   // to one lamp; to each of many fewer
-constexpr std::int64_t kMost = 4096;
+constexpr std::int64_t kMost = kMostNoiseRays.most;
 constexpr double kKept = 0.98;  // of the differences, the smallest
 /// Light of a pixel, of the mean, below which noise shows no more.
 constexpr double kLeastLight = 0.1;

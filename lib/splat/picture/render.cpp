@@ -10,6 +10,8 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "file/atomic_file.h"
+#include "hsh/limits.h"
+#include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/picture.h"
 #include "splat/cpu/gloss_splatter.h"
@@ -80,9 +82,9 @@ void declare_options(Options& options, RenderOptions& r) {
   options.section("Picture");
   options.text("camera", r.camera, "NAME", "camera of the scene; the first one if not given");
   options.integer("width", r.width, "PIXELS", "width; 0: from the height and the camera's aspect",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.integer("height", r.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
-                  {0, 65536});
+                  {0, kMostPictureSide.as<double>()});
   options.integer("pixel-samples", r.pixel_samples, "N", "samples per pixel, averaged (anti-aliasing)",
                   {1, 4096});
   options.integer("edge-samples", r.edge_samples, "N",
@@ -146,7 +148,7 @@ void declare_options(Options& options, RenderOptions& r) {
       "a "
       "lobe is too sharp, it is traced); or by spherical ones, to compare");
   options.integer("environment-order", r.environment_order, "N",
-                  "bands of those harmonics: N x N coefficients", {1, 30});
+                  "bands of those harmonics: N x N coefficients", {1, kMostOrder.as<double>()});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
   declare_options(options, r.gloss);
   options.choice<SplatBy>(

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "splat/limits.h"
+
 namespace phos::inline splat {
 namespace {
 
@@ -77,7 +79,9 @@ void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& ta
   tool.stat("pilot noise, gloss", target.gloss);
   tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
                 " rays of gloss are sent"));
-  if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
+  if (!target.enough)
+    tool.warn(
+        text("the noise asked for takes more than ", kMostNoiseRays.most, " rays a pixel; so many are sent"));
 }
 
 }  // namespace phos::inline splat

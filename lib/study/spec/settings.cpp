@@ -1,11 +1,12 @@
 #include "study/spec/settings.h"
 
 #include "core/error.h"
+#include "study/limits.h"
 
 namespace phos::inline study {
 
 std::vector<Setting> expand_settings(const StudyFile& study) {
-  constexpr std::size_t kMost = 100000;
+  constexpr auto kMost = kMostSettings.as<std::size_t>();
   std::vector<std::size_t> counts{study.scenes.size(), study.cameras.size()};
   for (const Factor& f : study.factors) counts.push_back(f.words.size());
   std::size_t total = 1;

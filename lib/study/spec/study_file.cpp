@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "file/atomic_file.h"
+#include "study/limits.h"
 #include "study/spec/keys.h"
 #include "study/spec/sections.h"
 #include "study/spec/stages.h"
@@ -25,8 +26,8 @@ void read_own_section(const TomlFile& file, StudyFile& study) {
   const auto repeats = keys.integer("repeats", 1);
   if (repeats && !study.seeds.empty())
     keys.refuse("repeats", "contradicts seeds, which is given too; leave one out");
-  constexpr std::int64_t kMostRepeats = 100000;
-  if (repeats && *repeats > kMostRepeats) keys.refuse("repeats", text("must be at most ", kMostRepeats));
+  if (repeats && *repeats > kMostRepeats.most)
+    keys.refuse("repeats", text("must be at most ", kMostRepeats.most));
   if (study.seeds.empty())
     for (std::int64_t i = 0; i < repeats.value_or(1); ++i) study.seeds.push_back(i);
   if (const auto sensors = keys.word("sensors"))

@@ -1,0 +1,45 @@
+#include "core/facts/exit_codes.h"
+
+#include "core/text/markdown.h"
+
+namespace phos {
+namespace {
+
+constexpr ExitMeaning kMeanings[] = {
+    {ExitCode::done, "done", "", ""},
+    {ExitCode::check_failed, "a comparison or check failed",
+     "`phos-compare` beyond a limit; `phos-plan --run` that did not meet its error; an error among the "
+     "findings of `phos-scene --strict`; a requirement that `phos doctor` misses",
+     "the message names the limit"},
+    {ExitCode::usage, "the command line is wrong",
+     "an unknown option; an option that another one excludes; an output that is also an input", "`--help`"},
+    {ExitCode::bad_input, "an input is unreadable, malformed or damaged, or the output cannot be written",
+     "a truncated cache; a texture that is no picture; a full disk; with `--strict`, a scene of which "
+     "something is lost",
+     "make the file again"},
+    {ExitCode::mismatch, "inputs do not belong together",
+     "a cache of another version of the scene, of another sky, frame or triplet; a cache made with an "
+     "environment map, luminaires or spectra that the command does not give",
+     "run the earlier stage again; `--allow-mismatch` where you know better"},
+    {ExitCode::numerical, "a numerical guard tripped more often than it may",
+     "with `--strict`, light that an estimator is known to leave out",
+     "the message names lamp, way and remedy, or the event (`phos help events`)"},
+    {ExitCode::no_memory, "memory ran out; the former output is unchanged", "too many photons or pixels",
+     "fewer, or `--shard`"},
+    {ExitCode::interrupted, "interrupted (Ctrl-C, SIGTERM, SIGHUP); the former output is unchanged", "",
+     "run it again"},
+};
+
+}  // namespace
+
+std::span<const ExitMeaning> exit_meanings() { return kMeanings; }
+
+std::string exit_code_table() {
+  std::vector<std::vector<std::string>> rows;
+  for (const ExitMeaning& row : kMeanings)
+    rows.push_back({std::to_string(static_cast<int>(row.code)), std::string(row.meaning),
+                    std::string(row.cause), std::string(row.remedy)});
+  return markdown_table({"code", "meaning", "usual cause", "remedy"}, rows);
+}
+
+}  // namespace phos

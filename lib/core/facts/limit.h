@@ -1,0 +1,33 @@
+// A number that the code stops at: one object is the constant that the code compares with, the words of its
+// errors, and the row of docs/reference/limits.md and `phos help limits`. Each module has its own in
+// limits.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace phos {
+
+struct Limit {
+  std::string_view of;      ///< "pixels of a picture"; Markdown of one cell
+  std::int64_t most;        ///< itself allowed
+  std::string_view beyond;  ///< what happens above it: "exit code 2"
+
+  /// The number as another type. It must hold it.
+  template <class T>
+  constexpr T as() const {
+    return static_cast<T>(most);
+  }
+};
+
+/// "2^28" for powers of two from 2^13 on, "10^8" for powers of ten from 10^5 on, else all digits.
+std::string written(const Limit& limit);
+
+/// Of whole programs.
+inline constexpr Limit kMostThreads{"threads (`--threads`)", 4096, "exit code 2"};
+inline constexpr Limit kMostOptionsFileBytes{"bytes of a file of options (`@FILE`)", 1 << 20, "exit code 3"};
+
+inline constexpr const Limit* kCoreLimits[] = {&kMostThreads, &kMostOptionsFileBytes};
+
+}  // namespace phos

@@ -1,0 +1,19 @@
+// Work in a process of its own, so that neither a crash nor a hang of another's library ends this one.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace phos::stage {
+
+struct ChildResult {
+  bool done = false;
+  std::string said;  ///< on standard output, without the last line end; where not done: why, in a few words
+};
+
+/// Runs `work` in a child process whose standard output is gathered, and whose input and error lead nowhere.
+/// `work` returns, exits or replaces the process (exec); done: it returned, or ended with code 0, within
+/// `seconds`. An Error that it throws is its reason. Call it while this process has one thread.
+ChildResult in_child(const std::function<void()>& work, unsigned seconds);
+
+}  // namespace phos::stage
