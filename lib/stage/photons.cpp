@@ -65,7 +65,7 @@ void run(Tool& tool, const PhotonsCommand& asked) {
   report_openings(tool, *rays, options, !asked.scene.portals.empty());
   check_events(tool.counters(), totals);
   report(tool, totals);
-  const Provenance provenance = tool.provenance("photons", scene->hash, scene->parts);
+  const Provenance provenance = tool.provenance(FileKind::photons, scene->hash, scene->parts);
   if (!options.shard.empty()) {
     const Tool::Timer timer = tool.time("write");
     write_shard(tool.output(), photons, totals, options.shard, provenance);

@@ -86,7 +86,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   const bool stated = can_state_error(tool, both_ends ? std::vector<LightWay>() : ways, picture);
   if (!stated) picture.image = without_errors(picture.image);
   if (!scene.animation.empty()) picture.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
-  set_provenance(picture.image, tool.provenance("image", scene.hash, scene.parts));
+  set_provenance(picture.image, tool.provenance(FileKind::image, scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
   if (stated) picture.image.attributes["phos.error"] = shortest(picture.error);
   if (stated) tool.stat("error", picture.error);

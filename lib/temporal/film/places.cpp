@@ -142,7 +142,7 @@ void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std:
   FilmInfo info;
   info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
   info.gradients = TemporalGradients::interpolated;
-  IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
+  IrradianceCache known = cache_at(film_of(chains, info, task_.records.paths), look, light.scene());
   const std::vector<RecordSite> holes = holes_in_view(light.at(), known, task_.placement, task_.wanted,
                                                       task_.unwanted, kFilmItems + next_number_);
   next_number_ += static_cast<std::uint32_t>(holes.size());
