@@ -19,7 +19,7 @@
 #include "file/kinds/kind.h"
 #include "file/kinds/shape_pattern.h"
 
-namespace phos {
+namespace phos::inline file {
 
 struct Tensor {
   Dtype dtype = Dtype::f32;
@@ -124,4 +124,4 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
 
 static_assert(sizeof(Vec3) == 12);
 
-}  // namespace phos
+}  // namespace phos::inline file

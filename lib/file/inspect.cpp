@@ -9,7 +9,7 @@
 #include "core/parallel.h"
 #include "file/kinds/tensor_row.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -292,4 +292,4 @@ std::string canonical_text(const Container& file) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

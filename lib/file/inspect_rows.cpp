@@ -11,7 +11,7 @@
 #include "file/inspect.h"
 #include "file/kinds/shape_pattern.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -270,4 +270,4 @@ void write_ply(const Container& file, PlyFormat format, const Sink& sink) {
            [&](std::string& out, std::size_t i) { append_vertex(out, p, i, format); });
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 Json rgb(const Rgb& v) { return Json::Array{v.x, v.y, v.z}; }
@@ -197,4 +197,4 @@ void append(Flights& to, const FlightColumns& from) {
   join(to.direction, from.direction), join(to.length, from.length);
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

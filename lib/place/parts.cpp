@@ -5,7 +5,7 @@
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 const ShardKind kKind{FileKind::irradiance, FileForm::part, "cache",
@@ -186,4 +186,4 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
   return merged;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -11,7 +11,7 @@
 #include "radiance/check.h"
 #include "radiance/columns.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 constexpr const char* kOrderEntry = "order";  // of a header
@@ -240,4 +240,4 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
   return cache;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 constexpr std::uint64_t kAxes = AdaptiveFootprint::kAxes;
@@ -73,4 +73,4 @@ std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const Tens
   return footprints;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

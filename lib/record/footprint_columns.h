@@ -8,7 +8,7 @@
 #include "file/kinds/tensor_io.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// Holds the columns until the file is written.
 class FootprintColumns {
@@ -28,4 +28,4 @@ class FootprintColumns {
 std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const TensorReader& file,
                                                                       std::span<const Vec3> normal);
 
-}  // namespace phos
+}  // namespace phos::inline record

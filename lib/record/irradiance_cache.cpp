@@ -10,7 +10,7 @@
 #include "record/index.h"
 #include "scene/receiver.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 bool row_is_finite(const IrradianceRecord& r) {
@@ -240,4 +240,4 @@ IrradianceCache RecordColumns::cache() const {
 
 IrradianceCache read_irradiance(const Container& file) { return RecordColumns(file).cache(); }
 
-}  // namespace phos
+}  // namespace phos::inline record

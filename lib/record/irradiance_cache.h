@@ -16,7 +16,7 @@
 #include "record/header.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// One record. Gradients are absolute (docs/methods.md#a5), world space: row c is the gradient of channel c.
 struct IrradianceRecord {
@@ -256,4 +256,4 @@ class RecordTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline record
