@@ -192,7 +192,7 @@ Provenance from_metadata(const Metadata& m, const std::string& where) {
     if (!counters.is_null())
       for (const auto& [event, n] : counters.as_object()) {
         if (n.as_integer() < 0) throw std::runtime_error("a count below 0");
-        p.counters.count(event, static_cast<std::uint64_t>(n.as_integer()));
+        p.counters.add(event, static_cast<std::uint64_t>(n.as_integer()));
       }
   } catch (const Error& e) {
     throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());

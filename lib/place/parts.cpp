@@ -37,7 +37,7 @@ class RunEntry {
     const Json& value = find(name);
     if (!value.is_object()) refuse(name);
     Counters counters;
-    for (const auto& [event, n] : value.as_object()) counters.count(event, count(name, n));
+    for (const auto& [event, n] : value.as_object()) counters.add(event, count(name, n));
     return counters;
   }
   [[noreturn]] void refuse(const char* name) const {

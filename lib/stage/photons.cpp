@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/text/quantity.h"
+#include "photon/events.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 #include "scene/sky/access.h"
@@ -36,7 +37,7 @@ void report_openings(Tool& tool, const RayScene& rays, const PhotonOptions& opti
 
 void check_events(const Counters& counters, const PhotonTotals& totals) {
   const std::uint64_t trials = totals.stored + totals.paths;
-  for (const char* event : {kNonFiniteEvent, kTooLongEvent}) counters.require_allowed(event, trials);
+  for (const Event* event : {&kNonFiniteEvent, &kTooLongEvent}) counters.require_allowed(*event, trials);
 }
 
 }  // namespace

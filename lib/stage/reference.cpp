@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "image/image_provenance.h"
 #include "image/without_errors.h"
+#include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
@@ -57,8 +58,8 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   const MeasuredPoints measured = measure_points(rays, luminaires, points, method_of(reference),
                                                  ways_of(rays, luminaires, reference.path), options);
   tool.stat("samples", measured.samples);
-  if (measured.rejected > 0) tool.counters().count("non-finite sample", measured.rejected);
-  tool.counters().require_allowed("non-finite sample", measured.samples);
+  if (measured.rejected > 0) tool.counters().count(kNonFiniteSampleEvent, measured.rejected);
+  tool.counters().require_allowed(kNonFiniteSampleEvent, measured.samples);
   measured.doubts.tell(tool);
   write_text(tool, sensor_csv(points, measured.light, rays.scene().origin_m));
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <numeric>
 
+#include "temporal/events.h"
 #include "temporal/film/maker.h"
 #include "temporal/visible_places.h"
 
@@ -47,7 +48,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
       looked = f;
     }
     next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
-    if (places.lost() > 0) counters_.count("place without a surface", places.lost());
+    if (places.lost() > 0) counters_.count(kLostPlaceEvent, places.lost());
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (places.in_sight()[i])
         wanted.push_back(known[i]);
