@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
   options.choice<PlyFormat>("ply", asked.ply, {{"ascii", PlyFormat::ascii}, {"binary", PlyFormat::binary}},
                             "encoding of --points");
   options.flag("verify", asked.verify,
-               "print nothing: exit 0 if every checksum holds, 3 if not (--verbose says which)");
+               "print nothing: exit 0 if every checksum holds and every tensor is what its kind says, 3 if "
+               "not (--verbose says which)");
   options.file("output,o", asked.output, "print there instead of on standard output", FileUse::written);
   options.example("phos-info room.irradiance", "what it is, how it was made, and the range of each quantity");
   options.example("phos-info room.photons --dump position,flux > photons.csv",

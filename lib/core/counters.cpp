@@ -1,7 +1,6 @@
 #include "core/counters.h"
 
 #include "core/error.h"
-#include "core/events.h"
 #include "core/json.h"
 
 namespace phos {
@@ -11,12 +10,11 @@ std::uint64_t Counters::operator[](const std::string& event) const {
   return found == counts_.end() ? 0 : found->second;
 }
 
-void Counters::require_allowed(const std::string& name, std::uint64_t trials) const {
-  const Event& event = event_named(name);
-  const std::uint64_t n = (*this)[name], allowed = allowed_count(trials, event.share);
+void Counters::require_allowed(const Event& event, std::uint64_t trials) const {
+  const std::uint64_t n = (*this)[event], allowed = allowed_count(trials, event.share);
   if (event.share == 1 || n <= allowed) return;
   throw Error(ExitCode::numerical, "",
-              text(name, ": ", n, " in ", trials, ' ', event.trials, ", where at most ", allowed,
+              text(event.name, ": ", n, " in ", trials, ' ', event.trials, ", where at most ", allowed,
                    " are allowed (a share of ", shortest(event.share), "); ", event.remedy));
 }
 

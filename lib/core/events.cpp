@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/error.h"
@@ -10,56 +11,11 @@ namespace phos {
 
 namespace {
 
-constexpr double kAny = 1;
-constexpr double kRare = 1e-6;  // a rounding that went wrong, once in a million
-constexpr std::string_view kLookAtLights = "look for extreme values in materials and lights with phos-scene";
-
-constexpr Event kEvents[] = {
-    // Photons.
-    {"photon left the scene", kAny, "paths", ""},
-    {"photon with non-finite flux", kRare, "photons", "check the powers of the lights and the materials"},
-    {"photon path of 65535 bounces ended", kRare, "photons",
-     "a material reflects all of its light: lower its reflectance"},
-    // Estimates by rays.
-    {"non-finite sample", kRare, "samples", kLookAtLights},
-    {"non-finite BRDF value", kRare, "values",
-     "check the exponents, roughness and tables of the glossy materials"},
-    {"BRDF lobe not resolved by quadrature", kAny, "directions", ""},
-    {"BRDF with an albedo above 1", kAny, "directions", ""},
-    {"gathered paths cut", kAny, "rays", ""},
-    {"specular paths cut", kAny, "samples", ""},
-    {"gathered irradiance below zero", kAny, "records", ""},
-    {"gathered places without a record", kAny, "rays", ""},
-    {"gathered places beyond the reach of records", kAny, "rays", ""},
-    {"gathered glossy places without a radiance record", kAny, "rays", ""},
-    {"harmonic light below zero", kAny, "samples", ""},
-    // Records and their places.
-    {"records above the asked error", kAny, "records", ""},
-    {"records at an occlusion gradient", kAny, "records", ""},
-    {"records at a shadow edge", kAny, "records", ""},
-    {"records beside a wall", kAny, "records", ""},
-    {"records from a kernel", kAny, "records", ""},
-    {"records from the hull", kAny, "records", ""},
-    {"records fully lit", kAny, "records", ""},
-    {"records in the dark", kAny, "records", ""},
-    {"records probed", kAny, "records", ""},
-    {"records with degenerate hull", kAny, "records", ""},
-    {"records with shrunk zone", kAny, "records", ""},
-    {"records with too few photons", kAny, "records", ""},
-    {"records without photons", kAny, "records", ""},
-    {"axes of footprints left unresolved", kAny, "axes", ""},
-    {"candidates left uncovered", kAny, "candidates", ""},
-    {"radii clamped to a neighbour", kAny, "records", ""},
-    {"radii raised to the smallest", kAny, "records", ""},
-    {"sides inside solids passed over", kAny, "sides", ""},
-    // Films.
-    {"place without a surface", kAny, "places", ""},
-    {"record without a surface", kAny, "records", ""},
-    {"records traced one frame ahead", kAny, "records", ""},
-    // Pictures.
-    {"non-finite pixel", kAny, "pixels", ""},
-    {"point that cannot be shown", kAny, "points", ""},
-};
+/// Made when the first event is, whichever that is.
+std::map<std::string_view, const Event*>& registered() {
+  static std::map<std::string_view, const Event*> all;
+  return all;
+}
 
 /// log n! minus Stirling's formula for it.
 double stirling_error(double n) {
@@ -87,13 +43,16 @@ double log_probability(double n, double k, double p) {
 
 }  // namespace
 
-std::span<const Event> all_events() { return kEvents; }
+Event::Event(std::string_view its_name, std::string_view its_trials, double its_share,
+             std::string_view its_remedy)
+    : name(its_name), trials(its_trials), share(its_share), remedy(its_remedy) {
+  PHOS_CHECK(registered().emplace(name, this).second, "event \"", name, "\" is declared twice");
+}
 
-const Event& event_named(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kEvents), std::end(kEvents),
-                                   [&](const Event& event) { return event.name == name; });
-  PHOS_CHECK(found != std::end(kEvents), "\"", name, "\" is not in the table of events");
-  return *found;
+std::vector<const Event*> all_events() {
+  std::vector<const Event*> all;
+  for (const auto& [name, event] : registered()) all.push_back(event);
+  return all;
 }
 
 std::uint64_t allowed_count(std::uint64_t trials, double share) {

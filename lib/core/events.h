@@ -1,25 +1,34 @@
-// Every numerical event that a tool counts, in one table: what it says, how often it may happen, and what to
-// do where it happens more often.
+// Numerical events: each module declares those that it counts in its events.h: what an event says, how often
+// it may happen, and what to do where it happens more often.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
+#include <vector>
 
 namespace phos {
 
-struct Event {
-  std::string_view name;
-  /// The probability with which one trial may have it. 1: it says something of the scene or of the settings,
-  /// and is no fault however often it comes.
-  double share;
-  std::string_view trials;  ///< what a trial is, in the plural ("samples")
-  std::string_view remedy;  ///< of an event whose share is below 1
+/// An event. Declared once, as a constant that lives as long as the program; two of one name abort.
+class Event {
+ public:
+  /// One that says something of the scene or of the settings, and is no fault however often it comes.
+  /// `trials`: what a trial is, in the plural ("samples").
+  Event(std::string_view name, std::string_view trials) : Event(name, trials, 1, "") {}
+  /// A fault that one trial may have with the probability `share`, which is below 1.
+  Event(std::string_view name, std::string_view trials, double share, std::string_view remedy);
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+
+  const std::string_view name, trials;
+  const double share;
+  const std::string_view remedy;  ///< "" where the share is 1
 };
 
-std::span<const Event> all_events();
-/// Aborts for a name that is not in the table.
-const Event& event_named(std::string_view name);
+/// The share of a rounding that went wrong, once in a million.
+inline constexpr double kRare = 1e-6;
+
+/// Every event that the program declares, by name.
+std::vector<const Event*> all_events();
 
 /// The most events that `trials` of probability `share` have in all but 1e-4 of such runs: the upper 99.99 %
 /// quantile of the binomial distribution. `share` in [0, 1].

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "estimate/events.h"
 #include "estimate/next_surface.h"
 #include "estimate/record_of.h"
 
 namespace phos::inline estimate {
 namespace {
 
-constexpr const char* kWithoutPhotons = "records without photons";
 // A record reaches at least this part of the zone whose photons it has, as far as edges let it: nearer
 // records would tell the same tale (docs/methods.md#z3). Surroundings nearer than that have had their say:
 // they made the zone small.
@@ -104,27 +104,27 @@ ZoneEstimate DensityEstimator::by_hull(Zone& at, Scratch& s) const {
       gather(at, s);
       continue;
     }
-    const auto count = [&](bool happened, const char* event) {
+    const auto count = [&](bool happened, const Event& event) {
       if (happened) s.counters.count(event);
     };
-    count(zone.kind == ZoneKind::few, "records with too few photons");
-    count(zone.kind == ZoneKind::full, "records fully lit");
-    count(zone.kind == ZoneKind::hull, "records from the hull");
-    count(zone.kind == ZoneKind::dark, "records in the dark");
-    count(zone.degenerate, "records with degenerate hull");
-    count(shrunk, "records with shrunk zone");
-    count(photons.size() == 0, kWithoutPhotons);
-    count(zone.probed, "records probed");
-    count(place.parted, "records beside a wall");
-    count(std::isfinite(zone.edge_m), "records at a shadow edge");
+    count(zone.kind == ZoneKind::few, kTooFewPhotonsEvent);
+    count(zone.kind == ZoneKind::full, kFullyLitEvent);
+    count(zone.kind == ZoneKind::hull, kFromHullEvent);
+    count(zone.kind == ZoneKind::dark, kInDarkEvent);
+    count(zone.degenerate, kDegenerateHullEvent);
+    count(shrunk, kShrunkZoneEvent);
+    count(photons.size() == 0, kWithoutPhotonsEvent);
+    count(zone.probed, kProbedEvent);
+    count(place.parted, kBesideWallEvent);
+    count(std::isfinite(zone.edge_m), kShadowEdgeEvent);
     return zone;
   }
 }
 
 ZoneEstimate DensityEstimator::by_kernel(const Zone& at, Scratch& s) const {
   const ZonePhotons& photons = s.gathered.zone;
-  s.counters.count("records from a kernel");
-  if (photons.size() == 0) s.counters.count(kWithoutPhotons);
+  s.counters.count(kFromKernelEvent);
+  if (photons.size() == 0) s.counters.count(kWithoutPhotonsEvent);
   return kernel_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, options_.kernel, s.density);
 }
 
@@ -269,7 +269,7 @@ void DensityEstimator::fill(const ZonePlace& place, const ZoneEstimate& zone, fl
   // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
   // the records of a Cornell box or Sponza), and errors there were the same with it.
   if (known.z2 > kOccludedZ2 && zone.kind != ZoneKind::kernel) {
-    s.counters.count("records at an occlusion gradient");
+    s.counters.count(kOcclusionEvent);
   }
   const float within = within_gradient_m(record.irradiance, known.analytic.translation, record.radius_m);
   record.radius_m = std::max(within, std::min(record.radius_m, kReach * zone_radius_m / a));
@@ -316,7 +316,7 @@ Rgb DensityEstimator::irradiance_lx(const RecordSite& at, Worker& worker) const 
   auto& s = static_cast<Scratch&>(worker);
   const Zone zone = zone_about(at, s);
   if (s.gathered.zone.size() > 0 || at.photon != kNoPhoton) return make_of(at, zone, s).record.irradiance;
-  s.counters.count(kWithoutPhotons);
+  s.counters.count(kWithoutPhotonsEvent);
   return Rgb(0);
 }
 

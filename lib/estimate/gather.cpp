@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "estimate/events.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 
 namespace phos::inline estimate {
@@ -149,7 +150,7 @@ std::size_t GatherEstimator::Impl::sample_all(const GatherEstimator& self, const
     // Two passes at least: light that one of them missed has a second chance.
     if (enough && pass > 0) return pass + 1;
     if (static_cast<double>(options.rays) - rays < static_cast<double>(kFirstPass)) {
-      if (!enough) w.counters.count("records above the asked error");
+      if (!enough) w.counters.count(kAboveErrorEvent);
       return pass + 1;
     }
   }

@@ -9,6 +9,7 @@
 #include "direct/image_sampler.h"
 #include "direct/lamp_sampler.h"
 #include "direct/lamp_sequence.h"
+#include "estimate/events.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
@@ -17,9 +18,6 @@
 namespace phos::inline estimate {
 namespace {
 
-constexpr const char* kWithoutRecord = "gathered places without a record";
-constexpr const char* kWithoutRadiance = "gathered glossy places without a radiance record";
-constexpr const char* kBeyondReach = "gathered places beyond the reach of records";
 // Walks over gloss and mirrors end by Russian roulette from this reflection on.
 constexpr std::uint32_t kRouletteFrom = 2;
 constexpr float kMostSurvival = 0.999f;
@@ -488,7 +486,7 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     }
     if (reflection == kMostReflections || worker.dark >= kMostDark ||
         max_component(glm::abs(throughput)) > kMostThroughput) {
-      worker.counters.count("gathered paths cut");
+      worker.counters.count(kPathsCutEvent);
       break;
     }
     point = next;
@@ -558,9 +556,9 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
     }
     if (arrived) h.lamps.add(radiance - other.radiance, kOfWhichOneTells);
   }
-  if (worker.without_record > 0) worker.counters.count(kWithoutRecord, worker.without_record);
-  if (worker.beyond_reach > 0) worker.counters.count(kBeyondReach, worker.beyond_reach);
-  if (worker.without_radiance > 0) worker.counters.count(kWithoutRadiance, worker.without_radiance);
+  if (worker.without_record > 0) worker.counters.count(kWithoutRecordEvent, worker.without_record);
+  if (worker.beyond_reach > 0) worker.counters.count(kBeyondReachEvent, worker.beyond_reach);
+  if (worker.without_radiance > 0) worker.counters.count(kWithoutRadianceEvent, worker.without_radiance);
   worker.without_record = worker.beyond_reach = worker.without_radiance = 0;
   if (worker.fallback) {
     worker.counters.merge(worker.fallback->counters);

@@ -14,7 +14,8 @@ const Names<Estimate> kEstimates{{"hull", Estimate::hull},
                                  {"kernel", Estimate::kernel},
                                  {"gather", Estimate::gather},
                                  {"raster", Estimate::raster}};
-const Names<Quantity> kQuantities{{"indirect", Quantity::indirect}, {"all", Quantity::all}};
+const Names<Quantity> kQuantities{{name_of(Quantity::indirect), Quantity::indirect},
+                                  {name_of(Quantity::all), Quantity::all}};
 const Names<GradientMode> kGradients{{"auto", GradientMode::automatic},
                                      {"analytic", GradientMode::analytic},
                                      {"hybrid", GradientMode::hybrid},
@@ -141,8 +142,6 @@ void declare_gather_options(Options& options, RecordOptions& r) {
       "harmonic mean distance that the light comes from, or from the least distance",
       Adopted::estimate);
 }
-
-const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
 
 void declare_options(Options& options, RecordOptions& r) {
   options.section("Records");

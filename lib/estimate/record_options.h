@@ -7,18 +7,13 @@
 #include "core/options.h"
 #include "estimate/zone/gradients.h"
 #include "photon/density.h"
+#include "record/header.h"
 
 namespace phos::inline estimate {
 
-enum class Quantity {
-  indirect,  ///< all light but that straight from a lamp
-  all,
-};
 struct RecordOptions;
 /// Do its records count photons, and nothing else? They are then of places where photons land.
 bool of_photons_alone(const RecordOptions& records);
-/// As a file names it (IrradianceCache::quantity).
-const char* name_of(Quantity quantity);
 enum class Estimate {
   hull,    ///< photons over the area of their convex hull (docs/methods.md#c1, #c2)
   kernel,  ///< photons over a disc, or weighted by a kernel: the classical comparison (docs/methods.md#c4)

@@ -4,6 +4,7 @@
 
 #include "core/sampling.h"
 #include "core/sequence_error.h"
+#include "estimate/events.h"
 #include "scene/mirror/images.h"
 
 namespace phos::inline estimate {
@@ -305,7 +306,7 @@ Rgb Shading::specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& w
   for (int b = first; b < end; ++b) {
     const Rgb carried = throughput * branch[b].weight;
     if (depth >= options_.specular_depth || max_component(glm::abs(carried)) < kLeastThroughput) {
-      log.counters.count("specular paths cut");
+      log.counters.count(kSpecularPathsCutEvent);
       continue;
     }
     SurfacePoint hit;

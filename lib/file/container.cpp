@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
+#include "file/kinds/sound.h"
 #include "file/layout.h"
 #include "file/mapped_file.h"
 
@@ -59,26 +60,26 @@ std::map<std::string, std::string> strings_by_name(const Metadata& metadata, con
   return out;
 }
 
-std::string shape_text(const Shape& shape, bool pattern = false) {
+/// 0 is any extent.
+std::string pattern_words(const Shape& shape) {
   std::string out;
-  for (const std::uint64_t n : shape) {
-    if (!out.empty()) out += ',';
-    out += pattern && n == 0 ? std::string("n") : std::to_string(n);
-  }
+  for (const std::uint64_t n : shape) out += text(out.empty() ? "" : ",", n == 0 ? "n" : std::to_string(n));
   return text('[', out, ']');
 }
 
-bool fits(const Shape& shape, const Shape& pattern) {
+bool has_extents(const Shape& shape, const Shape& pattern) {
   return std::equal(shape.begin(), shape.end(), pattern.begin(), pattern.end(),
                     [](std::uint64_t n, std::uint64_t wanted) { return wanted == 0 || n == wanted; });
 }
 
 void check_version(const Provenance& p, const std::string& where) {
-  if (p.version == kLayoutVersion) return;
-  throw Error(ExitCode::bad_input, where,
-              text("is of format phos/", p.kind, '/', p.version, ", this program reads phos/", p.kind, '/',
-                   kLayoutVersion, "; rerun the command that made it, or use a phos of that version",
-                   p.tool.empty() ? "" : " (it was made by " + p.tool + ")"));
+  const int known = row_of(p.kind).version;
+  if (p.version == known) return;
+  throw Error(
+      ExitCode::bad_input, where,
+      text("is of format phos/", name_of(p.kind), '/', p.version, ", this program reads phos/",
+           name_of(p.kind), '/', known, "; rerun the command that made it, or use a phos of that version",
+           p.tool.empty() ? "" : " (it was made by " + p.tool + ")"));
 }
 
 }  // namespace
@@ -90,24 +91,24 @@ std::uint64_t Tensor::elements() const {
 }
 
 struct Container::Impl {
-  Impl(const std::string& path, const std::string& kind);
-  void check(const std::string& name, const Tensor& tensor) const;
+  Impl(const std::string& path, std::optional<FileKind> kind);
 
   std::string path;
   MappedFile file;
   Provenance provenance;
   std::map<std::string, Tensor> tensors;
   std::map<std::string, std::string> checksums;
-  mutable std::atomic<bool> verified = false;  ///< all of it, so that nobody needs to again
+  mutable std::atomic<bool> verified = false, sound = false;  ///< all of it, so that nobody needs to again
 };
 
-Container::Impl::Impl(const std::string& p, const std::string& kind) : path(p), file(p) {
+Container::Impl::Impl(const std::string& p, std::optional<FileKind> kind) : path(p), file(p) {
   const LayoutHeader header = read_layout_header(file.bytes(), path);
   provenance = from_metadata(header.metadata, path);
   check_version(provenance, path);
-  if (!kind.empty() && provenance.kind != kind)
+  if (kind && provenance.kind != *kind)
     throw Error(ExitCode::bad_input, path,
-                text("is a ", provenance.kind, " file, not ", kind, "; give what phos-", kind, " writes"));
+                text("is a ", name_of(provenance.kind), " file, not ", name_of(*kind), "; give what phos-",
+                     name_of(*kind), " writes"));
   tensors = read_layout_tensors(header, file.bytes(), path);
   checksums = strings_by_name(header.metadata, kChecksums, path);
   const std::map<std::string, std::string> units = strings_by_name(header.metadata, kUnits, path);
@@ -123,14 +124,7 @@ Container::Impl::Impl(const std::string& p, const std::string& kind) : path(p), 
                 "damaged: its header has changed since it was written; rerun the command that made it");
 }
 
-void Container::Impl::check(const std::string& name, const Tensor& tensor) const {
-  if (hash_bytes(tensor.bytes).hex() == checksums.at(name)) return;
-  throw Error(ExitCode::bad_input, path,
-              text("damaged: tensor \"", name,
-                   "\" has changed since it was written; rerun the command that made it"));
-}
-
-Container Container::open(const std::string& path, const std::string& kind) {
+Container Container::open(const std::string& path, std::optional<FileKind> kind) {
   Container container;
   container.impl_ = std::make_shared<const Impl>(path, kind);
   return container;
@@ -142,30 +136,36 @@ bool Container::has(const std::string& tensor) const { return impl_->tensors.con
 const std::map<std::string, Tensor>& Container::tensors() const { return impl_->tensors; }
 
 const Tensor& Container::require(const std::string& name, Dtype dtype, const Shape& shape) const {
-  const auto found = impl_->tensors.find(name);
-  if (found == impl_->tensors.end())
+  const Tensor& t = require_tensor(*this, name);
+  if (t.dtype != dtype || !has_extents(t.shape, shape))
     throw Error(ExitCode::bad_input, path(),
-                text("has no tensor \"", name, "\"; rerun the command that made it"));
-  const Tensor& t = found->second;
-  if (t.dtype != dtype || !fits(t.shape, shape))
-    throw Error(ExitCode::bad_input, path(),
-                text("tensor \"", name, "\" is ", dtype_name(t.dtype), shape_text(t.shape), ", not ",
-                     dtype_name(dtype), shape_text(shape, true), "; rerun the command that made it"));
+                text("tensor \"", name, "\" is ", dtype_name(t.dtype), shape_words(t.shape), ", not ",
+                     dtype_name(dtype), pattern_words(shape), "; rerun the command that made it"));
   return t;
 }
 
 void Container::verify() const {
   if (impl_->verified) return;
-  for (const auto& [name, tensor] : impl_->tensors) impl_->check(name, tensor);
+  std::vector<const std::pair<const std::string, Tensor>*> all;
+  for (const auto& named : impl_->tensors) all.push_back(&named);
+  std::vector<char> changed(all.size());
+  parallel_for(all.size(), 1, [&](std::size_t i) {
+    changed[i] = hash_bytes(all[i]->second.bytes).hex() != impl_->checksums.at(all[i]->first);
+  });
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (changed[i])
+      throw Error(ExitCode::bad_input, path(),
+                  text("damaged: tensor \"", all[i]->first,
+                       "\" has changed since it was written; rerun the command that made it"));
   impl_->verified = true;
 }
 
-void Container::verify(const std::string& name) const {
-  const auto found = impl_->tensors.find(name);
-  if (found == impl_->tensors.end())
-    throw Error(ExitCode::bad_input, path(),
-                text("has no tensor \"", name, "\"; rerun the command that made it"));
-  impl_->check(name, found->second);
+void Container::require_sound() const {
+  if (impl_->sound) return;
+  require_layout(*this);
+  verify();
+  require_sound_numbers(*this);
+  impl_->sound = true;
 }
 
 bool is_container(const std::string& path) {
@@ -179,11 +179,11 @@ bool is_container(const std::string& path) {
   }
 }
 
-void ContainerWriter::add_tensor(const std::string& name, Tensor tensor) {
+void ContainerWriter::add(const std::string& name, Tensor tensor) {
   PHOS_CHECK(!name.empty() && name != kHeaderChecksum, name);
   PHOS_CHECK(!tensors_.contains(name), name, " is added twice");
   PHOS_CHECK(tensor.elements() * dtype_size(tensor.dtype) == tensor.bytes.size(), name,
-             shape_text(tensor.shape), " of ", dtype_name(tensor.dtype), " with ", tensor.bytes.size(),
+             shape_words(tensor.shape), " of ", dtype_name(tensor.dtype), " with ", tensor.bytes.size(),
              " bytes");
   tensors_[name] = std::move(tensor);
 }

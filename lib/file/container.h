@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,50 +14,12 @@
 #include "core/counters.h"
 #include "core/json.h"
 #include "core/vector.h"
+#include "file/dtype.h"
 #include "file/hash.h"
+#include "file/kinds/kind.h"
+#include "file/kinds/shape_pattern.h"
 
 namespace phos::inline file {
-
-enum class Dtype { u8, u16, i32, u32, i64, u64, f32, f64 };
-std::size_t dtype_size(Dtype);
-const char* dtype_name(Dtype);  ///< "U8", "F32", ... as safetensors writes them
-
-template <class T>
-constexpr Dtype dtype_of();
-template <>
-constexpr Dtype dtype_of<std::uint8_t>() {
-  return Dtype::u8;
-}
-template <>
-constexpr Dtype dtype_of<std::uint16_t>() {
-  return Dtype::u16;
-}
-template <>
-constexpr Dtype dtype_of<std::int32_t>() {
-  return Dtype::i32;
-}
-template <>
-constexpr Dtype dtype_of<std::uint32_t>() {
-  return Dtype::u32;
-}
-template <>
-constexpr Dtype dtype_of<std::int64_t>() {
-  return Dtype::i64;
-}
-template <>
-constexpr Dtype dtype_of<std::uint64_t>() {
-  return Dtype::u64;
-}
-template <>
-constexpr Dtype dtype_of<float>() {
-  return Dtype::f32;
-}
-template <>
-constexpr Dtype dtype_of<double>() {
-  return Dtype::f64;
-}
-
-using Shape = std::vector<std::uint64_t>;
 
 struct Tensor {
   Dtype dtype = Dtype::f32;
@@ -68,7 +31,7 @@ struct Tensor {
 
 /// What a file says about how it was made (its __metadata__). Nothing volatile.
 struct Provenance {
-  std::string kind;   ///< "photons", "irradiance", ...
+  FileKind kind = FileKind::image;
   int version = 1;    ///< of the kind's layout
   std::string tool;   ///< "phos-photons 0.1.0"
   int algorithm = 0;  ///< of the tool: raised when the same command would give other numbers; 0 = not stated
@@ -92,9 +55,6 @@ Provenance from_metadata(const Metadata& metadata, const std::string& where);
 /// What a later stage keeps of this one in its history.
 Json history_entry(const Provenance& provenance);
 
-/// The layout version of a kind that this library reads and writes.
-inline constexpr int kLayoutVersion = 1;
-
 /// Is this a phos file, or the beginning of one, which readers call truncated (by its content; false for a
 /// missing or unreadable one)?
 bool is_container(const std::string& path);
@@ -104,11 +64,14 @@ bool is_container(const std::string& path);
 class Container {
  public:
   /// Throws Error(bad_input) naming what is wrong: missing, not a phos file, truncated, damaged, another
-  /// major version. If `kind` is not empty, another kind is an error that names both.
-  static Container open(const std::string& path, const std::string& kind = "");
+  /// major version, a kind that this version does not know. Where a kind is given, another one is an error
+  /// that names both.
+  static Container open(const std::string& path, std::optional<FileKind> kind = {});
 
   const std::string& path() const;
   const Provenance& provenance() const;
+  FileKind kind() const { return provenance().kind; }
+  FileForm form() const { return form_of(provenance().extra); }
   bool has(const std::string& tensor) const;
   const std::map<std::string, Tensor>& tensors() const;
 
@@ -126,8 +89,9 @@ class Container {
   }
   /// Checks every tensor's checksum. Throws Error(bad_input) naming the first that differs.
   void verify() const;
-  /// Checks one tensor's checksum (before bytes go to a library that trusts them).
-  void verify(const std::string& name) const;
+  /// verify(), and is every tensor there, and its numbers what the table of the kind
+  /// (file/kinds/tensor_row.h) says? Throws Error(bad_input) naming the first that is not. Looks only once.
+  void require_sound() const;
 
  private:
   const Tensor& require(const std::string& name, Dtype dtype, const Shape& shape) const;
@@ -135,21 +99,22 @@ class Container {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Collects columns and writes them atomically. Spans must stay alive until write().
+/// Collects any columns and writes them atomically; TensorWriter (file/kinds/tensor_io.h) writes those of a
+/// kind. Spans must stay alive until write().
 class ContainerWriter {
  public:
   template <class T>
   void add(const std::string& name, std::span<const T> values, Shape shape, const std::string& unit) {
-    add_tensor(name, {dtype_of<T>(), std::move(shape), unit, std::as_bytes(values)});
+    add(name, {dtype_of<T>(), std::move(shape), unit, std::as_bytes(values)});
   }
   void add_vectors(const std::string& name, std::span<const Vec3> v, const std::string& unit) {
     add<float>(name, {reinterpret_cast<const float*>(v.data()), 3 * v.size()}, {v.size(), 3}, unit);
   }
+  void add(const std::string& name, Tensor tensor);
   /// Same tensors and provenance give the same bytes. Throws Error(bad_input) if it cannot be written.
   void write(const std::string& path, const Provenance& provenance) const;
 
  private:
-  void add_tensor(const std::string& name, Tensor tensor);
   std::map<std::string, Tensor> tensors_;
 };
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
+#include "file/kinds/tensor_row.h"
 
 namespace phos::inline file {
 
@@ -51,30 +52,11 @@ std::vector<Summary> summarise_as(const Tensor& tensor, std::size_t columns) {
 }
 
 std::vector<Summary> summarise(const Tensor& tensor, std::size_t columns) {
-  switch (tensor.dtype) {
-    case Dtype::u8:
-      return summarise_as<std::uint8_t>(tensor, columns);
-    case Dtype::u16:
-      return summarise_as<std::uint16_t>(tensor, columns);
-    case Dtype::i32:
-      return summarise_as<std::int32_t>(tensor, columns);
-    case Dtype::u32:
-      return summarise_as<std::uint32_t>(tensor, columns);
-    case Dtype::i64:
-      return summarise_as<std::int64_t>(tensor, columns);
-    case Dtype::u64:
-      return summarise_as<std::uint64_t>(tensor, columns);
-    case Dtype::f32:
-      return summarise_as<float>(tensor, columns);
-    case Dtype::f64:
-      return summarise_as<double>(tensor, columns);
-  }
-  return {};
+  return with_type_of(tensor.dtype, [&]<class T>(T) { return summarise_as<T>(tensor, columns); });
 }
 
-bool is_opaque(const std::string& name, const Tensor& tensor) {
-  return is_octahedral(tensor) || name == "kdtree";
-}
+/// Bytes of another program, and codes: as numbers they mean nothing.
+bool is_opaque(const Tensor& tensor) { return is_octahedral(tensor) || tensor.unit == kOpaqueUnit; }
 
 bool is_float(const Tensor& tensor) { return tensor.dtype == Dtype::f32 || tensor.dtype == Dtype::f64; }
 
@@ -93,7 +75,8 @@ Json per_column(const std::vector<Summary>& summaries, bool narrow, double (*val
   return all.size() == 1 ? all[0] : Json(all);
 }
 
-Json describe_tensor(const std::string& name, const Tensor& tensor) {
+/// `row`: null for a tensor that the table of the kind does not have.
+Json describe_tensor(const Tensor& tensor, const TensorRow* row) {
   Json out(Json::Object{});
   Json shape(Json::Array{});
   for (const std::uint64_t n : tensor.shape) shape.push_back(n);
@@ -101,7 +84,8 @@ Json describe_tensor(const std::string& name, const Tensor& tensor) {
   out["shape"] = shape;
   out["unit"] = tensor.unit;
   out["bytes"] = tensor.bytes.size();
-  if (is_opaque(name, tensor) || tensor.bytes.empty()) return out;
+  if (row != nullptr) out["meaning"] = std::string(row->meaning);
+  if (is_opaque(tensor) || tensor.bytes.empty()) return out;
   const bool by_column = tensor.shape.size() == 2 && tensor.shape[1] <= kMostColumns;
   const std::vector<Summary> summaries =
       summarise(tensor, by_column ? static_cast<std::size_t>(tensor.shape[1]) : 1);
@@ -204,11 +188,13 @@ std::string tensor_line(const Json& t, bool numbers) {
   std::string out = t.find("dtype")->as_string() + "  " + shape_text(*t.find("shape"));
   const std::string& unit = t.find("unit")->as_string();
   if (!unit.empty()) out += "  " + unit;
-  if (!numbers || t.find("min") == nullptr) return out;
-  out += "  min " + brief(*t.find("min")) + "  max " + brief(*t.find("max")) + "  mean " +
-         brief(*t.find("mean"));
+  if (!numbers) return out;
+  if (t.find("min") != nullptr)
+    out += "  min " + brief(*t.find("min")) + "  max " + brief(*t.find("max")) + "  mean " +
+           brief(*t.find("mean"));
   const Json* bad = t.find("non_finite");
   if (bad != nullptr && bad->as_integer() != 0) out += "  NOT FINITE: " + bad->dump();
+  if (const Json* meaning = t.find("meaning")) out += "  " + meaning->as_string();
   return out;
 }
 
@@ -224,7 +210,7 @@ Json object_or_empty(const Json& v) { return v.is_null() ? Json(Json::Object{}) 
 
 Json header_of(const Provenance& p) {
   Json out(Json::Object{});
-  out["kind"] = p.kind;
+  out["kind"] = name_of(p.kind);
   out["version"] = p.version;
   out["tool"] = p.tool;
   out["algorithm"] = p.algorithm;
@@ -244,12 +230,15 @@ Json header_of(const Provenance& p) {
 
 }  // namespace
 
-bool is_octahedral(const Tensor& tensor) { return tensor.dtype == Dtype::u32 && tensor.unit == "octahedral"; }
+bool is_octahedral(const Tensor& tensor) {
+  return tensor.dtype == Dtype::u32 && tensor.unit == kOctahedralUnit;
+}
 
 Json describe(const Container& file) {
   Json out = header_of(file.provenance());
   Json tensors(Json::Object{});
-  for (const auto& [name, tensor] : file.tensors()) tensors[name] = describe_tensor(name, tensor);
+  for (const auto& [name, tensor] : file.tensors())
+    tensors[name] = describe_tensor(tensor, find_row(file.kind(), name));
   out["tensors"] = tensors;
   return out;
 }
@@ -279,7 +268,7 @@ std::string describe_text(const Container& file) {
 std::string canonical_text(const Container& file) {
   const Provenance& p = file.provenance();
   std::string out;
-  line(out, "kind", text(p.kind, ' ', p.version));
+  line(out, "kind", text(name_of(p.kind), ' ', p.version));
   line(out, "tool", text(program(p.tool), " algorithm ", p.algorithm));
   line(out, "command", p.command);
   block(out, "parameters", p.parameters, [](const Json& v) { return v.dump(); });

@@ -13,9 +13,9 @@ namespace phos::inline file {
 /// Receives text piece by piece.
 using Sink = std::function<void(std::string_view)>;
 
-/// Header, and of each tensor dtype, shape, unit, and the least, greatest and mean finite value, with the
-/// number of non-finite ones. Tensors of 2 to 4 columns have one value per column. Octahedral codes and bytes
-/// of opaque blocks
+/// Header, and of each tensor dtype, shape, unit, meaning as the table of the kind says it, and the least,
+/// greatest and mean finite value, with the number of non-finite ones. Tensors of 2 to 4 columns have one
+/// value per column. Octahedral codes and bytes of opaque blocks
 /// ("kdtree") have none: as numbers they mean nothing. Same numbers on any number of threads.
 Json describe(const Container& file);
 

@@ -10,6 +10,7 @@
 #include "core/origin.h"
 #include "file/inspect.h"
 #include "file/limits.h"
+#include "file/kinds/shape_pattern.h"
 
 namespace phos::inline file {
 
@@ -33,47 +34,17 @@ T element(const Tensor& tensor, std::size_t i) {
 }
 
 void append_element(std::string& out, const Tensor& tensor, std::size_t i) {
-  switch (tensor.dtype) {
-    case Dtype::u8:
-      return append_number(out, element<std::uint8_t>(tensor, i));
-    case Dtype::u16:
-      return append_number(out, element<std::uint16_t>(tensor, i));
-    case Dtype::i32:
-      return append_number(out, element<std::int32_t>(tensor, i));
-    case Dtype::u32:
-      return append_number(out, element<std::uint32_t>(tensor, i));
-    case Dtype::i64:
-      return append_number(out, element<std::int64_t>(tensor, i));
-    case Dtype::u64:
-      return append_number(out, element<std::uint64_t>(tensor, i));
-    case Dtype::f32:
-      return append_number(out, element<float>(tensor, i));
-    case Dtype::f64:
-      return append_number(out, element<double>(tensor, i));
-  }
-}
-
-bool is_light(const std::string& unit) {
-  return unit.starts_with("lm") || unit.starts_with("lx") || unit.starts_with("cd");
-}
-
-/// Name of an index along dimension d. Light has colours first and then axes (a gradient is [row, colour,
-/// axis]), coefficients of reflection colours last ([row, function, colour]); the rest axes.
-std::string label(const Tensor& tensor, std::size_t d, std::uint64_t index) {
-  const bool reflection = tensor.unit == "1/sqrt(sr)";
-  const bool colour = reflection ? d + 1 == tensor.shape.size() : d == 1 && is_light(tensor.unit);
-  if (tensor.shape[d] != 3 || (reflection && !colour)) return std::to_string(index);
-  return std::string(1, colour ? "rgb"[index] : "xyz"[index]);
+  with_type_of(tensor.dtype, [&]<class T>(T) { append_number(out, element<T>(tensor, i)); });
 }
 
 /// One column name per element of a row.
-std::vector<std::string> column_names(const std::string& name, const Tensor& tensor) {
+std::vector<std::string> column_names(const std::string& name, const Tensor& tensor, const TensorRow* row) {
   std::vector<std::string> names{name};
   for (std::size_t d = 1; d < tensor.shape.size(); ++d) {
     std::vector<std::string> longer;
     for (const std::string& prefix : names)
       for (std::uint64_t i = 0; i < tensor.shape[d]; ++i)
-        longer.push_back(prefix + '.' + label(tensor, d, i));
+        longer.push_back(prefix + '.' + (row ? index_name(*row, d, i) : std::to_string(i)));
     names = std::move(longer);
   }
   return names;
@@ -107,7 +78,7 @@ Column make_column(const Container& file, const std::string& name, bool decode) 
   if (decode && is_octahedral(tensor) && tensor.shape.size() == 1)
     return {&tensor, {name + ".x", name + ".y", name + ".z"}, true, DVec3(0)};
   const bool places = name == "position" && tensor.dtype == Dtype::f32 && columns == 3;
-  return {&tensor, column_names(name, tensor), false,
+  return {&tensor, column_names(name, tensor, find_row(file.kind(), name)), false,
           places ? origin_in(file.provenance().scene_parts) : DVec3(0)};
 }
 
@@ -193,7 +164,7 @@ std::optional<Vec3> normal_of(const Points& p, std::size_t i) {
 std::string ply_header(const Container& file, const Points& p, PlyFormat format) {
   std::string out = "ply\nformat ";
   out += format == PlyFormat::ascii ? "ascii" : "binary_little_endian";
-  out += " 1.0\ncomment phos " + file.provenance().kind + "\nelement vertex ";
+  out += text(" 1.0\ncomment phos ", name_of(file.kind()), "\nelement vertex ");
   append_number(out, p.position.size());
   const bool far = p.origin_m != DVec3(0);  // floats could not say the places
   out += far ? "\nproperty double x\nproperty double y\nproperty double z\n"

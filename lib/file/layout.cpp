@@ -98,46 +98,6 @@ Extent read_entry(const std::string& name, const Json& entry, const std::string&
 
 }  // namespace
 
-std::size_t dtype_size(Dtype d) {
-  switch (d) {
-    case Dtype::u8:
-      return 1;
-    case Dtype::u16:
-      return 2;
-    case Dtype::i32:
-    case Dtype::u32:
-    case Dtype::f32:
-      return 4;
-    case Dtype::i64:
-    case Dtype::u64:
-    case Dtype::f64:
-      return 8;
-  }
-  return 0;
-}
-
-const char* dtype_name(Dtype d) {
-  switch (d) {
-    case Dtype::u8:
-      return "U8";
-    case Dtype::u16:
-      return "U16";
-    case Dtype::i32:
-      return "I32";
-    case Dtype::u32:
-      return "U32";
-    case Dtype::i64:
-      return "I64";
-    case Dtype::u64:
-      return "U64";
-    case Dtype::f32:
-      return "F32";
-    case Dtype::f64:
-      return "F64";
-  }
-  return "";
-}
-
 LayoutHeader read_layout_header(std::span<const std::byte> file, const std::string& where) {
   if (file.empty()) bad(where, "is empty, not a phos file; rerun the command that makes it");
   if (file.size() <= kPrefixBytes) {

@@ -73,17 +73,26 @@ Json inputs_of(const Provenance& p) {
   return inputs;
 }
 
-std::string format_of(const Provenance& p) { return text(kFormatPrefix, p.kind, '/', p.version); }
+std::string format_of(const Provenance& p) { return text(kFormatPrefix, name_of(p.kind), '/', p.version); }
 
-/// "phos/photons/1" -> kind and version; false for anything else.
-bool read_format(const std::string& format, Provenance& p) {
+/// "phos/photons/1" -> kind and version. Throws Error(bad_input) for anything else.
+void read_format(const std::string& format, const std::string& where, Provenance& p) {
   const std::string prefix = kFormatPrefix;
   const std::size_t slash = format.rfind('/');
-  if (!format.starts_with(prefix) || slash <= prefix.size()) return false;
-  p.kind = format.substr(prefix.size(), slash - prefix.size());
   const char* const end = format.data() + format.size();
-  const auto [last, error] = std::from_chars(format.data() + slash + 1, end, p.version);
-  return error == std::errc() && last == end && p.version > 0;
+  bool read = format.starts_with(prefix) && slash != std::string::npos && slash > prefix.size();
+  if (read) {
+    const auto [last, error] = std::from_chars(format.data() + slash + 1, end, p.version);
+    read = error == std::errc() && last == end && p.version > 0;
+  }
+  if (!read)
+    throw Error(ExitCode::bad_input, where, "is not a phos file (its metadata have no \"format\" of phos)");
+  const std::string name = format.substr(prefix.size(), slash - prefix.size());
+  const std::optional<FileKind> kind = kind_named(name);
+  if (!kind)
+    throw Error(ExitCode::bad_input, where,
+                text("is of the kind \"", name, "\", which this version of phos does not know"));
+  p.kind = *kind;
 }
 
 std::string made_by(const Container& file) {
@@ -206,8 +215,7 @@ Metadata to_metadata(const Provenance& p) {
 
 Provenance from_metadata(const Metadata& m, const std::string& where) {
   Provenance p;
-  if (!read_format(get(m, "format"), p))
-    throw Error(ExitCode::bad_input, where, "is not a phos file (its metadata have no \"format\" of phos)");
+  read_format(get(m, "format"), where, p);
   try {
     p.tool = get(m, "tool");
     const Json algorithm = get_json(m, "algorithm", where);
@@ -227,7 +235,7 @@ Provenance from_metadata(const Metadata& m, const std::string& where) {
     if (!counters.is_null())
       for (const auto& [event, n] : counters.as_object()) {
         if (n.as_integer() < 0) throw std::runtime_error("a count below 0");
-        p.counters.count(event, static_cast<std::uint64_t>(n.as_integer()));
+        p.counters.add(event, static_cast<std::uint64_t>(n.as_integer()));
       }
   } catch (const Error& e) {
     throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());
@@ -265,7 +273,7 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
                         const Json& scene_parts) {
   const Provenance& p = file.provenance();
   if (p.scene_hash == scene_hash) return;
-  if (p.kind == "brdf" && same_materials(p.scene_parts, scene_parts)) return;
+  if (p.kind == FileKind::brdf && same_materials(p.scene_parts, scene_parts)) return;
   const std::string remedy = text("; rerun ", made_by(file), ", or pass --allow-mismatch");
   if (p.scene_hash.empty())
     throw Error(ExitCode::mismatch, file.path(), "does not say which scene it was made from" + remedy);

@@ -29,16 +29,17 @@ Shard open_shard(const std::string& path, const ShardKind& kind) {
   const Provenance& p = shard.file.provenance();
   if (p.kind != kind.kind)
     throw Error(ExitCode::bad_input, path,
-                text("is \"", p.kind, "\"; phos-merge joins ", kind.word, "s of \"", kind.kind, "\" here"));
-  const Json* name = p.extra.find(kind.word);
+                text("is \"", name_of(p.kind), "\"; phos-merge joins ", kind.word(), "s of \"",
+                     name_of(kind.kind), "\" here"));
+  const Json* name = p.extra.find(kind.word());
   if (!name || !name->is_string())
     throw Error(ExitCode::bad_input, path,
-                text("is a whole ", kind.whole, " already, not a ", kind.word, " (", kind.maker, " makes ",
-                     kind.word, "s)"));
+                text("is a whole ", kind.whole, " already, not a ", kind.word(), " (", kind.maker, " makes ",
+                     kind.word(), "s)"));
   shard.name = name->as_string();
   if (!read_share(shard.name, shard.share))
     throw Error(ExitCode::bad_input, path,
-                text("the header does not say which ", kind.word, " it is; make it again"));
+                text("the header does not say which ", kind.word(), " it is; make it again"));
   return shard;
 }
 
@@ -50,14 +51,14 @@ void require_same_run(const Shard& a, const Shard& b, const ShardKind& kind) {
   if (p.command != q.command) refuse(text("\"", q.command, "\", not \"", p.command, "\""));
   if (key_of_whole(p) != key_of_whole(q) || p.inputs != q.inputs || !(p.history == q.history))
     refuse("other inputs");
-  if (a.share.count != b.share.count) refuse(text(kind.word, " ", b.name, ", not one of ", a.share.count));
+  if (a.share.count != b.share.count) refuse(text(kind.word(), " ", b.name, ", not one of ", a.share.count));
 }
 
 void require_each_once(const std::vector<Shard>& shards, const ShardKind& kind) {
   for (std::size_t i = 1; i < shards.size(); ++i)
     if (shards[i].share.index == shards[i - 1].share.index)
       throw Error(ExitCode::mismatch, shards[i].file.path(),
-                  text("is ", kind.word, " ", shards[i].name, ", and so is ", shards[i - 1].file.path(),
+                  text("is ", kind.word(), " ", shards[i].name, ", and so is ", shards[i - 1].file.path(),
                        "; give each once"));
   std::string missing;
   std::uint64_t next = 1, absent = 0;
@@ -72,11 +73,16 @@ void require_each_once(const std::vector<Shard>& shards, const ShardKind& kind) 
   note_absent_below(count + 1);
   if (absent > 0)
     throw Error(ExitCode::mismatch, "",
-                text("missing ", kind.word, absent > 1 ? "s " : " ", missing, absent > kNamed ? ", ..." : "",
-                     " of the run"));
+                text("missing ", kind.word(), absent > 1 ? "s " : " ", missing,
+                     absent > kNamed ? ", ..." : "", " of the run"));
 }
 
 }  // namespace
+
+std::string share_of(const Container& file) {
+  const Json* share = file.provenance().extra.find(name_of(file.form()));
+  return share && share->is_string() ? share->as_string() : "?";
+}
 
 Share parse_share(const std::string& option, const std::string& value) {
   Share share;
@@ -94,7 +100,7 @@ ItemRange range_of(const Share& share, std::uint64_t total) {
 }
 
 std::vector<Shard> open_shards(const std::vector<std::string>& paths, const ShardKind& kind) {
-  PHOS_CHECK(!paths.empty(), "no ", kind.word);
+  PHOS_CHECK(!paths.empty(), "no ", kind.word());
   std::vector<Shard> shards;
   for (const std::string& path : paths) shards.push_back(open_shard(path, kind));
   for (const Shard& s : shards) require_same_run(shards.front(), s, kind);
@@ -106,8 +112,8 @@ std::vector<Shard> open_shards(const std::vector<std::string>& paths, const Shar
 
 void refuse_other_run(const Shard& a, const Shard& b, const ShardKind& kind, const std::string& reason) {
   throw Error(ExitCode::mismatch, b.file.path(),
-              text("is of another run than ", a.file.path(), " (", reason, "); ", kind.word,
-                   "s of one run differ in --", kind.word, " only"));
+              text("is of another run than ", a.file.path(), " (", reason, "); ", kind.word(),
+                   "s of one run differ in --", kind.word(), " only"));
 }
 
 std::string key_of_whole(const Provenance& shard) { return shard.key.substr(0, shard.key.find(':')); }

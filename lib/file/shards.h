@@ -23,12 +23,16 @@ struct ItemRange {
 };
 ItemRange range_of(const Share& share, std::uint64_t total);
 
+/// The "k/n" of a shard's or a part's header; "?" where it does not say it.
+std::string share_of(const Container& file);
+
 /// What one kind of shard is called.
 struct ShardKind {
-  std::string kind;   ///< of the container: "photons"
-  std::string word;   ///< "shard": what messages call it, and the header's entry that holds "k/n"
+  FileKind kind;      ///< of the container
+  FileForm form;      ///< shard or part: what messages call it, and the header's entry that holds "k/n"
   std::string whole;  ///< "map": what the shards make together
   std::string maker;  ///< command that makes shards: "phos-photons --shard i/n"
+  const char* word() const { return name_of(form); }
 };
 
 struct Shard {

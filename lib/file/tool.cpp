@@ -221,8 +221,7 @@ bool Tool::explain() const {
   return true;
 }
 
-Provenance Tool::provenance(const std::string& kind, const std::string& scene_hash,
-                            const Json& scene_parts) const {
+Provenance Tool::provenance(FileKind kind, const std::string& scene_hash, const Json& scene_parts) const {
   Provenance p;
   p.kind = kind;
   p.tool = text(name_, ' ', phos::version());

@@ -31,7 +31,7 @@ namespace phos::inline file {
 ///     if (tool.up_to_date()) return;
 ///     const Scene scene = load_scene(scene_path, ...);
 ///     ...
-///     write_photons(map, tool.output(), tool.provenance("photons", scene.hash, scene.parts));
+///     write_photons(map, tool.output(), tool.provenance(FileKind::photons, scene.hash, scene.parts));
 ///   });
 class Tool {
  public:
@@ -117,8 +117,7 @@ class Tool {
   void set_key(const std::string& key) { asked_key_ = key; }
 
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
-  Provenance provenance(const std::string& kind, const std::string& scene_hash,
-                        const Json& scene_parts) const;
+  Provenance provenance(FileKind kind, const std::string& scene_hash, const Json& scene_parts) const;
 
   Counters& counters() { return counters_; }
   /// A line for people on stderr, unless --quiet. In a sequence it says which frame, and a line that repeats

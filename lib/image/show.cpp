@@ -3,6 +3,7 @@
 #include "core/interrupt.h"
 #include "file/atomic_file.h"
 #include "file/frames.h"
+#include "image/events.h"
 #include "image/metrics.h"
 #include "image/pixel_table.h"
 #include "image/video.h"
@@ -23,7 +24,7 @@ std::size_t write_hdr_layer(const std::string& path, const Image& image, const s
 
 void tell_non_finite(Tool& tool, const std::string& input, const Image& image, std::size_t n, bool hdr) {
   if (n == 0) return;
-  tool.counters().count("non-finite pixel", n);
+  tool.counters().count(kNonFinitePixelEvent, n);
   tool.warn(text(input, ": ", n, " of ", image.pixels(), " pixels are not finite; they are ",
                  hdr ? "black" : "magenta"));
 }

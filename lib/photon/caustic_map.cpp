@@ -34,40 +34,28 @@ CausticPhotons caustics_of(const PhotonMap& photons) {
   return c;
 }
 
-void add_columns(ContainerWriter& writer, const CausticPhotons& c) {
+void add_columns(TensorWriter& writer, const CausticPhotons& c) {
   if (c.size() > 0) {
-    const Shape rows{c.size()};
-    writer.add_vectors("caustic_position", c.position, "m");
-    writer.add_vectors("caustic_flux", c.flux, "lm");
-    writer.add<std::uint32_t>("caustic_direction", c.direction, rows, "octahedral");
-    writer.add<std::uint32_t>("caustic_normal", c.normal, rows, "octahedral");
-    writer.add<float>("caustic_distance", c.distance, rows, "m");
+    writer.add_vectors("caustic_position", c.position);
+    writer.add_vectors("caustic_flux", c.flux);
+    writer.add<std::uint32_t>("caustic_direction", c.direction);
+    writer.add<std::uint32_t>("caustic_normal", c.normal);
+    writer.add<float>("caustic_distance", c.distance);
   }
   add_columns(writer, columns_of(c.flights), kFlights);
 }
 
-CausticPhotons read_caustics(const Container& file) {
+CausticPhotons read_caustics(const Container& container) {
+  container.require_sound();
+  const TensorReader file(container);
   CausticPhotons c;
   if (file.has("caustic_position")) {
-    const std::span<const Vec3> position = file.vectors("caustic_position"),
-                                flux = file.vectors("caustic_flux");
-    const std::uint64_t n = position.size();
-    if (flux.size() != n)
-      throw Error(ExitCode::bad_input, file.path(),
-                  text("tensor \"caustic_flux\" has ", flux.size(), " rows, \"caustic_position\" has ", n,
-                       "; make the file again"));
-    c.position = copy(position), c.flux = copy(flux);
-    c.direction = copy(file.values<std::uint32_t>("caustic_direction", {n}));
-    c.normal = copy(file.values<std::uint32_t>("caustic_normal", {n}));
-    c.distance = copy(file.values<float>("caustic_distance", {n}));
-    const std::vector<std::uint8_t> path(n, static_cast<std::uint8_t>(PhotonPath::caustic));
-    require_sound(
-        PhotonColumns{c.position, c.flux, c.direction, c.normal, c.normal, c.distance, path, path, {}},
-        file.path());
+    c.position = copy(file.vectors("caustic_position")), c.flux = copy(file.vectors("caustic_flux"));
+    c.direction = copy(file.values<std::uint32_t>("caustic_direction"));
+    c.normal = copy(file.values<std::uint32_t>("caustic_normal"));
+    c.distance = copy(file.values<float>("caustic_distance"));
   }
-  const FlightColumns flights = flights_of(file, kFlights);
-  require_sound(flights, file.path());
-  append(c.flights, flights);
+  append(c.flights, flights_of(file, kFlights));
   return c;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/vector.h"
-#include "file/container.h"
+#include "file/kinds/tensor_io.h"
 #include "photon/photon_map.h"
 #include "photon/tree/kd_tree.h"
 
@@ -33,7 +33,7 @@ CausticPhotons caustics_of(const PhotonMap& photons);
 
 /// Writes the tensors caustic_position, caustic_flux, caustic_direction, caustic_normal and caustic_distance
 /// where there are photons, and caustic_flight_from and so on where there are flights.
-void add_columns(ContainerWriter& writer, const CausticPhotons& photons);
+void add_columns(TensorWriter& writer, const CausticPhotons& photons);
 /// Throws Error(bad_input) for damaged columns. photon_lm is not in columns.
 CausticPhotons read_caustics(const Container& file);
 

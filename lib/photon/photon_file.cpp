@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/float_traps.h"
 #include "core/parallel.h"
-#include "photon/tree/kd_tree.h"
 
 namespace phos::inline photon {
 namespace {
@@ -75,113 +73,43 @@ PhotonColumns columns_of(const Photons& p) {
 
 FlightColumns columns_of(const Flights& f) { return {f.from, f.flux, f.direction, f.length}; }
 
-FlightColumns flights_of(const Container& file, const std::string& prefix) {
-  FlightColumns c;
-  if (!file.has(prefix + "from")) return c;
-  c.from = file.vectors(prefix + "from");
-  const std::uint64_t n = c.from.size();
-  const std::span<const Vec3> flux = file.vectors(prefix + "flux");
-  if (flux.size() != n)
-    throw Error(ExitCode::bad_input, file.path(),
-                text("tensor \"", prefix, "flux\" has ", flux.size(), " rows, \"", prefix, "from\" has ", n,
-                     "; make the file again"));
-  c.flux = flux;
-  c.direction = file.values<std::uint32_t>(prefix + "direction", {n});
-  c.length = file.values<float>(prefix + "length", {n});
-  return c;
+FlightColumns flights_of(const TensorReader& file, const std::string& prefix) {
+  if (!file.has(prefix + "from")) return {};
+  return {file.vectors(prefix + "from"), file.vectors(prefix + "flux"),
+          file.values<std::uint32_t>(prefix + "direction"), file.values<float>(prefix + "length")};
 }
 
-PhotonColumns columns_of(const Container& file) {
-  PhotonColumns c;
-  c.position = file.vectors("position");
-  const std::uint64_t n = c.position.size();
-  c.flux = file.vectors("flux");
-  c.direction = file.values<std::uint32_t>("direction", {0});
-  c.normal = file.values<std::uint32_t>("normal", {0});
-  c.source_normal = file.values<std::uint32_t>("source_normal", {0});
-  c.distance = file.values<float>("distance", {0});
-  c.path = file.values<std::uint8_t>("path", {0});
-  c.bounce = file.values<std::uint8_t>("bounce", {0});
-  const auto check = [&](const char* name, std::size_t rows) {
-    if (rows != n)
-      throw Error(
-          ExitCode::bad_input, file.path(),
-          text("tensor \"", name, "\" has ", rows, " rows, \"position\" has ", n, "; make the file again"));
-  };
-  check("flux", c.flux.size()), check("direction", c.direction.size()), check("normal", c.normal.size());
-  check("source_normal", c.source_normal.size()), check("distance", c.distance.size());
-  check("path", c.path.size()), check("bounce", c.bounce.size());
-  c.flights = flights_of(file, kFlightPrefix);
-  return c;
+PhotonColumns columns_of(const Container& container) {
+  const TensorReader file(container);
+  return {file.vectors("position"),
+          file.vectors("flux"),
+          file.values<std::uint32_t>("direction"),
+          file.values<std::uint32_t>("normal"),
+          file.values<std::uint32_t>("source_normal"),
+          file.values<float>("distance"),
+          file.values<std::uint8_t>("path"),
+          file.values<std::uint8_t>("bounce"),
+          flights_of(file, kFlightPrefix)};
 }
 
-namespace {
-
-/// nullptr: nothing.
-const char* what_is_wrong(const PhotonColumns& c, std::size_t i) {
-  const NoFloatTraps traps;  // files may hold what is not a number
-  if (!KdTree::in_range(c.position[i])) return "a position that is not finite or too far away for a tree";
-  if (!is_finite(c.flux[i])) return "a flux that is not finite";
-  if (!(c.distance[i] >= 0)) return "a distance that is not positive";
-  if (c.path[i] > static_cast<std::uint8_t>(PhotonPath::mirrored)) return "a path of no known kind";
-  return nullptr;
-}
-
-const char* what_is_wrong(const FlightColumns& c, std::size_t i) {
-  const NoFloatTraps traps;  // likewise
-  if (!KdTree::in_range(c.from[i])) return "a position that is not finite or too far away";
-  if (!is_finite(c.flux[i])) return "a flux that is not finite";
-  if (!(c.length[i] >= 0)) return "a length that is not positive";
-  return nullptr;
-}
-
-/// In chunks, the first bad row wins: the same message for any number of threads.
-template <class Columns>
-void require_sound_rows(const Columns& c, std::size_t n, const char* name, const std::string& path) {
-  const auto first_bad = parallel_reduce<std::size_t>(
-      n, 1 << 16, n,
-      [&](std::size_t begin, std::size_t end) {
-        while (begin < end && what_is_wrong(c, begin) == nullptr) ++begin;
-        return begin < end ? begin : n;
-      },
-      [](std::size_t& least, std::size_t part) { least = std::min(least, part); });
-  if (first_bad == n) return;
-  throw Error(ExitCode::bad_input, path,
-              text(name, " ", first_bad, " has ", what_is_wrong(c, first_bad),
-                   "; the file is damaged or was made by a faulty program: make it again"));
-}
-
-}  // namespace
-
-void require_sound(const PhotonColumns& c, const std::string& path) {
-  require_sound_rows(c, c.position.size(), "photon", path);
-  require_sound(c.flights, path);
-}
-
-void require_sound(const FlightColumns& c, const std::string& path) {
-  require_sound_rows(c, c.size(), "flight", path);
-}
-
-void add_columns(ContainerWriter& writer, const PhotonColumns& c) {
-  const Shape rows{c.position.size()};
-  writer.add_vectors("position", c.position, "m");
-  writer.add_vectors("flux", c.flux, "lm");
-  writer.add<std::uint32_t>("direction", c.direction, rows, "octahedral");
-  writer.add<std::uint32_t>("normal", c.normal, rows, "octahedral");
-  writer.add<std::uint32_t>("source_normal", c.source_normal, rows, "octahedral");
-  writer.add<float>("distance", c.distance, rows, "m");
-  writer.add<std::uint8_t>("path", c.path, rows, "1");
-  writer.add<std::uint8_t>("bounce", c.bounce, rows, "1");
+void add_columns(TensorWriter& writer, const PhotonColumns& c) {
+  writer.add_vectors("position", c.position);
+  writer.add_vectors("flux", c.flux);
+  writer.add<std::uint32_t>("direction", c.direction);
+  writer.add<std::uint32_t>("normal", c.normal);
+  writer.add<std::uint32_t>("source_normal", c.source_normal);
+  writer.add<float>("distance", c.distance);
+  writer.add<std::uint8_t>("path", c.path);
+  writer.add<std::uint8_t>("bounce", c.bounce);
   add_columns(writer, c.flights, kFlightPrefix);
 }
 
-void add_columns(ContainerWriter& writer, const FlightColumns& c, const std::string& prefix) {
+void add_columns(TensorWriter& writer, const FlightColumns& c, const std::string& prefix) {
   if (c.size() == 0) return;
-  const Shape rows{c.size()};
-  writer.add_vectors(prefix + "from", c.from, "m");
-  writer.add_vectors(prefix + "flux", c.flux, "lm");
-  writer.add<std::uint32_t>(prefix + "direction", c.direction, rows, "octahedral");
-  writer.add<float>(prefix + "length", c.length, rows, "m");
+  writer.add_vectors(prefix + "from", c.from);
+  writer.add_vectors(prefix + "flux", c.flux);
+  writer.add<std::uint32_t>(prefix + "direction", c.direction);
+  writer.add<float>(prefix + "length", c.length);
 }
 
 Json totals_to_json(const PhotonTotals& t) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "file/container.h"
+#include "file/kinds/tensor_io.h"
 #include "photon/photon_map.h"
 
 namespace phos::inline photon {
@@ -21,18 +21,14 @@ struct PhotonColumns {
 FlightColumns columns_of(const Flights& flights);
 PhotonColumns columns_of(const Photons& photons);
 /// Columns of an open file, in place. Throws Error(bad_input) for a column that is absent or of another
-/// length.
+/// length. Container::require_sound() looks at the photons.
 PhotonColumns columns_of(const Container& file);
-/// Throws Error(bad_input) for the first photon that cannot be: nowhere in space, of no finite flux, from a
-/// negative distance, or of an unknown path.
-void require_sound(const PhotonColumns& columns, const std::string& path);
-void add_columns(ContainerWriter& writer, const PhotonColumns& columns);
+void add_columns(TensorWriter& writer, const PhotonColumns& columns);
 
 /// The same of flights, whose tensors are named `prefix`from, `prefix`flux and so on, and are absent where
 /// there are none.
-FlightColumns flights_of(const Container& file, const std::string& prefix);
-void require_sound(const FlightColumns& columns, const std::string& path);
-void add_columns(ContainerWriter& writer, const FlightColumns& columns, const std::string& prefix);
+FlightColumns flights_of(const TensorReader& file, const std::string& prefix);
+void add_columns(TensorWriter& writer, const FlightColumns& columns, const std::string& prefix);
 /// The prefix in a file of photons.
 inline constexpr const char* kFlightPrefix = "flight_";
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
+#include "file/shards.h"
 #include "photon/photon_file.h"
 #include "photon/tree/kd_tree.h"
 #include "photon/tree/space_order.h"
@@ -44,11 +45,6 @@ void require_equal_lengths(const Photons& p) {
 }
 
 // Checksums of all tensors in parallel: a damaged column would otherwise be wrong light without a word.
-void verify_all(const Container& file) {
-  std::vector<std::string> names;
-  for (const auto& [name, tensor] : file.tensors()) names.push_back(name);
-  parallel_for(names.size(), 1, [&](std::size_t i) { file.verify(names[i]); });
-}
 
 }  // namespace
 
@@ -84,20 +80,19 @@ PhotonMap PhotonMap::build(Photons photons, const PhotonTotals& totals) {
 PhotonMap PhotonMap::open(const std::string& path) {
   PhotonMap map;
   Impl& impl = *map.impl_;
-  impl.file = Container::open(path, "photons");
+  impl.file = Container::open(path, FileKind::photons);
   const Container& file = *impl.file;
-  if (const Json* shard = file.provenance().extra.find("shard"))
+  if (file.form() == FileForm::shard)
     throw Error(ExitCode::bad_input, path,
-                text("is shard ", shard->is_string() ? shard->as_string() : "?",
+                text("is shard ", share_of(file),
                      " of a run; join all its shards first: phos-merge SHARD... -o ALL.photons"));
   const PhotonColumns c = columns_of(file);
-  const std::span<const std::uint8_t> tree = file.values<std::uint8_t>("kdtree", {0});
+  const std::span<const std::uint8_t> tree = TensorReader(file).values<std::uint8_t>("kdtree");
   map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
   map.flights = c.flights;
   map.totals = totals_of(file, c.position.size());
-  verify_all(file);
-  require_sound(c, path);
+  file.require_sound();
   impl.tree = KdTree::load(map.position, std::as_bytes(tree), path);
   return map;
 }
@@ -121,16 +116,13 @@ const Container* PhotonMap::container() const { return impl_->file ? &*impl_->fi
 
 void PhotonMap::write(const std::string& path, Provenance provenance) const {
   throw_if_interrupted();  // FLANN builds without looking up
-  provenance.kind = "photons";
-  provenance.version = 1;
   provenance.extra["totals"] = totals_to_json(totals);
   provenance.extra["bounds_m"] = bounds_to_json(position);
   const std::vector<std::byte> tree = impl_->tree.save();
-  ContainerWriter writer;
+  TensorWriter writer(FileKind::photons);
   add_columns(writer,
               {position, flux, direction, normal, source_normal, distance, this->path, bounce, flights});
-  writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()},
-                           {tree.size()}, "FLANN index");
+  writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()});
   writer.write(path, provenance);
 }
 

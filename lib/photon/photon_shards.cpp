@@ -6,7 +6,7 @@
 namespace phos::inline photon {
 namespace {
 
-const ShardKind kKind{"photons", "shard", "map", "phos-photons --shard i/n"};
+const ShardKind kKind{FileKind::photons, FileForm::shard, "map", "phos-photons --shard i/n"};
 
 /// One shard's photons, in place.
 struct PhotonShard {
@@ -47,12 +47,10 @@ std::vector<PhotonShard> open_photon_shards(const std::vector<std::string>& path
 
 void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
                  const std::string& shard, Provenance provenance) {
-  provenance.kind = "photons";
-  provenance.version = 1;
   provenance.extra["totals"] = totals_to_json(totals);
   provenance.extra["bounds_m"] = bounds_to_json(photons.position);
-  provenance.extra[kKind.word] = shard;
-  ContainerWriter writer;
+  provenance.extra[kKind.word()] = shard;
+  TensorWriter writer(FileKind::photons);
   add_columns(writer, columns_of(photons));
   writer.write(path, provenance);
 }
@@ -76,8 +74,7 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
   for_columns([&](auto& column) { column.reserve(rows); }, p);
   for (PhotonShard& open : shards) {
     const PhotonShard s = std::move(open);  // its mapping goes once it is copied
-    s.shard.file.verify();
-    require_sound(s.columns, s.shard.file.path());
+    s.shard.file.require_sound();
     const PhotonColumns& c = s.columns;
     for_columns([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, p, c);
     append(p.flights, c.flights);

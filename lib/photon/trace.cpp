@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "photon/caustic_aim.h"
 #include "photon/emission.h"
+#include "photon/events.h"
 #include "photon/path_batch.h"
 #include "photon/path_tracer.h"
 #include "photon/photon_file.h"
@@ -28,7 +29,7 @@ void join(const PathPart& part, PhotonTotals& totals, Counters& counters, std::v
   totals.emitted_sum += part.sums.emitted, totals.stored_sum += part.sums.stored;
   totals.escaped_sum += part.sums.escaped, totals.absorbed_sum += part.sums.absorbed;
   totals.stored_sum += part.aimed.stored;
-  const auto count = [&](const char* event, std::uint64_t times) {
+  const auto count = [&](const Event& event, std::uint64_t times) {
     if (times > 0) counters.count(event, times);
   };
   count(kEscapedEvent, part.sums.escaped_paths);
@@ -151,7 +152,7 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
       if (has_no_end(part))
         throw Error(
             ExitCode::numerical, "",
-            text(kTooLongEvent, ": ", part.too_long(), " of ", part.turns,
+            text(kTooLongEvent.name, ": ", part.too_long(), " of ", part.turns,
                  " paths; a closed part of the scene absorbs nothing, and its light has no end: lower "
                  "the reflectance of its materials below 1"));
       progress.advance(end - begin);

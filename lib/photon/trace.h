@@ -28,11 +28,6 @@ void declare_options(Options& options, PhotonOptions& photons);
 /// 1 <= i <= n.
 ItemRange path_range(const std::string& shard, std::int64_t paths);
 
-/// Names of the events that trace_photons counts.
-inline constexpr const char* kEscapedEvent = "photon left the scene";
-inline constexpr const char* kNonFiniteEvent = "photon with non-finite flux";
-inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended";
-
 /// Photons of the paths that options.shard names, in path order (each with the aimed paths that follow it):
 /// one at each hit on a surface that is not purely specular (black and glowing ones too), carrying the flux
 /// that arrives. A path ends when it escapes or by Russian roulette, which keeps the flux of the survivors

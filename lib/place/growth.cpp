@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "place/events.h"
 #include "radiance/cache.h"
 
 namespace phos::inline place {
@@ -92,8 +93,8 @@ void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<Rad
 }
 
 void RadiusRules::count_into(Counters& counters) const {
-  if (clamped_to_neighbour_ > 0) counters.count("radii clamped to a neighbour", clamped_to_neighbour_);
-  if (raised_to_least_ > 0) counters.count("radii raised to the smallest", raised_to_least_);
+  if (clamped_to_neighbour_ > 0) counters.count(kClampedEvent, clamped_to_neighbour_);
+  if (raised_to_least_ > 0) counters.count(kRaisedEvent, raised_to_least_);
 }
 
 float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& bounds) {

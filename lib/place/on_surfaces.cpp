@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "place/events.h"
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 #include "place/placement.h"
@@ -256,7 +257,7 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   }
   report.candidates = cover.pieces();
   report.sides = cover.sides(), report.sides_inside = cover.sides_inside();
-  if (report.sides_inside > 0) counters.count("sides inside solids passed over", report.sides_inside);
+  if (report.sides_inside > 0) counters.count(kSidesInsideEvent, report.sides_inside);
   const std::size_t first_new = cache.records.size();
   finish_placement(growth, maker, cache, report, counters);
   if (refinement && resolved.gradients != GradientMode::none)

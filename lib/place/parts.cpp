@@ -8,7 +8,8 @@
 namespace phos::inline place {
 namespace {
 
-const ShardKind kKind{"irradiance", "part", "cache", "phos-irradiance --place every --part k/n"};
+const ShardKind kKind{FileKind::irradiance, FileForm::part, "cache",
+                      "phos-irradiance --place every --part k/n"};
 constexpr const char* kRun = "run";  // entry of a part's header: what it must know of the whole
 
 Json to_json(const Vec3& v) { return Json::Array{Json(v.x), Json(v.y), Json(v.z)}; }
@@ -36,7 +37,7 @@ class RunEntry {
     const Json& value = find(name);
     if (!value.is_object()) refuse(name);
     Counters counters;
-    for (const auto& [event, n] : value.as_object()) counters.count(event, count(name, n));
+    for (const auto& [event, n] : value.as_object()) counters.add(event, count(name, n));
     return counters;
   }
   [[noreturn]] void refuse(const char* name) const {
@@ -77,7 +78,7 @@ PartFile read_header(Shard shard) {
   const RadiusBounds bounds{run.number("min_radius_m"), run.number("max_radius_m")};
   if (!(bounds.least_m > 0) || !(bounds.most_m >= bounds.least_m)) run.refuse("min_radius_m");
   const Bounds scene{run.vector("scene_lo_m"), run.vector("scene_hi_m")};
-  const std::uint64_t records = shard.file.vectors("position").size();
+  const std::uint64_t records = TensorReader(shard.file).extent("n");
   const std::uint64_t first = run.count("first"), total = run.count("total");
   return {std::move(shard), first, total, records, bounds, scene};
 }
@@ -113,7 +114,7 @@ std::vector<PartFile> open_parts(const std::vector<std::string>& paths) {
 Json extra_of_whole(const Json& extra) {
   Json whole(Json::Object{});
   for (const auto& [name, value] : extra.as_object()) {
-    if (name != kKind.word && name != kRun) whole[name] = value;
+    if (name != kKind.word() && name != kRun) whole[name] = value;
   }
   return whole;
 }
@@ -149,7 +150,7 @@ void write_part(const std::string& path, const IrradiancePart& part, Provenance 
   run["scene_lo_m"] = to_json(part.scene.lo), run["scene_hi_m"] = to_json(part.scene.hi);
   run["counters"] = to_json(part.counters);
   provenance.extra[kRun] = run;
-  provenance.extra[kKind.word] = part.name;
+  provenance.extra[kKind.word()] = part.name;
   write_irradiance(path, cache, provenance, least_m);
 }
 
@@ -168,12 +169,12 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
   RadiusRules rules(parts.front().scene, parts.front().bounds);
   for (const PartFile& part : parts) {
     const Container& file = part.shard.file;
-    const RecordColumns columns(file, RecordsOf::part);
-    const std::span<const float> least_m = file.values<float>("least_radius", {columns.size()});
+    const RecordColumns columns(file, FileForm::part);
+    const std::span<const float> least_m = TensorReader(file).values<float>("least_radius");
     merged.cache.accuracy = columns.accuracy(), merged.cache.quantity = columns.quantity();
     if (!merged.cache.caustics) merged.cache.caustics = caustics_of(file);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (!(least_m[i] >= 0 && least_m[i] <= columns.radius_m(i)))
+      if (least_m[i] > columns.radius_m(i))
         throw Error(ExitCode::bad_input, file.path(),
                     text("record ", i, " has a least radius beyond its own; make the part again"));
       rules.add({columns[i], least_m[i]}, [](std::size_t, float) {});

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "place/events.h"
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 
@@ -187,7 +188,7 @@ void finish_placement(Growth& growth, const ParallelMaker& maker, IrradianceCach
   report.clamped_to_least = growth.rules().raised_to_least();
   maker.count_into(counters);
   growth.rules().count_into(counters);
-  if (report.uncovered > 0) counters.count("candidates left uncovered", report.uncovered);
+  if (report.uncovered > 0) counters.count(kUncoveredEvent, report.uncovered);
 }
 
 PlacementReport place_records(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,

@@ -113,15 +113,15 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
                          const RecordOptions& resolved, std::uint64_t seed) {
   RecordOptions coarse = coarse_options(resolved);
   coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
-  if (earlier.quantity == "all") coarse.paths = Quantity::all;
+  if (earlier.quantity == Quantity::all) coarse.paths = Quantity::all;
   coarse.images_apart = true;
   if (photons) photons_ = std::make_unique<DensityEstimator>(*photons, rays, coarse, seed);
   read(rays, earlier);
   caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
   noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
-  if (photons) noise_.common = photon_noise(*photons, earlier.quantity == "all").common;
-  holds_direct_ = earlier.quantity == "all";
+  if (photons) noise_.common = photon_noise(*photons, earlier.quantity == Quantity::all).common;
+  holds_direct_ = earlier.quantity == Quantity::all;
   lacks_images_ = !holds_direct_;
 }
 

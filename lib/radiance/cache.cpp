@@ -14,6 +14,7 @@
 namespace phos::inline radiance {
 namespace {
 
+constexpr const char* kOrderEntry = "order";  // of a header
 /// E = first x c_00 + second x c_10.
 constexpr double kFirst = 1.2533141373155003;   // sqrt(pi / 2)
 constexpr double kSecond = 0.7236012545582676;  // sqrt(pi / 6)
@@ -114,7 +115,7 @@ void settle_slopes(RadianceRecord& r, double accuracy) {
 }
 
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
-                    ContainerWriter file) {
+                    TensorWriter file) {
   const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
                     count = count_of(cache.order());
   const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
@@ -139,68 +140,68 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
     to_column(r.gradient_x, &along[0][3 * i * count], count);
     to_column(r.gradient_y, &along[1][3 * i * count], count);
   }
-  file.add_vectors("position", position, "m");
-  file.add<float>("frame", {reinterpret_cast<const float*>(frame.data()), 6 * n}, {n, 2, 3}, "1");
-  file.add<float>("coefficients", light, {n, 3, count}, "cd/m2 sqrt(sr)");
-  file.add<float>("stderr", error, {n, 3, bands}, "cd/m2 sqrt(sr)");
+  file.extent("n", n), file.extent("N", bands);
+  file.add_vectors("position", position);
+  file.add_vectors("frame", frame);
+  file.add<float>("coefficients", light);
+  file.add<float>("stderr", error);
   if (gradients) {
-    file.add<float>("gradient_x", along[0], {n, 3, count}, "cd/m2 sqrt(sr)/m");
-    file.add<float>("gradient_y", along[1], {n, 3, count}, "cd/m2 sqrt(sr)/m");
+    file.add<float>("gradient_x", along[0]);
+    file.add<float>("gradient_y", along[1]);
   }
   if (std::any_of(order.begin(), order.end(), [&](std::uint8_t o) { return o != order.front(); }))
-    file.add<std::uint8_t>("order", order, {n}, "1");
-  file.add<float>("distance", distance, {n}, "m");
-  file.add<float>("radius", radius, {n}, "m");
+    file.add<std::uint8_t>("order", order);
+  file.add<float>("distance", distance);
+  file.add<float>("radius", radius);
   if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
-    file.add<float>("shared", shared, {n}, "1");
+    file.add<float>("shared", shared);
   add_caustics(cache.caustics, file, provenance);
-  provenance.kind = "radiance";
   provenance.scene_hash = cache.scene_hash;
-  provenance.extra["accuracy"] = cache.accuracy;
-  provenance.extra["quantity"] = "indirect";
-  provenance.extra["order"] = cache.order();
+  provenance.extra[kAccuracyEntry] = cache.accuracy;
+  provenance.extra[kQuantityEntry] = name_of(Quantity::indirect);
+  provenance.extra[kOrderEntry] = cache.order();
   provenance.extra["records"] = n;
   provenance.extra["basis"] =
       "hsh, orthonormal, Condon-Shortley phase, index l*l+l+m, x and z of frame, y = z cross x";
   file.write(path, provenance);
 }
 
-RadianceCache read_radiance(const Container& file, RecordsOf of) {
-  return read_radiance_rows(file, of, nullptr);
+RadianceCache read_radiance(const Container& file, FileForm form) {
+  return read_radiance_rows(file, form, nullptr);
 }
 
-RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows) {
-  if (file.provenance().kind != "radiance") {
+RadianceCache read_radiance_rows(const Container& file, FileForm form, const std::vector<std::size_t>* rows) {
+  if (file.kind() != FileKind::radiance)
     throw Error(ExitCode::bad_input, file.path(),
-                text("holds ", file.provenance().kind, ", not radiance; give the output of phos-radiance"));
-  }
-  require_records_of(of, file);
-  file.verify();
-  const Json *accuracy = file.provenance().extra.find("accuracy"),
-             *order = file.provenance().extra.find("order");
-  const std::size_t n = file.vectors("position").size();
-  if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !order || !order->is_integer() ||
-      order->as_integer() < (n > 0 ? 1 : 0) || order->as_integer() > HshRotator::kMaxOrder) {
+                text("holds ", name_of(file.kind()), ", not radiance; give the output of phos-radiance"));
+  require_form(form, file);
+  file.require_sound();
+  const TensorReader tensors(file);
+  const std::size_t n = static_cast<std::size_t>(tensors.extent("n")),
+                    bands = static_cast<std::size_t>(tensors.extent("N")), count = bands * bands;
+  const std::optional<double> accuracy = accuracy_of(file);
+  const Json* order = file.provenance().extra.find(kOrderEntry);
+  if (!accuracy || !order || !order->is_integer() || order->as_integer() < (n > 0 ? 1 : 0) ||
+      order->as_integer() > HshRotator::kMaxOrder)
     throw Error(ExitCode::bad_input, file.path(),
                 text("its header does not say accuracy, and an order from 1 to ", HshRotator::kMaxOrder,
                      "; make the file again"));
-  }
-  const auto bands = static_cast<std::size_t>(order->as_integer()), count = bands * bands;
-  const auto column = [&](const char* name, const Shape& shape) {
-    return file.values<float>(name, shape).data();
-  };
-  const std::span<const Vec3> position = file.vectors("position");
-  const float *frame = column("frame", {n, 2, 3}), *light = column("coefficients", {n, 3, count}),
-              *error = column("stderr", {n, 3, bands}), *distance = column("distance", {n}),
-              *radius = column("radius", {n});
-  const float* shared = file.has("shared") ? column("shared", {n}) : nullptr;
-  const bool gradients = file.has("gradient_x") || file.has("gradient_y");
-  const float* along[2] = {gradients ? column("gradient_x", {n, 3, count}) : nullptr,
-                           gradients ? column("gradient_y", {n, 3, count}) : nullptr};
+  if (static_cast<std::size_t>(order->as_integer()) != bands)
+    throw Error(ExitCode::bad_input, file.path(),
+                text("its header says order ", order->as_integer(), ", and its tensors are of order ", bands,
+                     "; make the file again"));
+  const auto column = [&](const char* name) { return tensors.values<float>(name).data(); };
+  const std::span<const Vec3> position = tensors.vectors("position");
+  const float *frame = column("frame"), *light = column("coefficients"), *error = column("stderr"),
+              *distance = column("distance"), *radius = column("radius");
+  const float* shared = tensors.has("shared") ? column("shared") : nullptr;
+  const bool gradients = tensors.has("gradient_x");
+  const float* along[2] = {gradients ? column("gradient_x") : nullptr,
+                           gradients ? column("gradient_y") : nullptr};
   const std::uint8_t* own_order =
-      file.has("order") ? file.values<std::uint8_t>("order", {n}).data() : nullptr;
+      tensors.has("order") ? tensors.values<std::uint8_t>("order").data() : nullptr;
   RadianceCache cache;
-  cache.accuracy = accuracy->as_number();
+  cache.accuracy = *accuracy;
   cache.scene_hash = file.provenance().scene_hash;
   cache.caustics = caustics_of(file);
   cache.records.resize(rows ? rows->size() : n);
@@ -228,7 +229,6 @@ RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std:
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
     if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
-    if (!wrong[record]) wrong[record] = what_is_wrong(r);
   });
   for (std::size_t record = 0; record < wrong.size(); ++record) {
     if (wrong[record]) {

@@ -77,16 +77,13 @@ inline double reading_accuracy(const RadianceCache& cache) {
 /// slopes overshoot in the higher bands, and bring in more noise than change.
 void settle_slopes(RadianceRecord& record, double accuracy);
 
-/// The `.radiance` file, n records, the greatest order N: position f32[n,3] m, frame f32[n,2,3] (x axis,
-/// normal), coefficients f32[n,3,N^2], gradient_x and gradient_y likewise per metre (absent where there are
-/// none), stderr f32[n,3,N] by band, shared f32[n] (unless kSharedByZones for all), distance and radius
-/// f32[n] m. Where orders differ, order u8[n] holds them, and numbers beyond a record's own are 0. Its header
-/// names the basis. Of a film there are `more` columns.
+/// The `.radiance` file (file/kinds/tables.cpp). The header names the basis. Of a film there are `more`
+/// columns.
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
-                    ContainerWriter more = {});
+                    TensorWriter more = TensorWriter(FileKind::radiance));
 /// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named), one of
-/// another kind, or unless its records are of what is wanted.
-RadianceCache read_radiance(const Container& file, RecordsOf of = RecordsOf::cache);
+/// another kind or form.
+RadianceCache read_radiance(const Container& file, FileForm form = FileForm::whole);
 
 /// Light that leaves a point by its glossy lobe.
 struct GlossyLight {

@@ -28,7 +28,7 @@ inline bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
   return true;
 }
 
-/// As read_radiance(), but of some rows alone, which then are all that is looked at; null: all.
-RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows);
+/// As read_radiance(), but of some rows alone; null: all.
+RadianceCache read_radiance_rows(const Container& file, FileForm form, const std::vector<std::size_t>* rows);
 
 }  // namespace phos::inline radiance

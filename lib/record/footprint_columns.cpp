@@ -38,27 +38,26 @@ FootprintColumns::FootprintColumns(std::span<const IrradianceRecord> records) {
   }
 }
 
-void FootprintColumns::add_to(ContainerWriter& file) const {
+void FootprintColumns::add_to(TensorWriter& file) const {
   if (axis_.empty()) return;
-  const std::uint64_t n = axis_.size();
-  file.add_vectors("footprint_axis", axis_, "1");
-  file.add<float>("footprint_length", length_, {n, kAxes}, "m");
-  file.add<float>("footprint_slope", slope_, {n, 3, kAxes}, "lx");
-  file.add<float>("footprint_bend", bend_, {n, 3, kAxes}, "lx");
-  file.add<float>("footprint_turn_slope", turn_slope_, {n, 3, kAxes}, "lx/rad");
-  file.add<float>("footprint_turn_bend", turn_bend_, {n, 3, kAxes}, "lx/rad2");
+  file.add_vectors("footprint_axis", axis_);
+  file.add<float>("footprint_length", length_);
+  file.add<float>("footprint_slope", slope_);
+  file.add<float>("footprint_bend", bend_);
+  file.add<float>("footprint_turn_slope", turn_slope_);
+  file.add<float>("footprint_turn_bend", turn_bend_);
 }
 
-std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const Container& file,
+std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const TensorReader& file,
                                                                       std::span<const Vec3> normal) {
   const std::uint64_t n = normal.size();
   if (!file.has("footprint_length")) return {};
-  const std::span<const float> length = file.values<float>("footprint_length", {n, kAxes}),
-                               slope = file.values<float>("footprint_slope", {n, 3, kAxes}),
-                               bend = file.values<float>("footprint_bend", {n, 3, kAxes}),
-                               turn_slope = file.values<float>("footprint_turn_slope", {n, 3, kAxes}),
-                               turn_bend = file.values<float>("footprint_turn_bend", {n, 3, kAxes});
-  const std::span<const float> x = file.values<float>("footprint_axis", {n, 3});
+  const std::span<const float> length = file.values<float>("footprint_length"),
+                               slope = file.values<float>("footprint_slope"),
+                               bend = file.values<float>("footprint_bend"),
+                               turn_slope = file.values<float>("footprint_turn_slope"),
+                               turn_bend = file.values<float>("footprint_turn_bend");
+  const std::span<const float> x = file.values<float>("footprint_axis");
   std::vector<std::shared_ptr<const AdaptiveFootprint>> footprints(n);
   parallel_for(n, 1024, [&](std::size_t i) {
     AdaptiveFootprint::Axes axes;

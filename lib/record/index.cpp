@@ -14,11 +14,11 @@ RecordIndex index_records(std::span<const IrradianceRecord> records, double accu
   return tree.index();
 }
 
-void add_index(ContainerWriter& file, const RecordIndex& index) {
-  file.add<double>("index_box", index.box, {4}, "m");
-  file.add<std::uint8_t>("index_children", index.children, {index.children.size()}, "1");
-  file.add<std::uint32_t>("index_cells", index.cell, {index.children.size() + 1, 2}, "1");
-  file.add<std::uint32_t>("index_entries", index.entry, {index.entry.size()}, "1");
+void add_index(TensorWriter& file, const RecordIndex& index) {
+  file.add<double>("index_box", index.box);
+  file.add<std::uint8_t>("index_children", index.children);
+  file.add<std::uint32_t>("index_cells", index.cell);
+  file.add<std::uint32_t>("index_entries", index.entry);
 }
 
 RecordLookup::RecordLookup(const Container& file, const RayScene* leak_test)
@@ -35,13 +35,13 @@ RecordLookup::RecordLookup(const Container& file, const RayScene* leak_test)
 }
 
 void RecordLookup::use_stored() {
-  const Container& file = records_.file();
-  const auto box = file.values<double>("index_box", {4});
+  const TensorReader file(records_.file());
+  const auto box = file.values<double>("index_box");
   lo_ = {box[0], box[1], box[2]};
   side_m_ = box[3];
-  children_ = file.values<std::uint8_t>("index_children", {0});
-  cell_ = file.values<std::uint32_t>("index_cells", {children_.size() + 1, 2});
-  entry_ = file.values<std::uint32_t>("index_entries", {0});
+  children_ = file.values<std::uint8_t>("index_children");
+  cell_ = file.values<std::uint32_t>("index_cells");
+  entry_ = file.values<std::uint32_t>("index_entries");
   check_stored();
 }
 
@@ -52,9 +52,7 @@ void RecordLookup::check_stored() const {
     throw Error(ExitCode::bad_input, records_.file().path(),
                 text("its index is damaged (", what, "); make the file again"));
   };
-  require(std::isfinite(lo_.x) && std::isfinite(lo_.y) && std::isfinite(lo_.z) && std::isfinite(side_m_) &&
-              side_m_ > 0,
-          "the root has no size");
+  require(side_m_ > 0, "the root has no size");
   const std::size_t cells = children_.size();
   require(cells > 0, "it has no cells");
   std::size_t next_child = 1, next_entry = 0;

@@ -40,7 +40,7 @@ inline constexpr const char* kIndexAccuracy = "index_accuracy";
 /// Depends on the records and their order alone.
 RecordIndex index_records(std::span<const IrradianceRecord> records, double accuracy);
 /// As tensors index_box, index_children, index_cells and index_entries; `index` must live until write().
-void add_index(ContainerWriter& file, const RecordIndex& index);
+void add_index(TensorWriter& file, const RecordIndex& index);
 
 /// Lookup in a file's records where they lie: the same sums as RecordTree at their reading_accuracy(). Any
 /// thread, any order.

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/float_traps.h"
-#include "core/parallel.h"
+#include "file/shards.h"
 #include "record/check.h"
 #include "record/footprint_columns.h"
 #include "record/index.h"
@@ -12,10 +12,6 @@
 
 namespace phos::inline record {
 namespace {
-
-std::span<const float> flat(const std::vector<Vec3>& v) {
-  return {reinterpret_cast<const float*>(v.data()), 3 * v.size()};
-}
 
 bool row_is_finite(const IrradianceRecord& r) {
   bool finite = is_finite(r.position) && is_finite(r.normal) && is_finite(r.irradiance) &&
@@ -79,7 +75,7 @@ bool any_footprint(std::span<const IrradianceRecord> records) {
 }
 
 void append(IrradianceCache& all, const IrradianceCache& more) {
-  PHOS_CHECK(all.quantity == more.quantity, all.quantity, " and ", more.quantity, " light");
+  PHOS_CHECK(all.quantity == more.quantity, name_of(all.quantity), " and ", name_of(more.quantity), " light");
   PHOS_CHECK(!all.caustics == !more.caustics || more.records.empty(), "caustic light apart and within");
   const auto reach = static_cast<float>(more.accuracy / all.accuracy);
   for (IrradianceRecord r : more.records) {
@@ -88,27 +84,20 @@ void append(IrradianceCache& all, const IrradianceCache& more) {
   }
 }
 
-RecordsOf records_of(const Container& file) {
-  const Json& header = file.provenance().extra;
-  return header.find("part") ? RecordsOf::part : header.find("film") ? RecordsOf::film : RecordsOf::cache;
-}
-
-void require_records_of(RecordsOf of, const Container& file) {
-  const RecordsOf found = records_of(file);
-  if (found == of) return;
-  if (found == RecordsOf::part) {
-    const Json* name = file.provenance().extra.find("part");
+void require_form(FileForm form, const Container& file) {
+  const FileForm found = file.form();
+  if (found == form) return;
+  if (found == FileForm::part)
     throw Error(ExitCode::bad_input, file.path(),
-                text("is part ", name->is_string() ? name->as_string() : "?",
+                text("is part ", share_of(file),
                      " of a run; join all its parts first: phos-merge PART... -o ALL.irradiance"));
-  }
-  if (found == RecordsOf::film)
+  if (found == FileForm::film)
     throw Error(ExitCode::bad_input, file.path(),
                 "is of a film, with records for different frames; give a cache of one scene "
                 "(phos-irradiance, phos-radiance), or use the film where it is read, as by phos-splat");
   throw Error(ExitCode::bad_input, file.path(),
-              of == RecordsOf::part ? "is no part of a run; give files made with --part k/n"
-                                    : "is of no film; give the output of phos-temporal");
+              form == FileForm::part ? "is no part of a run; give files made with --part k/n"
+                                     : "is of no film; give the output of phos-temporal");
 }
 
 namespace {
@@ -126,7 +115,7 @@ void require_same_caustics(bool apart, bool other_apart, const std::string& wher
                    "; make all of them anew with this version, all from photons"));
 }
 
-void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, ContainerWriter& file,
+void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, TensorWriter& file,
                   Provenance& provenance) {
   if (!caustics) return;
   add_columns(file, *caustics);
@@ -152,7 +141,7 @@ std::shared_ptr<const CausticPhotons> caustics_of(const Container& file) {
 }
 
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
-                      std::span<const float> least_radius_m, ContainerWriter file) {
+                      std::span<const float> least_radius_m, TensorWriter file) {
   const std::size_t n = cache.records.size();
   std::vector<Vec3> position(n), normal(n), irradiance(n), error(n), rotation(3 * n), translation(3 * n);
   std::vector<float> distance(n), radius(n), shared(n);
@@ -165,80 +154,61 @@ void write_irradiance(const std::string& path, const IrradianceCache& cache, Pro
       rotation[3 * i + c] = r.rotation_gradient[c], translation[3 * i + c] = r.translation_gradient[c];
     }
   }
-  file.add_vectors("position", position, "m");
-  file.add_vectors("normal", normal, "1");
-  file.add_vectors("irradiance", irradiance, "lx");
-  file.add_vectors("stderr", error, "lx");
-  file.add<float>("distance", distance, {n}, "m");
-  file.add<float>("radius", radius, {n}, "m");
-  file.add<float>("rotation_gradient", flat(rotation), {n, 3, 3}, "lx/rad");
-  file.add<float>("translation_gradient", flat(translation), {n, 3, 3}, "lx/m");
+  file.add_vectors("position", position);
+  file.add_vectors("normal", normal);
+  file.add_vectors("irradiance", irradiance);
+  file.add_vectors("stderr", error);
+  file.add<float>("distance", distance);
+  file.add<float>("radius", radius);
+  file.add_vectors("rotation_gradient", rotation);
+  file.add_vectors("translation_gradient", translation);
   if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
-    file.add<float>("shared", shared, {n}, "1");
+    file.add<float>("shared", shared);
   const FootprintColumns footprints(cache.records);
   footprints.add_to(file);
   RecordIndex index;
-  if (provenance.extra.find("part")) {
-    file.add<float>("least_radius", least_radius_m, {n}, "m");
-  } else if (n >= kIndexedRecords && !provenance.extra.find("film")) {
+  const FileForm form = form_of(provenance.extra);
+  if (form == FileForm::part) {
+    file.add<float>("least_radius", least_radius_m);
+  } else if (n >= kIndexedRecords && form != FileForm::film) {
     index = index_records(cache.records, reading_accuracy(cache.accuracy));
     add_index(file, index);
     provenance.extra[kIndexAccuracy] = reading_accuracy(cache.accuracy);
   }
   add_caustics(cache.caustics, file, provenance);
-  provenance.kind = "irradiance";
   provenance.scene_hash = cache.scene_hash;
-  provenance.extra["accuracy"] = cache.accuracy;
-  provenance.extra["quantity"] = cache.quantity;
+  provenance.extra[kAccuracyEntry] = cache.accuracy;
+  provenance.extra[kQuantityEntry] = name_of(cache.quantity);
   provenance.extra["records"] = n;
   file.write(path, provenance);
 }
 
-RecordColumns::RecordColumns(const Container& file, RecordsOf of) : file_(file) {
-  if (file.provenance().kind != "irradiance") {
-    throw Error(
-        ExitCode::bad_input, file.path(),
-        text("holds ", file.provenance().kind, ", not irradiance; give the output of phos-irradiance"));
-  }
-  require_records_of(of, file);
-  file.verify();
-  const std::uint64_t n = file.vectors("position").size();
-  const auto column = [&](const char* name, const Shape& shape) {
-    return file.values<float>(name, shape).data();
-  };
-  size_ = n;
-  position_ = column("position", {n, 3});
-  normal_ = column("normal", {n, 3});
-  irradiance_ = column("irradiance", {n, 3});
-  stderr_ = column("stderr", {n, 3});
-  distance_ = column("distance", {n});
-  radius_ = column("radius", {n});
-  rotation_ = column("rotation_gradient", {n, 3, 3});
-  translation_ = column("translation_gradient", {n, 3, 3});
-  if (file.has("shared")) shared_ = column("shared", {n});
-  footprints_ = read_footprints(file, file.vectors("normal"));
-  const Json *accuracy = file.provenance().extra.find("accuracy"),
-             *quantity = file.provenance().extra.find("quantity");
-  if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0) || !quantity ||
-      !quantity->is_string()) {
+RecordColumns::RecordColumns(const Container& file, FileForm form) : file_(file) {
+  if (file.kind() != FileKind::irradiance)
+    throw Error(ExitCode::bad_input, file.path(),
+                text("holds ", name_of(file.kind()), ", not irradiance; give the output of phos-irradiance"));
+  require_form(form, file);
+  file.require_sound();
+  const TensorReader tensors(file);
+  const auto column = [&](const char* name) { return tensors.values<float>(name).data(); };
+  size_ = static_cast<std::size_t>(tensors.extent("n"));
+  position_ = column("position"), normal_ = column("normal");
+  irradiance_ = column("irradiance"), stderr_ = column("stderr");
+  distance_ = column("distance"), radius_ = column("radius");
+  rotation_ = column("rotation_gradient"), translation_ = column("translation_gradient");
+  if (tensors.has("shared")) shared_ = column("shared");
+  footprints_ = read_footprints(tensors, tensors.vectors("normal"));
+  const std::optional<double> accuracy = accuracy_of(file);
+  const std::optional<Quantity> quantity = quantity_of(file);
+  if (!accuracy || !quantity)
     throw Error(ExitCode::bad_input, file.path(),
                 "its header does not say accuracy and quantity; make the file again");
-  }
-  accuracy_ = accuracy->as_number();
-  quantity_ = quantity->as_string();
-  // In chunks, the first bad row wins: the same message for any number of threads.
-  const auto first_bad = parallel_reduce<std::size_t>(
-      n, 1 << 14, n,
-      [&](std::size_t begin, std::size_t end) {
-        while (begin < end && what_is_wrong((*this)[begin]) == nullptr) ++begin;
-        return begin < end ? begin : n;
-      },
-      [](std::size_t& least, std::size_t part) { least = std::min(least, part); });
-  if (first_bad < n) {
-    throw Error(ExitCode::bad_input, file.path(),
-                text("record ", first_bad, " has ", what_is_wrong((*this)[first_bad]),
-                     "; the file is damaged or was made by a faulty program: make it again"));
-  }
+  accuracy_ = *accuracy, quantity_ = *quantity;
+  for (std::size_t i = 0; i < footprints_.size(); ++i)
+    if (const char* wrong = what_is_wrong(*footprints_[i], normal(i)))
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("record ", i, " has ", wrong,
+                       "; the file is damaged or was made by a faulty program: make it again"));
 }
 
 IrradianceRecord RecordColumns::operator[](std::size_t i) const {

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "core/vector.h"
-#include "file/container.h"
+#include "file/kinds/tensor_io.h"
 #include "photon/caustic_map.h"
 #include "record/blend.h"
 #include "record/footprint.h"
+#include "record/header.h"
 #include "record/weight.h"
 #include "scene/rays.h"
 
@@ -42,8 +43,7 @@ struct IrradianceCache {
   std::vector<IrradianceRecord> records;
   double accuracy = 0.2;  ///< a that placed them
   std::string scene_hash;
-  /// Which light is in them: "indirect" (all but straight from the lights) or "all".
-  std::string quantity = "indirect";
+  Quantity quantity = Quantity::indirect;
   /// Caustic photons, where records hold no caustic light (RecordOptions::caustics_apart): readers add it at
   /// each point (estimate/caustic_light.h). Null: it is in the records.
   std::shared_ptr<const CausticPhotons> caustics{};
@@ -54,7 +54,7 @@ struct IrradianceCache {
 void require_same_caustics(bool apart, bool other_apart, const std::string& where);
 
 /// Says in a header that caustic light is apart; adds its photons. Nothing where it is not.
-void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, ContainerWriter& file,
+void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, TensorWriter& file,
                   Provenance& provenance);
 /// Null: the records of the file hold it.
 std::shared_ptr<const CausticPhotons> caustics_of(const Container& file);
@@ -74,18 +74,15 @@ bool any_footprint(std::span<const IrradianceRecord> records);
 /// both have caustic photons, those of `all` stay.
 void append(IrradianceCache& all, const IrradianceCache& more);
 
-/// What the records of a file are, as its header says: the light of one scene; a part of a run
-/// (place/parts.h); of a film, each for some of its frames (temporal/film/cache.h).
-enum class RecordsOf { cache, part, film };
-RecordsOf records_of(const Container& file);
-/// Throws Error(bad_input), saying what to do, unless the file holds records of that.
-void require_records_of(RecordsOf of, const Container& file);
+/// Throws Error(bad_input), saying what to do, unless the file, which holds records, is of this form.
+void require_form(FileForm form, const Container& file);
 
 /// The file also holds an index (record/index.h) where there are many records of a cache.
 /// The part of their variance that records share is in it where it is not kSharedByZones for all.
 /// Of a part of a run it holds the least radii that neighbours leave instead; of a film, `more` columns.
 void write_irradiance(const std::string& path, const IrradianceCache& cache, Provenance provenance,
-                      std::span<const float> least_radius_m = {}, ContainerWriter more = {});
+                      std::span<const float> least_radius_m = {},
+                      TensorWriter more = TensorWriter(FileKind::irradiance));
 /// Reads one file; throws Error(bad_input) for a damaged one (checksums verified, non-finite rows named), a
 /// part or a film.
 IrradianceCache read_irradiance(const Container& file);
@@ -93,11 +90,11 @@ IrradianceCache read_irradiance(const Container& file);
 /// The records of a file, read where they lie. Copies share the mapping.
 class RecordColumns {
  public:
-  /// Throws Error(bad_input) like read_irradiance, or unless it is this that the file holds.
-  explicit RecordColumns(const Container& file, RecordsOf of = RecordsOf::cache);
+  /// Throws Error(bad_input) like read_irradiance, or for a file of another form.
+  explicit RecordColumns(const Container& file, FileForm form = FileForm::whole);
   std::size_t size() const { return size_; }
   double accuracy() const { return accuracy_; }
-  const std::string& quantity() const { return quantity_; }
+  Quantity quantity() const { return quantity_; }
   const Container& file() const { return file_; }
   Vec3 position(std::size_t i) const { return vector(position_, i); }
   Vec3 normal(std::size_t i) const { return vector(normal_, i); }
@@ -114,7 +111,7 @@ class RecordColumns {
   Container file_;
   std::size_t size_ = 0;
   double accuracy_ = 0;
-  std::string quantity_;
+  Quantity quantity_ = Quantity::indirect;
   const float *position_, *normal_, *irradiance_, *stderr_, *distance_, *radius_, *rotation_, *translation_;
   const float* shared_ = nullptr;                                     // not in every file
   std::vector<std::shared_ptr<const AdaptiveFootprint>> footprints_;  // likewise

@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "reference/camera_view.h"
 #include "reference/central_moments.h"
+#include "reference/events.h"
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/sample_shares.h"
@@ -397,9 +398,9 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
   }
   result.image = renderer.image();
   const std::uint64_t rejected = renderer.rejected();
-  if (rejected > 0) result.counters.count("non-finite sample", rejected);
+  if (rejected > 0) result.counters.count(kNonFiniteSampleEvent, rejected);
   const auto trials = result.image.pixels() * static_cast<std::uint64_t>(result.samples);
-  result.counters.require_allowed("non-finite sample", trials);
+  result.counters.require_allowed(kNonFiniteSampleEvent, trials);
   return result;
 }
 

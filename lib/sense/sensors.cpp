@@ -185,18 +185,18 @@ void declare_options(Options& options, SensorOptions& s) {
 SensorCaches::SensorCaches(std::span<const Container> files, const RayScene* leak_test)
     : leak_test_(leak_test) {
   for (const Container& file : files) {
-    if (file.provenance().kind == "radiance") {
+    if (file.kind() == FileKind::radiance) {
       add(irradiance_of(read_radiance(file)), file.path());
       continue;
     }
     RecordLookup lookup(file, leak_test);
-    require_light(lookup.records().quantity() == "all", caustics_of(file), file.path());
+    require_light(lookup.records().quantity() == Quantity::all, caustics_of(file), file.path());
     lookups_.push_back(std::move(lookup));
   }
 }
 
 void SensorCaches::add(const IrradianceCache& cache, const std::string& name) {
-  require_light(cache.quantity == "all", cache.caustics, name);
+  require_light(cache.quantity == Quantity::all, cache.caustics, name);
   Bounds bounds;
   for (const IrradianceRecord& r : cache.records) bounds.include(r.position);
   const double accuracy = reading_accuracy(cache.accuracy);

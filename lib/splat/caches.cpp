@@ -7,7 +7,7 @@ namespace phos::inline splat {
 
 namespace {
 
-bool is_brdf(const Container& file) { return file.provenance().kind == "brdf"; }
+bool is_brdf(const Container& file) { return file.kind() == FileKind::brdf; }
 
 /// The records of several files as one cache.
 class Joined {
@@ -18,7 +18,8 @@ class Joined {
     if (first_ && more.quantity != all_.quantity)
       throw Error(
           ExitCode::mismatch, file.path(),
-          text("holds ", more.quantity, " light, ", first_->path(), " holds ", all_.quantity,
+          text("holds ", name_of(more.quantity), " light, ", first_->path(), " holds ",
+               name_of(all_.quantity),
                "; make both with the same --paths of phos-irradiance (radiance records are indirect)"));
     if (first_) require_same_caustics(more.caustics != nullptr, all_.caustics != nullptr, file.path());
     if (!first_) all_.accuracy = more.accuracy, all_.quantity = more.quantity, all_.caustics = more.caustics;
@@ -42,7 +43,7 @@ void add(RadianceCache& all, RadianceCache more) {
 
 }  // namespace
 
-bool is_radiance(const Container& file) { return file.provenance().kind == "radiance"; }
+bool is_radiance(const Container& file) { return file.kind() == FileKind::radiance; }
 
 SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy) {
   SplatCaches caches;

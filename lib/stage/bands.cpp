@@ -18,7 +18,7 @@ void join_to_picture(Tool& tool, const BandParts& parts) {
   tool.set_provenance_reader(read_image_provenance);
   if (tool.up_to_date()) return;
   JoinedPicture joined = join_pictures(parts);
-  set_provenance(joined.image, tool.provenance("image", "", Json()));
+  set_provenance(joined.image, tool.provenance(FileKind::image, "", Json()));
   write_exr(tool.output(), joined.image);
   tool.stat("pixels_beyond_rec709", joined.beyond);
   tool.say(text(tool.output(), ": ", joined.image.width(), " x ", joined.image.height(), " from ",

@@ -37,7 +37,7 @@ void run(Tool& tool, const BrdfCommand& asked) {
     file.write(basis_accuracy_csv(scene, glossy_materials(scene)));
     file.commit();
   }
-  write_brdf(tool.output(), tables, tool.provenance("brdf", scene.hash, scene.parts));
+  write_brdf(tool.output(), tables, tool.provenance(FileKind::brdf, scene.hash, scene.parts));
 }
 
 }  // namespace phos::stage

@@ -7,7 +7,7 @@ namespace {
 
 void verify(Tool& tool, const InfoCommand& r) {
   try {
-    Container::open(r.path).verify();
+    Container::open(r.path).require_sound();
   } catch (const Error& e) {
     if (e.code() != ExitCode::bad_input) throw;
     if (tool.verbose()) tool.say(e.where() + ": " + e.what());

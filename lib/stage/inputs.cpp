@@ -42,7 +42,7 @@ void require_scene(const std::string& scene) {
     throw Error(ExitCode::usage, "", "no scene among the inputs; give the .glb, .gltf or .obj too");
 }
 
-bool is_brdf(const Container& file) { return file.provenance().kind == "brdf"; }
+bool is_brdf(const Container& file) { return file.kind() == FileKind::brdf; }
 
 }  // namespace
 
@@ -68,18 +68,18 @@ RecordFiles sort_record_inputs(const std::vector<std::string>& paths) {
   const InputFiles sorted = tell_apart(paths, Beside::files);
   RecordFiles files;
   files.scene = sorted.scene;
-  const std::map<std::string, std::pair<std::string*, const char*>> kinds{
-      {"photons", {&files.photons, "photon map"}},
-      {"irradiance", {&files.source, "irradiance cache"}},
-      {"radiance", {&files.radiance, "radiance cache"}},
-      {"brdf", {&files.brdf, "file of lobes"}}};
+  const std::map<FileKind, std::pair<std::string*, const char*>> kinds{
+      {FileKind::photons, {&files.photons, "photon map"}},
+      {FileKind::irradiance, {&files.source, "irradiance cache"}},
+      {FileKind::radiance, {&files.radiance, "radiance cache"}},
+      {FileKind::brdf, {&files.brdf, "file of lobes"}}};
   for (const std::string& path : sorted.phos) {
-    const std::string kind = Container::open(path).provenance().kind;
+    const FileKind kind = Container::open(path).kind();
     const auto found = kinds.find(kind);
     if (found == kinds.end())
-      throw Error(
-          ExitCode::usage, path,
-          text("holds ", kind, "; give a scene, photons, its .brdf file, or a cache for rays to read"));
+      throw Error(ExitCode::usage, path,
+                  text("holds ", name_of(kind),
+                       "; give a scene, photons, its .brdf file, or a cache for rays to read"));
     take(*found->second.first, path, found->second.second);
   }
   require_scene(files.scene);
@@ -99,8 +99,8 @@ std::vector<Container> open_caches(const std::vector<std::string>& paths, CacheK
   for (const std::string& path : paths) {
     files.push_back(Container::open(path));
     const bool lobes = kinds == CacheKinds::records_and_lobes && is_brdf(files.back());
-    if (!lobes && files.back().provenance().kind != "radiance")
-      files.back() = Container::open(path, "irradiance");
+    if (!lobes && files.back().kind() != FileKind::radiance)
+      files.back() = Container::open(path, FileKind::irradiance);
   }
   if (kinds == CacheKinds::records_and_lobes && std::all_of(files.begin(), files.end(), is_brdf))
     throw Error(ExitCode::bad_input, paths.empty() ? "CACHE" : paths.front(),
@@ -118,8 +118,8 @@ void require_together(const std::vector<Container>& files, const std::string& sc
   for (const Container& file : files) require_together(file, scene_path, scene, allow_mismatch);
 }
 
-Container open_to_add(const std::string& path, const std::string& kind, const RecordFiles& files,
-                      const Scene& scene, bool allow_mismatch) {
+Container open_to_add(const std::string& path, FileKind kind, const RecordFiles& files, const Scene& scene,
+                      bool allow_mismatch) {
   Container file = Container::open(path, kind);
   if (is_film(file))
     throw Error(ExitCode::usage, path,

@@ -49,7 +49,7 @@ void require_together(const std::vector<Container>& files, const std::string& sc
 
 /// A file to add to. Throws Error(usage) for a film, Error(mismatch) if it was made from another scene, or
 /// from other photons than those given, unless `allow_mismatch`.
-Container open_to_add(const std::string& path, const std::string& kind, const RecordFiles& files,
-                      const Scene& scene, bool allow_mismatch);
+Container open_to_add(const std::string& path, FileKind kind, const RecordFiles& files, const Scene& scene,
+                      bool allow_mismatch);
 
 }  // namespace phos::stage

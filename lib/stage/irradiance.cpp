@@ -72,7 +72,7 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
 /// Error(mismatch).
 IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, Options& options,
                              const IrradianceCommand& asked) {
-  const Container file = open_to_add(asked.add_to, "irradiance", files, scene, asked.allow_mismatch);
+  const Container file = open_to_add(asked.add_to, FileKind::irradiance, files, scene, asked.allow_mismatch);
   adopt_estimate(options, file);
   return read_irradiance(file);
 }
@@ -96,7 +96,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   IrradianceCache cache;
   if (!asked.add_to.empty()) cache = open_earlier(files, scene, tool.options(), asked);
   cache.scene_hash = scene.hash;
-  cache.quantity = name_of(records.paths);
+  cache.quantity = records.paths;
   cache.caustics = caustics_of_run(inputs, scene, asked.add_to.empty() ? nullptr : &cache, asked.add_to);
   records.caustics_apart = cache.caustics != nullptr;
   if (cache.caustics) tool.stat("caustic_photons", cache.caustics->size());
@@ -119,7 +119,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
                                               "records of photons", "let rays gather: --estimate gather");
   const std::vector<LightWay> missed = tell_missed_ways(tool, rays, records);
   const auto provenance = [&] {
-    Provenance own = tool.provenance("irradiance", scene.hash, scene.parts);
+    Provenance own = tool.provenance(FileKind::irradiance, scene.hash, scene.parts);
     note_unsampled(own, missed);
     return own;
   };

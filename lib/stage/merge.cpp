@@ -44,11 +44,11 @@ void merge_irradiance(Tool& tool, const std::vector<std::string>& parts) {
 
 void run(Tool& tool, const MergeCommand& asked) {
   for (const std::string& path : asked.shards)
-    if (records_of(Container::open(path)) == RecordsOf::film)
+    if (Container::open(path).form() == FileForm::film)
       throw Error(
           ExitCode::usage, path,
           "is a film, which has no parts; phos-merge joins shards of photons and parts of irradiance");
-  const bool irradiance = Container::open(asked.shards.front()).provenance().kind == "irradiance";
+  const bool irradiance = Container::open(asked.shards.front()).kind() == FileKind::irradiance;
   irradiance ? merge_irradiance(tool, asked.shards) : merge_photons(tool, asked.shards);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/text/quantity.h"
+#include "photon/events.h"
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 #include "scene/sky/access.h"
@@ -36,7 +37,7 @@ void report_openings(Tool& tool, const RayScene& rays, const PhotonOptions& opti
 
 void check_events(const Counters& counters, const PhotonTotals& totals) {
   const std::uint64_t trials = totals.stored + totals.paths;
-  for (const char* event : {kNonFiniteEvent, kTooLongEvent}) counters.require_allowed(event, trials);
+  for (const Event* event : {&kNonFiniteEvent, &kTooLongEvent}) counters.require_allowed(*event, trials);
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ void run(Tool& tool, const PhotonsCommand& asked) {
   report_openings(tool, *rays, options, !asked.scene.portals.empty());
   check_events(tool.counters(), totals);
   report(tool, totals);
-  const Provenance provenance = tool.provenance("photons", scene->hash, scene->parts);
+  const Provenance provenance = tool.provenance(FileKind::photons, scene->hash, scene->parts);
   if (!options.shard.empty()) {
     const Tool::Timer timer = tool.time("write");
     write_shard(tool.output(), photons, totals, options.shard, provenance);

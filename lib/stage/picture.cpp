@@ -4,6 +4,7 @@
 
 #include "file/atomic_file.h"
 #include "file/frames.h"
+#include "image/events.h"
 #include "image/video.h"
 #include "scene/luminaire/goniometric.h"
 
@@ -45,7 +46,7 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
   const Plot plot = plot_of(table, options);
   write_plot(tool.output(), plot, plot_svg, plot_picture);
   if (const std::size_t n = points_left_out(plot); n > 0) {
-    tool.counters().count("point that cannot be shown", n);
+    tool.counters().count(kNotShownEvent, n);
     tool.warn(text(input, ": ", n, " points are left out: not finite, or not above 0 on a logarithmic axis"));
   }
 }

@@ -52,7 +52,8 @@ void run(Tool& tool, RadianceCommand& asked) {
   }();
   RadianceCache cache;
   if (!asked.add_to.empty()) {
-    const Container earlier = open_to_add(asked.add_to, "radiance", files, scene, asked.allow_mismatch);
+    const Container earlier =
+        open_to_add(asked.add_to, FileKind::radiance, files, scene, asked.allow_mismatch);
     adopt_estimate(tool.options(), earlier);
     cache = read_radiance(earlier);
     require_same_orders(cache, tables, asked.add_to);
@@ -92,7 +93,7 @@ void run(Tool& tool, RadianceCommand& asked) {
                              tool.counters()));
     if (cache.records.empty()) tool.warn("no place wants a record (see --place): the file is empty");
   }
-  Provenance provenance = tool.provenance("radiance", scene.hash, scene.parts);
+  Provenance provenance = tool.provenance(FileKind::radiance, scene.hash, scene.parts);
   note_unsampled(provenance, missed);
   write_radiance(tool.output(), cache, provenance);
 }

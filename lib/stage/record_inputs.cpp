@@ -7,7 +7,7 @@
 namespace phos::stage {
 
 RecordInputs open_record_inputs(const RecordFiles& files, const Scene& scene, bool allow_mismatch) {
-  const auto open = [&](const std::string& path, const char* kind) {
+  const auto open = [&](const std::string& path, FileKind kind) {
     Container file = Container::open(path, kind);
     require_together(file, files.scene, scene, allow_mismatch);
     return file;
@@ -17,16 +17,17 @@ RecordInputs open_record_inputs(const RecordFiles& files, const Scene& scene, bo
     inputs.photons = PhotonMap::open(files.photons);
     require_together(*inputs.photons->container(), files.scene, scene, allow_mismatch);
   }
-  if (!files.source.empty()) inputs.source = read_irradiance_at(open(files.source, "irradiance"), scene);
+  if (!files.source.empty())
+    inputs.source = read_irradiance_at(open(files.source, FileKind::irradiance), scene);
   if (!files.radiance.empty()) {
-    inputs.radiance = read_radiance_at(open(files.radiance, "radiance"), scene);
-    if (inputs.source && inputs.source->quantity == "indirect") {
+    inputs.radiance = read_radiance_at(open(files.radiance, FileKind::radiance), scene);
+    if (inputs.source && inputs.source->quantity == Quantity::indirect) {
       require_same_caustics(inputs.radiance->caustics != nullptr, inputs.source->caustics != nullptr,
                             files.radiance);
       append(*inputs.source, irradiance_of(*inputs.radiance));
     }
   }
-  if (!files.brdf.empty()) inputs.brdf = read_brdf(open(files.brdf, "brdf"));
+  if (!files.brdf.empty()) inputs.brdf = read_brdf(open(files.brdf, FileKind::brdf));
   return inputs;
 }
 
@@ -45,7 +46,7 @@ std::shared_ptr<const CausticPhotons> caustics_of_run(const RecordInputs& inputs
 
 CoveredBy::CoveredBy(IrradianceCache& cache, const std::optional<RadianceCache>& radiance)
     : first_(cache.records.size()) {
-  if (!radiance || cache.quantity != "indirect") return;
+  if (!radiance || cache.quantity != Quantity::indirect) return;
   require_same_caustics(radiance->caustics != nullptr, cache.caustics != nullptr, "the radiance cache");
   append(cache, irradiance_of(*radiance));
   count_ = radiance->records.size();

@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "image/image_provenance.h"
 #include "image/without_errors.h"
+#include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
@@ -58,8 +59,8 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   const MeasuredPoints measured = measure_points(rays, luminaires, points, method_of(reference),
                                                  ways_of(rays, luminaires, reference.path), options);
   tool.stat("samples", measured.samples);
-  if (measured.rejected > 0) tool.counters().count("non-finite sample", measured.rejected);
-  tool.counters().require_allowed("non-finite sample", measured.samples);
+  if (measured.rejected > 0) tool.counters().count(kNonFiniteSampleEvent, measured.rejected);
+  tool.counters().require_allowed(kNonFiniteSampleEvent, measured.samples);
   measured.doubts.tell(tool);
   write_text(tool, sensor_csv(points, measured.light, rays.scene().origin_m));
 }
@@ -90,7 +91,7 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   const bool stated = can_state_error(tool, both_ends ? std::vector<LightWay>() : ways, picture);
   if (!stated) picture.image = without_errors(picture.image);
   if (!scene.animation.empty()) picture.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
-  set_provenance(picture.image, tool.provenance("image", scene.hash, scene.parts));
+  set_provenance(picture.image, tool.provenance(FileKind::image, scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
   if (stated) picture.image.attributes["phos.error"] = shortest(picture.error);
   if (stated) tool.stat("error", picture.error);

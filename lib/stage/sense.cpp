@@ -4,6 +4,7 @@
 
 #include "direct/direct_reader.h"
 #include "file/atomic_file.h"
+#include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/motion/film.h"
 #include "scene/sky/daylight.h"
@@ -65,8 +66,8 @@ std::vector<Reading> read_exactly(Tool& tool, const Sensors& sensors, const RayS
   std::vector<SensorPoint> points;
   for (const SurfaceSample& p : sensors.points) points.push_back({p.position, p.normal});
   const MeasuredPoints measured = measure_points(rays, lights, points, asked.method, ways, asked.exactly);
-  if (measured.rejected > 0) tool.counters().count("non-finite sample", measured.rejected);
-  tool.counters().require_allowed("non-finite sample", measured.samples);
+  if (measured.rejected > 0) tool.counters().count(kNonFiniteSampleEvent, measured.rejected);
+  tool.counters().require_allowed(kNonFiniteSampleEvent, measured.samples);
   measured.doubts.tell(tool);
   std::vector<Whole> whole;
   for (const PointIrradiance& e : measured.light)

@@ -234,7 +234,7 @@ std::vector<std::string> adopt_site(Options& options, const std::vector<Containe
   Site site(options, allow_mismatch);
   std::vector<std::string> lines;
   for (const Container& file : files)
-    if (file.provenance().kind != "brdf" && !file.provenance().parameters.is_null())
+    if (file.kind() != FileKind::brdf && !file.provenance().parameters.is_null())
       if (std::string line = site.take(file); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }

@@ -26,8 +26,8 @@ namespace {
 void tell_of_files(const Tool& tool, const std::vector<Container>& files, const RenderOptions& render,
                    bool glossy) {
   const bool radiance = std::any_of(files.begin(), files.end(), is_radiance);
-  const bool brdf = std::any_of(files.begin(), files.end(),
-                                [](const Container& f) { return f.provenance().kind == "brdf"; });
+  const bool brdf =
+      std::any_of(files.begin(), files.end(), [](const Container& f) { return f.kind() == FileKind::brdf; });
   if (render.gloss == GlossBy::cached && !radiance)
     throw Error(ExitCode::usage, "--gloss cached",
                 "reads radiance records, and none are given; make them with phos-radiance");
@@ -81,7 +81,7 @@ void run(Tool& tool, SplatCommand& asked) {
   const bool glossy = !glossy_materials(scene).empty();
   tell_of_files(tool, files, render, glossy);
   SplatCaches caches = read_caches(files, scene, glossy);
-  if (caches.irradiance.quantity == "all")
+  if (caches.irradiance.quantity == Quantity::all)
     tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
   resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
 
@@ -109,7 +109,7 @@ void run(Tool& tool, SplatCommand& asked) {
   require_finite(rendering.image);
   if (!stated) rendering.image = without_errors(rendering.image);
   if (!scene.animation.empty()) rendering.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
-  set_provenance(rendering.image, tool.provenance("image", scene.hash, scene.parts));
+  set_provenance(rendering.image, tool.provenance(FileKind::image, scene.hash, scene.parts));
   const auto timer = tool.time("write");
   write_exr(tool.output(), rendering.image, asked.compression);
   if (!misses.empty()) write_misses(misses, rendering.misses, scene.origin_m);

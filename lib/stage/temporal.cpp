@@ -13,7 +13,7 @@ namespace {
 /// The .brdf file among the inputs, if there is one, of these materials.
 std::vector<BrdfTable> lobes_of(const RecordFiles& files, const Scene& scene) {
   if (files.brdf.empty()) return {};
-  const Container file = Container::open(files.brdf, "brdf");
+  const Container file = Container::open(files.brdf, FileKind::brdf);
   require_together(file, files.scene, scene, false);
   return read_brdf(file);
 }
@@ -55,7 +55,8 @@ void run(Tool& tool, TemporalCommand& asked) {
   records.resolve(typical);
   job.light.radiance.records.resolve(typical);
   job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();
-  if (!files.radiance.empty()) require_same_film(Container::open(files.radiance, "radiance"), job.survey);
+  if (!files.radiance.empty())
+    require_same_film(Container::open(files.radiance, FileKind::radiance), job.survey);
   if (job.of_radiance || job.covered_by_radiance)
     job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), asked.gloss, {}, tool.counters());
   tell_of_film(tool, job);
@@ -69,7 +70,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   const auto timer = tool.time("records");
   const Film* read = needs_source(job) ? &source : nullptr;
   const auto provenance = [&] {
-    return tool.provenance(job.of_radiance ? "radiance" : "irradiance", first->scene.hash,
+    return tool.provenance(job.of_radiance ? FileKind::radiance : FileKind::irradiance, first->scene.hash,
                            first->scene.parts);
   };
   FilmReport report;
@@ -89,7 +90,7 @@ void run(Tool& tool, TemporalCommand& asked) {
     if (job.of_radiance)
       write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
     else
-      write_film(tool.output(), film_of(made.chains, info_of(job), name_of(records.paths)), provenance());
+      write_film(tool.output(), film_of(made.chains, info_of(job), records.paths), provenance());
     journal.finish();
   }
   tell_of_records(tool, job, report);

@@ -10,6 +10,7 @@
 #include "direct/direct_light.h"
 #include "estimate/gather.h"
 #include "scene/motion/anchor.h"
+#include "temporal/events.h"
 #include "temporal/reprojection.h"
 
 namespace phos::inline temporal {
@@ -232,7 +233,7 @@ Ahead AheadEstimator::Impl::reprojected(const Made& made, const RecordSite& from
   if (same) return {made.record, made.radiance, 0};
   const auto share = static_cast<float>(holes / cells);
   if (holes > options.most_holes * cells) {
-    w.counters.count("records traced one frame ahead");
+    w.counters.count(kTracedAheadEvent);
     const Made next_made = next.estimator.make(to, *w.next);
     return {next_made.record, next_made.radiance, share};
   }

@@ -136,7 +136,7 @@ Chain chain_of(const Made& made, const IrradianceRecord& settled, const Radiance
   return chain;
 }
 
-Film film_of(std::span<const Chain> chains, const FilmInfo& info, const std::string& quantity) {
+Film film_of(std::span<const Chain> chains, const FilmInfo& info, Quantity quantity) {
   return {info, quantity, records_of<FilmRecord>(chains, info, record_of)};
 }
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info) {

@@ -63,7 +63,7 @@ Chain chain_of(const Made& made, const IrradianceRecord& settled, const Radiance
 /// The records that chains stand for: each key until the next, changed as info.gradients says (where
 /// nothing follows, not at all). What ends at the last frame of a shot lives for that frame. `quantity`: as
 /// IrradianceCache::quantity.
-Film film_of(std::span<const Chain> chains, const FilmInfo& info, const std::string& quantity);
+Film film_of(std::span<const Chain> chains, const FilmInfo& info, Quantity quantity);
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info);
 
 }  // namespace phos::inline temporal

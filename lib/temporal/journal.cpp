@@ -251,7 +251,7 @@ Made JournalEstimator::make(const RecordSite& site, Worker& worker) const {
   auto& own = static_cast<Inner&>(worker);
   const EstimateJournal::Id id{group_, site.item};
   if (const EstimateJournal::Entry* entry = journal_.find(id)) {
-    for (const auto& [name, count] : entry->events) own.counters.count(name, count);
+    for (const auto& [name, count] : entry->events) own.counters.add(name, count);
     return entry->made;
   }
   own.worker->counters = Counters();

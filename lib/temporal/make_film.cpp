@@ -75,7 +75,7 @@ Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters) {
   FilmInfo info = info_of(job);
   info.accuracy = coarse.accuracy, info.gradients = TemporalGradients::interpolated, info.fade = 0;
   info.max_life = options.max_life;
-  return film_of(maker.chains(), info, name_of(coarse.paths));
+  return film_of(maker.chains(), info, coarse.paths);
 }
 
 FilmChains make_chains(const FilmJob& job, FrameScenes& scenes, const Film* source, Counters& counters) {
@@ -119,7 +119,7 @@ std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film*
 IrradianceCache still_irradiance(const FilmJob& job, std::span<const Key> keys) {
   IrradianceCache cache;
   cache.accuracy = records_of(job).accuracy, cache.scene_hash = job.survey.scene_hash.front();
-  cache.quantity = name_of(records_of(job).paths);
+  cache.quantity = records_of(job).paths;
   for (const Key& k : keys) cache.records.push_back(k.record);
   return cache;
 }

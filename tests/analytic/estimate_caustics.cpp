@@ -123,7 +123,7 @@ TEST(Caustics, SensorsReadThemFromFiles) {
   cache.records.push_back(dark);
   const std::string path = scratch("sensors") + "/caustics";
   write_irradiance(path, cache, irradiance_provenance());
-  const Container file = Container::open(path, "irradiance");
+  const Container file = Container::open(path, FileKind::irradiance);
   std::vector<Check> places = MirrorBox::in_air();
   places.push_back({{2, 0, 2.5f}, {0, 1, 0}});
   const Read read = read_sensors_of(of.box.scene, sensors_at(places), {file}, {});
@@ -139,7 +139,7 @@ TEST(Caustics, SensorsReadThemFromFiles) {
   }
   // Records of another kind are not read beside them.
   const Container inside =
-      even_cache("caustics_inside", of.box.scene, {{{2, 0, 2.5f}, {0, 1, 0}}}, 1, 1, "indirect");
+      even_cache("caustics_inside", of.box.scene, {{{2, 0, 2.5f}, {0, 1, 0}}}, 1, 1, Quantity::indirect);
   const Container both[] = {file, inside};
   EXPECT_THROW(SensorCaches(both, nullptr), Error);
 }

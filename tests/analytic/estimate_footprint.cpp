@@ -426,7 +426,7 @@ TEST(FootprintRecords, KeepTheirShapeAtEverySize) {
 TEST(FootprintRecords, AreLookedUpAndReadAsTheyAre) {
   const Penumbra scene;
   IrradianceCache cache;
-  cache.accuracy = 0.2, cache.quantity = "all";
+  cache.accuracy = 0.2, cache.quantity = Quantity::all;
   for (int i = 0; i < 12; ++i)
     cache.records.push_back(
         made_at(scene.scene, {-0.6f + 0.12f * static_cast<float>(i), 0, 0.01f * static_cast<float>(i)}));

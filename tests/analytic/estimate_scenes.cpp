@@ -31,7 +31,7 @@ TEST_P(EveryScene, RecordsAndInterpolationAgreeWithTheClosedForm) {
   for (const test::Check& check : s.checks) scale = std::max(scale, check.irradiance_lx);
 
   IrradianceCache cache;
-  cache.accuracy = options.accuracy, cache.quantity = "all";
+  cache.accuracy = options.accuracy, cache.quantity = Quantity::all;
   Counters counters;
   const PlacementReport report =
       test::place_at_photons(cache, lit.photons, *lit.rays, options, {.max_candidates = 20000}, 1, counters);

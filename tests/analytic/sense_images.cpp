@@ -69,7 +69,7 @@ TEST_P(Images, LightWhatGatheredRaysFind) {
 TEST_P(Images, LightWhatSensorsInMidAirSee) {
   const auto read = [](const Scene& scene) {
     IrradianceCache cache;
-    cache.quantity = "indirect", cache.accuracy = 0.2;
+    cache.quantity = Quantity::indirect, cache.accuracy = 0.2;
     IrradianceRecord dark;
     dark.position = {0.05f, 0, 0.05f}, dark.normal = {0, 1, 0};
     dark.distance_m = dark.radius_m = 0.01f;

@@ -50,7 +50,7 @@ TEST(SensorsAnalytic, AFurnaceThroughItsCache) {
     const AnalyticScene s = furnace(albedo, 100);
     const double direct = 100 * kPiD, indirect = s.mean_irradiance_lx - direct;
     const Container file =
-        even_cache("furnace", s.scene, s.checks, static_cast<float>(indirect), 3, "indirect");
+        even_cache("furnace", s.scene, s.checks, static_cast<float>(indirect), 3, Quantity::indirect);
     const Read read = read_sensors_of(s.scene, sensors_at(s.checks), {file}, {});
     EXPECT_EQ(read.report.uncovered, 0u);
     EXPECT_EQ(read.report.inside, 0u);
@@ -77,7 +77,8 @@ TEST(SensorsAnalytic, FreeAirIsServedByRecordsMadeThere) {
       if (wall.normal[axis] == 0) wall.position[axis] = along[axis];
     walls.push_back(wall);
   }
-  const Container file = even_cache("air", s.scene, walls, static_cast<float>(indirect), 0.3f, "indirect");
+  const Container file =
+      even_cache("air", s.scene, walls, static_cast<float>(indirect), 0.3f, Quantity::indirect);
   Sensors sensors;
   for (int i = 0; i < 160; ++i) {
     RandomStream random(4, Stage::test, static_cast<std::uint64_t>(i));
@@ -107,7 +108,7 @@ TEST(SensorsAnalytic, FreeAirIsServedByRecordsMadeThere) {
 TEST(SensorsAnalytic, CachesOfAllLightAreNotLitTwice) {
   const AnalyticScene s = emitting_environment(100);
   const float whole = static_cast<float>(100 * kPiD);
-  const Container file = even_cache("all", s.scene, s.checks, whole, 1, "all");
+  const Container file = even_cache("all", s.scene, s.checks, whole, 1, Quantity::all);
   SensorOptions options;
   options.light_samples = 1024;
   const Read read = read_sensors_of(s.scene, sensors_at(s.checks), {file}, options);
@@ -133,10 +134,10 @@ TEST(SensorsAnalytic, CachesOfAllLightAreNotLitTwice) {
   EXPECT_EQ(row.substr(row.find('\n') - 2, 2), ",,") << row;
   // What the cache does not cover is measured all the same.
   std::vector<Check> none;
-  const Container empty = even_cache("empty", s.scene, none, whole, 1, "all");
+  const Container empty = even_cache("empty", s.scene, none, whole, 1, Quantity::all);
   for (const Reading& r : read_sensors_of(s.scene, sensors_at(s.checks), {empty}, options).readings)
     EXPECT_NEAR(r.illuminance_lx, whole, 0.1f * whole);
-  const Container other = even_cache("indirect", s.scene, s.checks, 1, 1, "indirect");
+  const Container other = even_cache("indirect", s.scene, s.checks, 1, 1, Quantity::indirect);
   EXPECT_THROW(SensorCaches(std::vector<Container>{file, other}, nullptr), Error);
 }
 
@@ -144,9 +145,9 @@ TEST(SensorsAnalytic, SeveralCachesAreOne) {
   const AnalyticScene s = furnace(0.5f, 100);
   const std::vector<Check> some(s.checks.begin(), s.checks.begin() + 3),
       rest(s.checks.begin() + 3, s.checks.end());
-  const Container all = even_cache("whole", s.scene, s.checks, 77, 3, "indirect"),
-                  first = even_cache("first", s.scene, some, 77, 3, "indirect"),
-                  second = even_cache("second", s.scene, rest, 77, 3, "indirect");
+  const Container all = even_cache("whole", s.scene, s.checks, 77, 3, Quantity::indirect),
+                  first = even_cache("first", s.scene, some, 77, 3, Quantity::indirect),
+                  second = even_cache("second", s.scene, rest, 77, 3, Quantity::indirect);
   const Read one = read_sensors_of(s.scene, sensors_at(s.checks), {all}, {}),
              two = read_sensors_of(s.scene, sensors_at(s.checks), {first, second}, {});
   EXPECT_EQ(two.report.uncovered, 0u);
@@ -159,7 +160,7 @@ TEST(SensorsAnalytic, TheLeakTestKeepsThinWallsDark) {
   const AnalyticScene s = thin_walls(1000, 0.01f);
   std::vector<Check> lit, dark;
   for (const Check& check : s.checks) (check.irradiance_lx > 0 ? lit : dark).push_back(check);
-  const Container file = even_cache("walls", s.scene, lit, 1000, 3, "indirect");
+  const Container file = even_cache("walls", s.scene, lit, 1000, 3, Quantity::indirect);
   double leaked[2] = {0, 0};
   for (const LeakTest leak_test : {LeakTest::none, LeakTest::ray}) {
     SensorOptions options;

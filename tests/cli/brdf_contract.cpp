@@ -102,7 +102,7 @@ TEST_F(BrdfCli, NothingGlossyHere) {
   const test::Run run = run_tool({"brdf", scene({kMatt, kMirror}), "-o", out_});
   EXPECT_EQ(run.code, 0);
   EXPECT_NE(run.err.find("nothing glossy here"), std::string::npos) << run.err;
-  EXPECT_TRUE(Container::open(out_, "brdf").tensors().empty());
+  EXPECT_TRUE(Container::open(out_, FileKind::brdf).tensors().empty());
 }
 
 TEST_F(BrdfCli, ReportsEachMaterial) {
@@ -130,7 +130,7 @@ TEST_F(BrdfCli, ReportsEachMaterial) {
   // The sizes said are the sizes written.
   std::uint64_t said = 0, written = 0;
   for (const Json& m : materials) said += static_cast<std::uint64_t>(m.find("bytes")->as_integer());
-  const Container file = Container::open(out_, "brdf");
+  const Container file = Container::open(out_, FileKind::brdf);
   for (const auto& [name, tensor] : file.tensors()) written += tensor.bytes.size();
   EXPECT_EQ(said, written);
 }
@@ -141,7 +141,7 @@ TEST_F(BrdfCli, SaysWhatGainsEnergy) {
   EXPECT_NE(run.err.find("warning"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("\"bright\" gains energy"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("1.2"), std::string::npos) << run.err;
-  const Container file = Container::open(out_, "brdf");
+  const Container file = Container::open(out_, FileKind::brdf);
   EXPECT_GT(file.provenance().counters["BRDF with an albedo above 1"], 0u);
 }
 

@@ -1,8 +1,10 @@
 // phos-info as a user drives it.
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "file/container.h"
 #include "file/json_parse.h"
+#include "file/kinds/tensor_io.h"
 #include "support/container.h"
 #include "support/run.h"
 
@@ -63,8 +65,41 @@ TEST(Info, SameTextOnAnyNumberOfThreads) {
   EXPECT_NE(one, "");
 }
 
+/// Photons of a shard, for which a file needs no tree; a tensor may be left out.
+void write_shard(const std::string& path, const std::string& without) {
+  const std::vector<Vec3> three(2, Vec3(1));
+  const std::vector<std::uint32_t> codes(2);
+  const std::vector<std::uint8_t> bytes(2);
+  const std::vector<float> lengths(2);
+  TensorWriter writer(FileKind::photons);
+  for (const char* name : {"position", "flux"})
+    if (name != without) writer.add_vectors(name, three);
+  for (const char* name : {"direction", "normal", "source_normal"})
+    if (name != without) writer.add<std::uint32_t>(name, codes);
+  for (const char* name : {"path", "bounce"})
+    if (name != without) writer.add<std::uint8_t>(name, bytes);
+  if (without != "distance") writer.add<float>("distance", lengths);
+  Provenance provenance;
+  provenance.extra[name_of(FileForm::shard)] = "1/2";
+  writer.write(path, provenance);
+}
+
+TEST(Info, VerifyTellsWhichTensorIsNoneOfItsKind) {
+  const Sample s;
+  const std::string path = s.folder + "/shard";
+  write_shard(path, "");
+  EXPECT_EQ(run_tool({"info", "--verify", path}).code, 0);
+  for (const char* name : {"position", "flux", "bounce", "distance"}) {
+    write_shard(path, name);
+    const test::Run r = run_tool({"info", "--verify", "--verbose", path});
+    EXPECT_EQ(r.code, 3);
+    EXPECT_NE(r.err.find(text(path, ": has no tensor \"", name, '"')), std::string::npos) << r.err;
+  }
+}
+
 TEST(Info, VerifyIsSilent) {
   const Sample s;
+  write_shard(s.path, "");
   const test::Run good = run_tool({"info", "--verify", s.path});
   EXPECT_EQ(good.code, 0);
   EXPECT_EQ(good.out + good.err, "");

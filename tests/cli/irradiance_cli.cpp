@@ -45,7 +45,7 @@ TEST(Irradiance, InputsInAnyOrderAnyThreadsSameBytes) {
   ASSERT_EQ(second.code, 0) << second.err;
   EXPECT_TRUE(second.out.empty());
   EXPECT_EQ(slurp(a), slurp(b));
-  const Container file = Container::open(a, "irradiance");
+  const Container file = Container::open(a, FileKind::irradiance);
   file.verify();
   const Provenance& p = file.provenance();
   EXPECT_TRUE(p.inputs.contains("scene") && p.inputs.contains("photons"));

@@ -37,7 +37,7 @@ struct Count {
 };
 Count records_in(const std::string& path) {
   Count count;
-  const Container file = Container::open(path, "irradiance");
+  const Container file = Container::open(path, FileKind::irradiance);
   for (const Vec3& p : file.vectors("position"))
     ++(std::fabs(p.z - 0.5592f) < 1e-3f ? count.on_wall : count.elsewhere);
   return count;

@@ -102,7 +102,7 @@ TEST_F(PhotonsCli, SaysHowManyWereEmittedAndStored) {
   const Json stats = parse_json(test::slurp(folder_ + "/stats.json"), "stats");
   ASSERT_NE(stats.find("stored"), nullptr);
   EXPECT_EQ(static_cast<std::size_t>(stats.find("stored")->as_integer()),
-            Container::open(out_, "photons").vectors("position").size());
+            Container::open(out_, FileKind::photons).vectors("position").size());
   EXPECT_TRUE(run_tool({"photons", cornell_, "--photons", "2000", "-o", out_, "--quiet"}).err.empty());
 }
 
@@ -110,14 +110,14 @@ TEST_F(PhotonsCli, EmptyMapsAreWarnedOf) {
   Result run = run_tool({"photons", cornell_, "--photons", "0", "-o", out_});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.err.find("warning"), std::string::npos) << run.err;
-  EXPECT_EQ(Container::open(out_, "photons").vectors("position").size(), 0u);
+  EXPECT_EQ(Container::open(out_, FileKind::photons).vectors("position").size(), 0u);
   // A spot that points away from the only triangle (glTF spots look along -z; this one has no rotation).
   const std::string away =
       file("away.gltf", triangle_gltf(R"({"type":"spot","intensity":10,"spot":{"outerConeAngle":0.3}})"));
   run = run_tool({"photons", away, "--photons", "500", "-o", out_, "--quiet"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.err.find("every photon left the scene"), std::string::npos) << run.err;
-  EXPECT_EQ(Container::open(out_, "photons").vectors("position").size(), 0u);
+  EXPECT_EQ(Container::open(out_, FileKind::photons).vectors("position").size(), 0u);
 }
 
 TEST_F(PhotonsCli, SameBytesOnAnyNumberOfThreads) {

@@ -74,7 +74,7 @@ TEST(Radiance, OnTheGlossyWallAloneSameBytesForAnyThreads) {
     if (bytes.empty()) bytes = slurp(out);
     EXPECT_EQ(slurp(out), bytes) << threads;
   }
-  const Container file = Container::open(folder() + "/1.radiance", "radiance");
+  const Container file = Container::open(folder() + "/1.radiance", FileKind::radiance);
   file.verify();
   const std::size_t n = records_in(file.path());
   EXPECT_GT(n, 20u);
@@ -116,7 +116,7 @@ TEST(Radiance, RecordsHaveTheBandsThatTheirMaterialWants) {
   const std::string out = folder() + "/lobes.radiance";
   const test::Run run = quick({data("lobes.gltf"), "--gather-bounces", "1", "--place", "surface", "-o", out});
   ASSERT_EQ(run.code, 0) << run.err;
-  const Container file = Container::open(out, "radiance");
+  const Container file = Container::open(out, FileKind::radiance);
   const std::size_t n = records_in(out);
   const auto order = file.values<std::uint8_t>("order", {n});
   const auto position = file.vectors("position");

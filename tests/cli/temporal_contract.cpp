@@ -59,7 +59,7 @@ TEST(Temporal, StaticSceneGetsAnOrdinaryCache) {
     const test::Run run = temporal(quick({scene, "--frames", "0:3", "-o", out}));
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_NE(run.err.find("no light changes"), std::string::npos) << run.err;
-    const Container file = Container::open(out, "irradiance");
+    const Container file = Container::open(out, FileKind::irradiance);
     EXPECT_FALSE(file.has("birth"));
     EXPECT_FALSE(file.provenance().extra.find("film"));
     EXPECT_GT(file.vectors("position").size(), 0u);
@@ -136,7 +136,7 @@ TEST(Temporal, LivesAreNoLongerThanAsked) {
     const test::Run run =
         temporal(quick({scene, "--frames", "100:109", "--max-life", "4", "--lives", lives, "-o", film}));
     ASSERT_EQ(run.code, 0) << run.err;
-    const Container file = Container::open(film, "irradiance");
+    const Container file = Container::open(film, FileKind::irradiance);
     const auto birth = file.values<std::int32_t>("birth", {0}), end = file.values<std::int32_t>("end", {0});
     ASSERT_GT(birth.size(), 0u);
     for (std::size_t i = 0; i < birth.size(); ++i) {

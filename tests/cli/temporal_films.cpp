@@ -37,7 +37,7 @@ TEST(TemporalFilm, RecordsMoveWithTheirSurfaces) {
   const std::string scene = slabs.write("temporal-ride", 17),
                     film = scratch("temporal-riding") + "/f.irradiance";
   ASSERT_EQ(temporal(quick({scene, "--frames", "0:16", "-o", film})).code, 0);
-  EXPECT_TRUE(Container::open(film, "irradiance").has("anchor"));
+  EXPECT_TRUE(Container::open(film, FileKind::irradiance).has("anchor"));
   const double first = lux(scene, film, 0);
   EXPECT_GT(first, 0);
   for (const int frame : {5, 16}) {
@@ -93,7 +93,7 @@ TEST(TemporalFilm, RadianceFilmOfWhatIsGlossy) {
   const test::Run radiance =
       temporal(quick({scene, "--frames", "0:8", "--kind", "radiance", "-o", folder + "/f.radiance"}));
   ASSERT_EQ(radiance.code, 0) << radiance.err;
-  EXPECT_TRUE(Container::open(folder + "/f.radiance", "radiance").has("birth"));
+  EXPECT_TRUE(Container::open(folder + "/f.radiance", FileKind::radiance).has("birth"));
   const test::Run rest =
       temporal(quick({scene, folder + "/f.radiance", "--frames", "0:8", "-o", folder + "/f.irradiance"}));
   ASSERT_EQ(rest.code, 0) << rest.err;
@@ -135,7 +135,8 @@ TEST(TemporalFilm, LightOfAllPathsCountsOnce) {
       const test::Run run = temporal({scene, "--frames", "0:8", "--paths", paths, "--estimate", estimate,
                                       "--rays", "64", "--photons", "40000", "--width", "24", "-o", film});
       ASSERT_EQ(run.code, 0) << run.err;
-      EXPECT_EQ(Container::open(film, "irradiance").provenance().extra.find("quantity")->as_string(), paths);
+      EXPECT_EQ(Container::open(film, FileKind::irradiance).provenance().extra.find("quantity")->as_string(),
+                paths);
       total[paths[0] == 'a'] = lux(scene, film, 4, 0, 0, "E_lx");
     }
     EXPECT_GT(total[0], 1) << estimate;

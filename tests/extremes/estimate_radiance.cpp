@@ -219,7 +219,7 @@ TEST_F(DamagedRadiance, ColumnsThatLackOrDifferInOrder) {
   for (const double accuracy : {0., -1.})
     EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.extra["accuracy"] = accuracy; }), "");
   EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.extra["order"] = "three"; }), "");
-  EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.kind = "irradiance"; }).find("irradiance"),
+  EXPECT_NE(complaint([&](Columns&, Provenance& p) { p.kind = FileKind::irradiance; }).find("irradiance"),
             std::string::npos);
 }
 

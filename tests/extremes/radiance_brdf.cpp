@@ -206,7 +206,7 @@ std::string file_with(const std::string& name, const std::function<void(BrdfTabl
 
 void expect_refused(const std::string& path, const std::string& says) {
   try {
-    read_brdf(Container::open(path, "brdf"));
+    read_brdf(Container::open(path, FileKind::brdf));
     ADD_FAILURE() << "accepted: " << says;
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::bad_input);
@@ -215,7 +215,7 @@ void expect_refused(const std::string& path, const std::string& says) {
 }
 
 TEST(BrdfExtremes, DamagedFiles) {
-  EXPECT_NO_THROW(read_brdf(Container::open(file_with("sound", [](BrdfTable&) {}), "brdf")));
+  EXPECT_NO_THROW(read_brdf(Container::open(file_with("sound", [](BrdfTable&) {}), FileKind::brdf)));
   expect_refused(file_with("order", [](BrdfTable& t) { t.orders[2] = 200; }), "order 200");
   expect_refused(file_with("error", [](BrdfTable& t) { t.error[1] = NAN; }), "error");
   expect_refused(file_with("nan", [](BrdfTable& t) { t.coefficients[0] = NAN; }), "not finite");
@@ -231,7 +231,7 @@ TEST(BrdfExtremes, DamagedFiles) {
 }
 
 /// A file whose header says what it likes; its tensors are those of order 2 at 2 angles.
-std::string file_saying(const std::string& name, const Json& extra, const std::string& kind = "brdf") {
+std::string file_saying(const std::string& name, const Json& extra, FileKind kind = FileKind::brdf) {
   const std::vector<std::uint8_t> orders(2, 2);
   const std::vector<float> error(2, 0.f), coefficients(2 * 3 * 3, 1.f);
   ContainerWriter file;
@@ -275,7 +275,7 @@ TEST(BrdfExtremes, HeadersThatLie) {
   expect_refused(file_saying("none", Json(Json::Object{})), "list of materials");
   expect_refused(file_saying("two", Json(Json::Object{{"materials", Json::Array{sound, sound}}})), "1.");
   try {
-    read_brdf(Container::open(file_saying("kind", extra(sound), "irradiance")));
+    read_brdf(Container::open(file_saying("kind", extra(sound), FileKind::irradiance)));
     ADD_FAILURE() << "another kind was accepted";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::bad_input);

@@ -23,7 +23,7 @@ TEST(SensorExtremes, TheSameLuxAtEverySizeAndPower) {
     for (const float luminance : {1e-12f, 1.f, 1e12f}) {
       const AnalyticScene s = scaled(furnace(0.5f, luminance), size);
       const auto indirect = static_cast<float>(s.mean_irradiance_lx / 2);
-      const Container file = even_cache("scaled", s.scene, s.checks, indirect, 3 * size, "indirect");
+      const Container file = even_cache("scaled", s.scene, s.checks, indirect, 3 * size, Quantity::indirect);
       Sensors sensors = sensors_at(s.checks);
       sensors.points.push_back({size * Vec3(1, 0.5f, 0.75f), {0, 1, 0}});  // in free air
       SensorOptions options;
@@ -39,7 +39,7 @@ TEST(SensorExtremes, TheSameLuxAtEverySizeAndPower) {
 
 TEST(SensorExtremes, SensorsWhereNobodyWouldPutThem) {
   const AnalyticScene s = furnace(0.5f, 100);
-  const Container file = even_cache("odd", s.scene, s.checks, 100, 3, "indirect");
+  const Container file = even_cache("odd", s.scene, s.checks, 100, 3, Quantity::indirect);
   Sensors sensors;
   const Vec3 up(0, 1, 0);
   for (const Vec3& p : {Vec3(1, -1, 0.7f), Vec3(1e9f), Vec3(-1e15f, 0, 0), Vec3(1e18f), Vec3(0),
@@ -55,9 +55,9 @@ TEST(SensorExtremes, SensorsWhereNobodyWouldPutThem) {
 
 TEST(SensorExtremes, NoSensorsAndNoRecords) {
   const AnalyticScene s = furnace(0.5f, 100);
-  const Container file = even_cache("few", s.scene, s.checks, 100, 3, "indirect");
+  const Container file = even_cache("few", s.scene, s.checks, 100, 3, Quantity::indirect);
   EXPECT_TRUE(read_sensors_of(s.scene, {}, {file}, {}).readings.empty());
-  const Container none = even_cache("none", s.scene, {}, 100, 3, "indirect");
+  const Container none = even_cache("none", s.scene, {}, 100, 3, Quantity::indirect);
   SensorOptions options;
   options.rays = 64;
   expect_finite(read_sensors_of(s.scene, sensors_at(s.checks), {none}, options).readings);
@@ -65,7 +65,7 @@ TEST(SensorExtremes, NoSensorsAndNoRecords) {
 
 TEST(SensorExtremes, AHundredThousandAtOnePlaceShareOneRecord) {
   const AnalyticScene s = furnace(0.5f, 100);
-  const Container file = even_cache("crowd", s.scene, s.checks, 100, 0.2f, "indirect");
+  const Container file = even_cache("crowd", s.scene, s.checks, 100, 0.2f, Quantity::indirect);
   Sensors sensors;
   sensors.points.assign(100000, {{1, 0.5f, 0.75f}, {0, 1, 0}});
   SensorOptions options;
@@ -78,7 +78,7 @@ TEST(SensorExtremes, AHundredThousandAtOnePlaceShareOneRecord) {
 
 TEST(SensorExtremes, SameTableOnAnyNumberOfThreads) {
   const AnalyticScene s = furnace(0.5f, 100);
-  const Container file = even_cache("threads", s.scene, s.checks, 100, 0.5f, "indirect");
+  const Container file = even_cache("threads", s.scene, s.checks, 100, 0.5f, Quantity::indirect);
   const RayScene rays(s.scene);
   GridOptions grid;
   grid.spacing_m = 0.05, grid.height_m = 0.5;

@@ -49,7 +49,7 @@ Figures film(Scale by, Estimate estimate, Lives lives) {
   Film source;
   if (needs_source(job)) source = make_source(job, scenes, counters);
   const FilmChains made = make_chains(job, scenes, needs_source(job) ? &source : nullptr, counters);
-  const Film film = film_of(made.chains, info_of(job), "indirect");
+  const Film film = film_of(made.chains, info_of(job), Quantity::indirect);
   Figures f;
   f.number(static_cast<double>(film.records.size()));
   for (const FilmRecord& r : film.records) {

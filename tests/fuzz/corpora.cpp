@@ -106,7 +106,7 @@ struct Estimates : Estimator {
     if (site.item % 2)
       made.radiance = std::make_shared<RadianceRecord>(test::random_radiance(1, 2).records[0]);
     if (site.item % 3) made.ahead = std::make_shared<Ahead>(Ahead{made.record, made.radiance, 0.1f});
-    worker.counters.count("records probed");
+    worker.counters.add("records probed");
     return made;
   }
 };

@@ -16,7 +16,7 @@ Scene one_triangle() {
 void read_all(const Container& file) {
   const Scene scene = one_triangle();
   const FrameRange frames = read_film_info(file).frames;
-  const bool radiance = file.provenance().kind == "radiance";
+  const bool radiance = file.kind() == FileKind::radiance;
   for (const std::int64_t frame : {frames.first, (frames.first + frames.last) / 2, frames.last}) {
     if (radiance) {
       fuzz::use(read_radiance_film_at(file, frame, scene));

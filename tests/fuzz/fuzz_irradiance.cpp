@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = fuzz::spilled(fuzz::characters(data, size), "input.irradiance");
   return fuzz::answers([&] {
     const Container file = Container::open(path);
-    if (records_of(file) == RecordsOf::part) {
+    if (file.form() == FileForm::part) {
       fuzz::use(read_parts({path}));
     } else {
       read_cache(file);

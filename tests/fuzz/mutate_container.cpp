@@ -108,8 +108,8 @@ void mutate_tree(Column& tree) {
 }
 
 void mutate_header(Provenance& p, Choice& choice) {
-  if (choice.once_in(6)) p.counters.count(choice.once_in(2) ? "x" : "clamped radius", 1);
-  if (choice.once_in(10)) p.kind = choice.once_in(2) ? "irradiance" : "radiance";
+  if (choice.once_in(6)) p.counters.add(choice.once_in(2) ? "x" : "clamped radius", 1);
+  if (choice.once_in(10)) p.kind = choice.once_in(2) ? FileKind::irradiance : FileKind::radiance;
   p.extra = mutated(p.extra, choice);
 }
 

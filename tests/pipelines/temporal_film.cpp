@@ -41,7 +41,7 @@ TEST_F(Films, ScriptMakesEveryFrameAndAVideo) {
                                    folder_);
   ASSERT_EQ(run.code, 0) << run.err;
   const std::string film = path("out/cube-in-a-box.irradiance");
-  EXPECT_TRUE(Container::open(film, "irradiance").provenance().extra.find("film"));
+  EXPECT_TRUE(Container::open(film, FileKind::irradiance).provenance().extra.find("film"));
   for (const char* name : {"0003", "0004", "0005"}) {
     const std::string frame = path("out/frames/") + name;
     EXPECT_GT(std::filesystem::file_size(frame + ".png"), 0u);

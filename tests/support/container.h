@@ -48,7 +48,7 @@ struct SampleColumns {
 
 inline Provenance sample_provenance() {
   Provenance p;
-  p.kind = "photons";
+  p.kind = FileKind::photons;
   p.tool = "phos-photons 0.1.0";
   p.algorithm = 3;
   p.command = "phos-photons --photons 5";
@@ -61,7 +61,7 @@ inline Provenance sample_provenance() {
   p.key = "ffeeddccbbaa99887766554433221100";
   p.extra["emitted"] = 17;
   p.extra["total_flux"] = 1.25;
-  p.counters.count("degenerate triangle", 2);
+  p.counters.add("degenerate triangle", 2);
   return p;
 }
 

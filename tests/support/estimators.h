@@ -20,7 +20,7 @@ class DistanceEstimator : public Estimator {
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Worker>(); }
 
   Made make(const RecordSite& site, Worker& worker) const override {
-    worker.counters.count("distances measured");
+    worker.counters.add("distances measured");
     const Frame frame = make_frame(site.normal);
     const float diagonal_m = rays_.scene().bounds.diagonal_m();
     const Vec3 origin = site.position + 1e-6f * diagonal_m * site.normal;

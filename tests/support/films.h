@@ -53,7 +53,7 @@ inline Life film_life(std::size_t i, bool anchored) {
 inline Film random_film(std::size_t n, bool anchored, TemporalGradients gradients) {
   Film film;
   film.info = film_info(gradients);
-  film.quantity = "all";
+  film.quantity = Quantity::all;
   const IrradianceCache records = random_cache(n), others = random_cache(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
     FilmRecord& r = film.records.emplace_back();

@@ -38,10 +38,10 @@ inline Provenance irradiance_provenance() {
 
 /// The records of `from` with this index, checksums and all, to another file.
 inline void write_indexed(const std::string& to, const std::string& from, const RecordIndex& index) {
-  const Container file = Container::open(from, "irradiance");
-  ContainerWriter writer;
+  const Container file = Container::open(from, FileKind::irradiance);
+  TensorWriter writer(FileKind::irradiance);
   for (const auto& [name, tensor] : file.tensors())
-    writer.add<float>(name, file.values<float>(name, tensor.shape), tensor.shape, tensor.unit);
+    writer.add<float>(name, file.values<float>(name, tensor.shape));
   add_index(writer, index);
   Provenance provenance = file.provenance();
   provenance.extra[kIndexAccuracy] = reading_accuracy(provenance.extra["accuracy"].as_number());

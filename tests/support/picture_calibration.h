@@ -55,7 +55,7 @@ class CalibratedPicture {
     options.estimate = estimate, options.paths = Quantity::indirect, options.rays = options_.rays;
     options.resolve(known_.scene.bounds.diagonal_m() / 4);
     IrradianceCache cache;
-    cache.accuracy = options.accuracy, cache.quantity = "indirect";
+    cache.accuracy = options.accuracy, cache.quantity = Quantity::indirect;
     if (!known_.interreflected) return cache;
     Counters counters;
     const auto place = [&](const Estimator& estimator) {

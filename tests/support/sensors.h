@@ -16,7 +16,7 @@ inline Sensors sensors_at(const std::vector<Check>& checks) {
 
 /// A file of records at these places, all of one irradiance and without gradients.
 inline Container even_cache(const std::string& name, const Scene& scene, const std::vector<Check>& places,
-                            float irradiance_lx, float radius_m, const std::string& quantity) {
+                            float irradiance_lx, float radius_m, Quantity quantity) {
   IrradianceCache cache;
   cache.scene_hash = scene.hash;
   cache.quantity = quantity;
@@ -30,7 +30,7 @@ inline Container even_cache(const std::string& name, const Scene& scene, const s
   }
   const std::string path = text(scratch("sensors"), "/", name);
   write_irradiance(path, cache, irradiance_provenance());
-  return Container::open(path, "irradiance");
+  return Container::open(path, FileKind::irradiance);
 }
 
 struct Read {

@@ -13,7 +13,7 @@ namespace phos::test {
 inline IrradianceCache empty_cache(Quantity paths, double accuracy) {
   IrradianceCache cache;
   cache.accuracy = accuracy;
-  cache.quantity = paths == Quantity::all ? "all" : "indirect";
+  cache.quantity = paths;
   return cache;
 }
 

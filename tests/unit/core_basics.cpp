@@ -205,7 +205,7 @@ TEST(Parallel, FlushesDenormalsInEveryThread) {
 
 TEST(Counters, CountAndMerge) {
   Counters a, b;
-  a.count("degenerate hull", 2), b.count("degenerate hull"), b.count("other");
+  a.add("degenerate hull", 2), b.add("degenerate hull"), b.add("other");
   a.merge(b);
   EXPECT_EQ(a["degenerate hull"], 3u);
   EXPECT_EQ(a["never"], 0u);

@@ -1,15 +1,11 @@
-// The table of numerical events: each has a stated frequency, and a tool that sees more of one says so.
+// Numerical events: each has a stated frequency, and a tool that sees more of one says so.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <regex>
-#include <set>
 
 #include "core/counters.h"
 #include "core/error.h"
 #include "core/events.h"
-#include "support/run.h"
 
 namespace phos {
 namespace {
@@ -53,77 +49,24 @@ TEST(AllowedCount, LimitsAndKnownValues) {
   EXPECT_NEAR(static_cast<double>(allowed_count(10000000000000u, p)), n * p + 3.719016 * std::sqrt(n * p), 5);
 }
 
-class OfEvent : public testing::TestWithParam<Event> {};
+const Event kTried{"tried once", "tries"}, kWrong{"went wrong", "tries", kRare, "try again"};
 
-/// "" or what is said.
-std::string complaint(const std::string& event, std::uint64_t times, std::uint64_t trials) {
+TEST(Events, AreListedByName) {
+  const std::vector<const Event*> all = all_events();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0], &kTried);
+  EXPECT_EQ(all[1], &kWrong);
+}
+
+TEST(Events, OfOneNameAbort) { EXPECT_DEATH(Event("went wrong", "tries"), "declared twice"); }
+
+TEST(Events, AreCounted) {
   Counters counters;
-  if (times > 0) counters.count(event, times);
-  try {
-    counters.require_allowed(event, trials);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::numerical);
-    return e.what();
-  }
-  return "";
-}
-
-TEST_P(OfEvent, IsAllowedSoOftenAndNoMore) {
-  const Event& event = GetParam();
-  const std::string name(event.name);
-  ASSERT_GT(event.share, 0);
-  ASSERT_LE(event.share, 1);
-  EXPECT_FALSE(event.trials.empty());
-  EXPECT_EQ(event.remedy.empty(), event.share == 1) << "a fault has a remedy, what is no fault has none";
-  for (const std::uint64_t trials : {1ull, 1000ull, 1000000ull, 1000000000ull}) {
-    const std::uint64_t allowed = allowed_count(trials, event.share);
-    EXPECT_EQ(complaint(name, 0, trials), "");
-    EXPECT_EQ(complaint(name, allowed, trials), "");
-    if (event.share == 1) {
-      EXPECT_EQ(complaint(name, trials, trials), "");
-      continue;
-    }
-    const std::string said = complaint(name, allowed + 1, trials);
-    for (const std::string& part :
-         {name, std::to_string(allowed + 1), std::to_string(trials), "at most " + std::to_string(allowed),
-          std::string(event.remedy), std::string(event.trials)})
-      EXPECT_NE(said.find(part), std::string::npos) << said << " lacks " << part;
-    EXPECT_EQ(said.find('\n'), std::string::npos);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, OfEvent, testing::ValuesIn(all_events().begin(), all_events().end()),
-                         [](const auto& info) {
-                           std::string name(info.param.name);
-                           for (char& c : name)
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           return name;
-                         });
-
-// What the sources count is in the table, and what is in the table is counted somewhere.
-TEST(Events, AreThoseThatTheSourcesCount) {
-  std::set<std::string> known, counted;
-  for (const Event& event : all_events()) EXPECT_TRUE(known.insert(std::string(event.name)).second);
-  const std::regex counts(R"re((?:count\([^"();]*|const char\* k\w+ =\s*)"([^"]+)")re");
-  std::string all;
-  for (const char* folder : {"/lib", "/tools"})
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(std::string(PHOS_SOURCE) + folder)) {
-      const std::string extension = entry.path().extension().string();
-      if ((extension != ".cpp" && extension != ".h") || entry.path().stem() == "events") continue;
-      const std::string code = test::slurp(entry.path().string());
-      all += code;
-      for (std::sregex_iterator i(code.begin(), code.end(), counts), end; i != end; ++i) {
-        const std::string call = (*i)[0], name = (*i)[1];
-        if (call.starts_with("count")) counted.insert(name);
-      }
-    }
-  for (const char* other : {"first", "total", "POSITION", "measured angles that reflect more than they get",
-                            "measured cells without data, filled from the nearest"})
-    counted.erase(other);  // counts of other things: of a shard's run, of glTF attributes, of measured data
-  for (const std::string& name : counted) EXPECT_TRUE(known.contains(name)) << name << " is not in the table";
-  for (const std::string& name : known)
-    EXPECT_NE(all.find('"' + name + '"'), std::string::npos) << name << " is counted nowhere";
+  counters.count(kTried), counters.count(kWrong, 3), counters.add("tried once", 4);
+  EXPECT_EQ(counters[kTried], 5u);
+  EXPECT_EQ(counters["went wrong"], 3u);
+  EXPECT_NO_THROW(counters.require_allowed(kTried, 5));
+  EXPECT_THROW(counters.require_allowed(kWrong, 1000), Error);
 }
 
 }  // namespace

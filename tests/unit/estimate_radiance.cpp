@@ -50,7 +50,7 @@ void expect_kept(RadianceCache cache, std::size_t columns) {
       for (RadianceRecord& r : cache.records) r.gradient_x.clear(), r.gradient_y.clear();
     const std::string path = test::scratch("radiance") + "/a.radiance";
     write_radiance(path, cache, test::radiance_provenance());
-    const Container file = Container::open(path, "radiance");
+    const Container file = Container::open(path, FileKind::radiance);
     EXPECT_EQ(file.tensors().size(), columns + (gradients ? 2 : 0));
     EXPECT_EQ(file.provenance().extra.find("order")->as_integer(), 4);
     const RadianceCache back = read_radiance(file);

@@ -130,7 +130,7 @@ TEST(AtomicFile, ContainerOnAFullDiskLeavesWhatWasThere) {
   ContainerWriter writer;
   writer.add<float>("v", values, {values.size()}, "m");
   Provenance p;
-  p.kind = "photons";
+  p.kind = FileKind::photons;
   {
     const SizeLimit limit(100000);
     EXPECT_NE(message([&] { writer.write(path, p); }), "");
@@ -160,7 +160,7 @@ TEST(AtomicFileDeathTest, InterruptedContainerLeavesNothing) {
     ContainerWriter writer;
     writer.add<float>("v", values, {10}, "m");
     Provenance p;
-    p.kind = "photons";
+    p.kind = FileKind::photons;
     try {
       writer.write(folder + "/out", p);
     } catch (const Error& e) {

@@ -43,7 +43,7 @@ std::vector<T> vector_of(std::span<const T> s) {
 
 TEST(Container, ReadsBackEveryDtype) {
   const SampleColumns c;
-  const Container file = Container::open(written("a.photons"), "photons");
+  const Container file = Container::open(written("a.photons"), FileKind::photons);
   EXPECT_EQ(file.tensors().size(), 11u);
   EXPECT_EQ(vector_of(file.vectors("position")), c.position);
   EXPECT_EQ(vector_of(file.values<std::uint8_t>("path", {5})), c.path);
@@ -63,7 +63,7 @@ TEST(Container, EmptyTensorsAreLegal) {
   EXPECT_TRUE(file.vectors("none").empty());
   const std::string path = test::scratch("container-none") + "/empty.photons";
   Provenance p;
-  p.kind = "photons";
+  p.kind = FileKind::photons;
   ContainerWriter().write(path, p);
   EXPECT_TRUE(Container::open(path).tensors().empty());
 }
@@ -184,7 +184,7 @@ TEST(Container, WrongTensorsAreNamed) {
 
 TEST(Container, AnotherKindNamesBoth) {
   const std::string path = written("a.photons");
-  const Error e = error_of([&] { Container::open(path, "irradiance"); });
+  const Error e = error_of([&] { Container::open(path, FileKind::irradiance); });
   EXPECT_EQ(e.code(), ExitCode::bad_input);
   EXPECT_EQ(e.where(), path);
   EXPECT_STREQ(e.what(), "is a photons file, not irradiance; give what phos-irradiance writes");
@@ -195,7 +195,7 @@ TEST(Container, AnotherVersionNamesBoth) {
   p.version = 2;
   const std::string path = test::scratch("container-version") + "/a";
   SampleColumns().writer().write(path, p);
-  const Error e = error_of([&] { Container::open(path, "photons"); });
+  const Error e = error_of([&] { Container::open(path, FileKind::photons); });
   EXPECT_EQ(e.code(), ExitCode::bad_input);
   EXPECT_NE(std::string(e.what()).find("phos/photons/2"), std::string::npos) << e.what();
   EXPECT_NE(std::string(e.what()).find("phos/photons/1"), std::string::npos) << e.what();

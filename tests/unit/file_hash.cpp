@@ -58,7 +58,7 @@ TEST(HashFile, IsTheContentOfAnOrdinaryFile) {
 TEST(HashFile, OfAContainerDependsOnItsDataThroughTheHeader) {
   const std::string folder = test::scratch("hash-container");
   Provenance p;
-  p.kind = "photons";
+  p.kind = FileKind::photons;
   std::vector<float> values(100000, 1.f);
   const auto write = [&](const std::string& name) {
     ContainerWriter writer;

@@ -98,7 +98,7 @@ TEST(Canonical, IgnoresWhatRoundingChanges) {
   p.extra["total_flux"] = 1.2500001;
   c.writer().write(path, p);
   EXPECT_EQ(canonical_text(Container::open(path)), canonical_text(sample()));
-  p.counters.count("degenerate triangle");
+  p.counters.add("degenerate triangle");
   c.writer().write(path, p);
   EXPECT_NE(canonical_text(Container::open(path)), canonical_text(sample()));
   p = test::sample_provenance();
@@ -117,18 +117,33 @@ TEST(Csv, ColumnsHaveNames) {
       csv(file, {"position", "path"}),
       "position.x,position.y,position.z,path\n0,1,2,0\n3,4,5,1\n6,7,8.5,2\n-1,-2,-3,1\n0.1,0.2,0.3,0\n");
   EXPECT_EQ(csv(file, {"flux"}).substr(0, 21), "flux.r,flux.g,flux.b\n");
-  EXPECT_EQ(csv(file, {"gradient"}).substr(0, 24), "gradient.r.x,gradient.r.");
-  EXPECT_EQ(csv(file, {"none"}), "none.x,none.y,none.z\n");
+  EXPECT_EQ(csv(file, {"gradient"}).substr(0, 24), "gradient.0.0,gradient.0.") << "no tensor of photons";
+  EXPECT_EQ(csv(file, {"none"}), "none.0,none.1,none.2\n");
 }
 
-TEST(Csv, CoefficientsOfReflectionHaveColoursLast) {
-  const std::string path = test::scratch("inspect-coefficients") + "/d";
+// Where all extents are 3, the table tells colours from axes and from numbers.
+TEST(Csv, ColoursAndAxesAreThoseOfTheTable) {
+  const std::string path = test::scratch("inspect-names") + "/d";
   const std::vector<float> three(2 * 3 * 3, 1.f);
-  ContainerWriter writer;
-  writer.add<float>("c", three, {2, 3, 3}, "1/sqrt(sr)");
-  writer.write(path, test::sample_provenance());
-  EXPECT_EQ(csv(Container::open(path), {"c"}).substr(0, 54),
-            "c.0.r,c.0.g,c.0.b,c.1.r,c.1.g,c.1.b,c.2.r,c.2.g,c.2.b\n");
+  const auto names = [&](FileKind kind, const std::string& tensor) {
+    ContainerWriter writer;
+    writer.add<float>(tensor, three, {2, 3, 3}, "1");
+    Provenance p = test::sample_provenance();
+    p.kind = kind;
+    writer.write(path, p);
+    const std::string all = csv(Container::open(path), {tensor});
+    return all.substr(0, all.find(",", all.find(",") + 1));
+  };
+  EXPECT_EQ(names(FileKind::brdf, "7.coefficients"), "7.coefficients.0.r,7.coefficients.0.g");
+  EXPECT_EQ(names(FileKind::irradiance, "rotation_gradient"), "rotation_gradient.r.x,rotation_gradient.r.y");
+  EXPECT_EQ(names(FileKind::radiance, "stderr"), "stderr.r.0,stderr.r.1");
+}
+
+TEST(Describe, SaysWhatTensorsMean) {
+  const Json tensors = *describe(sample()).find("tensors");
+  EXPECT_EQ(tensors.find("flux")->find("meaning")->as_string(), "flux before the surface reflects");
+  EXPECT_EQ(tensors.find("whole")->find("meaning"), nullptr);
+  EXPECT_NE(describe_text(sample()).find("flux before the surface reflects"), std::string::npos);
 }
 
 TEST(Csv, DirectionsStayCodesUnlessDecoded) {

@@ -42,13 +42,13 @@ Result run(std::vector<std::string> words, const std::function<void(Tool&, doubl
     result.made.push_back(frame.value_or(-1));
     if (!automatic) automatic = 10 + frame.value_or(0);
     if (also) also(tool, frame.value_or(-1));
-    tool.counters().count("event", 2);
+    tool.counters().add("event", 2);
     tool.stat("frame seen", frame.value_or(-1));
     if (!more.empty()) test::spill(more, "more");
     const std::vector<float> v{static_cast<float>(frame.value_or(-1))};
     ContainerWriter writer;
     writer.add<float>("v", v, {1}, "m");
-    writer.write(tool.output(), tool.provenance("irradiance", "scene-hash", {}));
+    writer.write(tool.output(), tool.provenance(FileKind::irradiance, "scene-hash", {}));
   });
   result.err = testing::internal::GetCapturedStderr();
   result.out = testing::internal::GetCapturedStdout();

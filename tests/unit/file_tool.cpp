@@ -46,14 +46,14 @@ struct Program {
       if (output != Tool::Output::none && tool.up_to_date()) return;
       result.worked = true;
       if (body) return body(tool);
-      write(tool, "irradiance");
+      write(tool, FileKind::irradiance);
     });
     result.err = testing::internal::GetCapturedStderr();
     result.out = testing::internal::GetCapturedStdout();
     return result;
   }
 
-  static void write(Tool& tool, const std::string& kind) {
+  static void write(Tool& tool, FileKind kind) {
     const std::vector<float> v{1, 2, 3};
     ContainerWriter writer;
     writer.add<float>("v", v, {3}, "m");
@@ -233,7 +233,7 @@ TEST(Tool, ProvenanceReaderServesOtherFormats) {
   Program p;
   Provenance stored;
   p.body = [&](Tool& tool) {
-    stored = tool.provenance("image", "", {});
+    stored = tool.provenance(FileKind::image, "", {});
     test::spill(tool.output(), "no container");
   };
   p.provenance_reader = [&](const std::string&) -> std::optional<Provenance> { return stored; };
@@ -260,7 +260,7 @@ TEST(Tool, AutomaticParametersDoNotChangeTheKey) {
                          if (tool.up_to_date()) return;
                          ++works;
                          radius = 0.25;
-                         Program::write(tool, "irradiance");
+                         Program::write(tool, FileKind::irradiance);
                        }),
               0);
   };
@@ -272,7 +272,7 @@ TEST(Tool, AutomaticParametersDoNotChangeTheKey) {
 TEST(Tool, ProvenanceSaysHowItWasMade) {
   const Folder f("provenance");
   EXPECT_EQ(Program().run({f.scene(), "-o", f.out(), "--accuracy", "0.3", "--threads", "2"}).code, 0);
-  const Provenance p = Container::open(f.out(), "irradiance").provenance();
+  const Provenance p = Container::open(f.out(), FileKind::irradiance).provenance();
   EXPECT_EQ(p.tool, std::string("phos-test ") + version());
   EXPECT_EQ(p.algorithm, 1);
   EXPECT_EQ(p.parameters.find("accuracy")->as_number(), 0.3);
@@ -311,7 +311,7 @@ TEST(Tool, SeveralFilesAreOneInput) {
   const auto input = [&](const std::vector<std::string>& paths) {
     Tool tool("phos-test", "tests", "Tests.", 1, Tool::Output::none);
     tool.add_input("scene", paths);
-    return tool.provenance("x", "", {}).inputs.at("scene");
+    return tool.provenance(FileKind::image, "", {}).inputs.at("scene");
   };
   const std::string both = input({f.scene(), f.path + "/b"});
   EXPECT_NE(both, input({f.path + "/b", f.scene()}));
@@ -326,9 +326,9 @@ TEST(Tool, StatsAreJson) {
   Program p;
   p.body = [](Tool& tool) {
     const Tool::Timer timer = tool.time("work");
-    tool.counters().count("rejected sample", 3);
+    tool.counters().add("rejected sample", 3);
     tool.stat("photons", 17);
-    Program::write(tool, "irradiance");
+    Program::write(tool, FileKind::irradiance);
   };
   const std::string stats = f.path + "/stats.json";
   EXPECT_EQ(p.run({f.scene(), "-o", f.out(), "--stats", stats, "--threads", "2"}).code, 0);

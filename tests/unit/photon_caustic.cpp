@@ -265,10 +265,13 @@ TEST(CausticPhotons, AreTheSameFromAFile) {
   EXPECT_TRUE(map.has_caustics());
   const CausticPhotons c = caustics_of(map);
   const std::string path = scratch("caustic") + "/a.photons";
-  ContainerWriter writer;
+  TensorWriter writer(FileKind::irradiance);  // without records
+  for (const char* name :
+       {"position", "normal", "irradiance", "stderr", "rotation_gradient", "translation_gradient"})
+    writer.add_vectors(name, {});
+  for (const char* name : {"distance", "radius"}) writer.add<float>(name, {});
   add_columns(writer, c);
-  Provenance provenance;
-  provenance.kind = "irradiance", provenance.version = 1;
+  const Provenance provenance;
   writer.write(path, provenance);
   const CausticPhotons read = read_caustics(Container::open(path));
   EXPECT_EQ(read.position, c.position);

@@ -163,12 +163,11 @@ TEST(PhotonMap, TreeOfOtherPhotonsIsRefused) {
   PhotonMap::build(some_photons(400), totals_for(400)).write(a, provenance());
   PhotonMap::build(some_photons(401), totals_for(401)).write(b, provenance());
   const Container file = Container::open(a), other = Container::open(b);
-  ContainerWriter writer;
+  TensorWriter writer(FileKind::photons);
   add_columns(writer, columns_of(file));
   const auto tree = other.values<std::uint8_t>("kdtree", {0});
-  writer.add<std::uint8_t>("kdtree", tree, {tree.size()}, "FLANN index");
+  writer.add<std::uint8_t>("kdtree", tree);
   Provenance p = provenance();
-  p.kind = "photons";
   p.extra["totals"] = totals_to_json(totals_for(400));
   writer.write(folder + "/c.photons", p);
   EXPECT_THROW(PhotonMap::open(folder + "/c.photons"), Error);

@@ -34,7 +34,7 @@ class Parts : public ::testing::Test {
     p.tool = "phos-test 1", p.command = command, p.scene_hash = scene_.hash;
     p.inputs["scene"] = "1234";
     p.key = variant.empty() ? "abcd" : "abcd:part " + variant;
-    p.counters.count("coarse records", 17);
+    p.counters.add("coarse records", 17);
     return p;
   }
   std::string path(const std::string& name) const { return folder_ + "/" + name + ".irradiance"; }

@@ -262,7 +262,7 @@ TEST(BrdfFile, ComesBackAsItWas) {
   Provenance provenance;
   provenance.tool = "phos-brdf", provenance.scene_hash = "abc";
   write_brdf(path, tables, provenance);
-  const Container file = Container::open(path, "brdf");
+  const Container file = Container::open(path, FileKind::brdf);
   EXPECT_EQ(file.provenance().scene_hash, "abc");
   const std::vector<BrdfTable> back = read_brdf(file);
   ASSERT_EQ(back.size(), 3u);
@@ -280,7 +280,7 @@ TEST(BrdfFile, ComesBackAsItWas) {
 TEST(BrdfFile, EmptyMeansNothingGlossy) {
   const std::string path = test::scratch("brdf_file") + "/matt.brdf";
   write_brdf(path, {}, Provenance{});
-  const Container file = Container::open(path, "brdf");
+  const Container file = Container::open(path, FileKind::brdf);
   EXPECT_TRUE(read_brdf(file).empty());
   EXPECT_TRUE(file.tensors().empty());
 }
@@ -290,7 +290,7 @@ TEST(BrdfFile, AnotherSceneIsRefused) {
   Provenance provenance;
   provenance.scene_hash = "one";
   write_brdf(path, {}, provenance);
-  const Container file = Container::open(path, "brdf");
+  const Container file = Container::open(path, FileKind::brdf);
   EXPECT_NO_THROW(require_same_scene(file, "room.glb", "one", Json()));
   try {
     require_same_scene(file, "room.glb", "two", Json());

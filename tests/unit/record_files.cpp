@@ -171,12 +171,12 @@ TEST(IrradianceFile, RoundTrip) {
     IrradianceCache cache;
     for (std::uint64_t i = 0; i < n; ++i) cache.records.push_back(random_record(i));
     if (n > 0) cache.records[0].distance_m = kInfinity;
-    cache.accuracy = 0.15, cache.scene_hash = "abc", cache.quantity = "all";
+    cache.accuracy = 0.15, cache.scene_hash = "abc", cache.quantity = Quantity::all;
     write_irradiance(path, cache, some_provenance());
-    const Container file = Container::open(path, "irradiance");
+    const Container file = Container::open(path, FileKind::irradiance);
     const IrradianceCache back = read_irradiance(file);
     EXPECT_EQ(back.accuracy, 0.15);
-    EXPECT_EQ(back.quantity, "all");
+    EXPECT_EQ(back.quantity, Quantity::all);
     EXPECT_EQ(back.scene_hash, "abc");
     ASSERT_EQ(back.records.size(), n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -206,14 +206,14 @@ TEST(IrradianceFile, DamagedRowsAreNamed) {
   for (const char* name : {"rotation_gradient", "translation_gradient"})
     writer.add<float>(name, gradient, {2, 3, 3}, "1");
   Provenance p = some_provenance();
-  p.kind = "irradiance", p.extra["accuracy"] = 0.2, p.extra["quantity"] = "all";
+  p.kind = FileKind::irradiance, p.extra["accuracy"] = 0.2, p.extra["quantity"] = "all";
   writer.write(path, p);
   try {
     read_irradiance(Container::open(path));
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::bad_input);
-    EXPECT_NE(std::string(e.what()).find("record 1"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("row 1 of tensor \"distance\""), std::string::npos) << e.what();
   }
 }
 

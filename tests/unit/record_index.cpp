@@ -71,9 +71,9 @@ TEST(RecordIndex, OfAnotherAccuracyIsMadeAnew) {
   write_irradiance(plain, cache, irradiance_provenance());
   // Whoever wrote this one knew nothing of the accuracy at which it is read.
   const Container file = Container::open(plain);
-  ContainerWriter writer;
+  TensorWriter writer(FileKind::irradiance);
   for (const auto& [name, tensor] : file.tensors())
-    writer.add<float>(name, file.values<float>(name, tensor.shape), tensor.shape, tensor.unit);
+    writer.add<float>(name, file.values<float>(name, tensor.shape));
   const RecordIndex index = index_records(cache.records, cache.accuracy);
   add_index(writer, index);
   writer.write(indexed, file.provenance());

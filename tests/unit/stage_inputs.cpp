@@ -20,7 +20,7 @@ class Inputs : public testing::Test {
     test::spill(path("empty.glb"), "");
     for (const char* kind : {"photons", "irradiance", "radiance", "brdf", "image"}) {
       Provenance provenance = test::sample_provenance();
-      provenance.kind = kind;
+      provenance.kind = *kind_named(kind);
       ContainerWriter().write(path(kind), provenance);
     }
   }
@@ -103,7 +103,7 @@ class Site : public Inputs {
  protected:
   Container file(const std::string& kind, const Json& parameters, bool environment = false) const {
     Provenance provenance = test::sample_provenance();
-    provenance.kind = kind;
+    provenance.kind = *kind_named(kind);
     for (const auto& [name, value] : parameters.as_object()) provenance.parameters[name] = value;
     if (environment) provenance.scene_parts["environment"] = "e";
     ContainerWriter().write(path("site." + kind), provenance);

@@ -55,13 +55,13 @@ TEST(FilmFile, KeepsEveryNumberOfIrradiance) {
         const Film film = test::random_film(n, anchored && n > 0, gradients);
         const std::string path = scratch_file("a.irradiance");
         write_film(path, film, test::irradiance_provenance());
-        const Container file = Container::open(path, "irradiance");
+        const Container file = Container::open(path, FileKind::irradiance);
         ASSERT_TRUE(is_film(file));
         EXPECT_EQ(file.tensors().size(),
                   12u + (anchored && n > 0 ? 3 : 0) + (gradients == TemporalGradients::none ? 0 : 4));
         const Film back = read_film(file);
         expect_same(film.info, back.info);
-        EXPECT_EQ(back.quantity, "all");
+        EXPECT_EQ(back.quantity, Quantity::all);
         ASSERT_EQ(back.records.size(), n);
         for (std::size_t i = 0; i < n; ++i) {
           const FilmRecord &a = film.records[i], &b = back.records[i];
@@ -89,7 +89,7 @@ TEST(FilmFile, KeepsEveryNumberOfRadiance) {
       const RadianceFilm film = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, slopes, gradients, slopes);
       const std::string path = scratch_file("a.radiance");
       write_film(path, film, test::radiance_provenance());
-      const Container file = Container::open(path, "radiance");
+      const Container file = Container::open(path, FileKind::radiance);
       ASSERT_TRUE(is_film(file));
       const bool changes = gradients != TemporalGradients::none;
       EXPECT_EQ(file.tensors().size(), slopes ? 16u + (changes ? 4 : 0) : 11u + (changes ? 2 : 0));
@@ -178,7 +178,7 @@ TEST(CacheAt, HasThoseThatLiveThen) {
     ASSERT_EQ(cache.records.size(), expected.size()) << frame;
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(cache.records[i].position, expected[i]);
     EXPECT_EQ(cache.accuracy, film.info.accuracy);
-    EXPECT_EQ(cache.quantity, "all");
+    EXPECT_EQ(cache.quantity, Quantity::all);
   }
 }
 

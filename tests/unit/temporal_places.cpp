@@ -40,7 +40,7 @@ TEST(FilmPlaces, ZonesThatShrinkLeaveNoHoles) {
   resolve_film_places(job.placement, first, records.accuracy);
   Counters counters;
   const FilmChains made = make_chains(job, scenes, nullptr, counters);
-  const Film film = film_of(made.chains, info_of(job), "indirect");
+  const Film film = film_of(made.chains, info_of(job), Quantity::indirect);
   for (const std::int64_t frame : {0, 4, 8, 12, 16})
     EXPECT_LT(ill_served(*scenes.at(frame), film), 0.01) << frame;
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "estimate/events.h"
 #include "estimate/hemisphere/footprint_fit.h"
 #include "estimate/next_surface.h"
 

@@ -9,13 +9,6 @@
 
 namespace phos::inline estimate {
 
-/// Few rays that meet gloss under a coat, which is signed, can add up to less than nothing: that is dark.
-inline constexpr const char* kBelowZeroEvent = "gathered irradiance below zero";
-
-/// docs/methods.md#e6: a footprint's axis that is as short as --min-radius allows, and along which light is
-/// still no parabola.
-inline constexpr const char* kUnresolvedEvent = "axes of footprints left unresolved";
-
 /// Memory and counts of one thread.
 struct HemisphereWorker : Estimator::Worker {
   std::unique_ptr<HitLight::Worker> light;

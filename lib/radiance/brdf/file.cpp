@@ -1,8 +1,6 @@
 // The `.brdf` file.
-#include <cmath>
-
 #include "core/error.h"
-#include "core/float_traps.h"
+#include "file/kinds/tensor_io.h"
 #include "hsh/basis.h"
 #include "radiance/brdf/report.h"
 #include "radiance/brdf/table.h"
@@ -66,8 +64,8 @@ struct HeaderReader {
   }
 };
 
-BrdfTable read_table(const Container& file, std::size_t index, const Json& header) {
-  const HeaderReader h{header, file.path()};
+BrdfTable read_table(const Container& container, std::size_t index, const Json& header) {
+  const HeaderReader h{header, container.path()};
   BrdfTable table;
   table.material = h.string("material", true), table.note = h.string("note", false);
   table.material_index = static_cast<std::uint32_t>(h.integer("index", 0, 0xffffffff));
@@ -75,31 +73,31 @@ BrdfTable read_table(const Container& file, std::size_t index, const Json& heade
   table.resolution = static_cast<int>(h.integer("resolution", 2, 1024));
   table.order = static_cast<int>(h.integer("order", 0, 30));
   table.albedo = h.number("albedo");
-  const NoFloatTraps traps;  // files may hold what is not a number
+  const TensorReader file(container);
   const std::size_t entries = entries_of(table), stored = stored_per_entry(table);
-  const auto orders = file.values<std::uint8_t>(name_of(index, "orders"), {entries});
-  const auto error = file.values<float>(name_of(index, "error"), {entries});
-  table.orders.assign(orders.begin(), orders.end());
-  table.error.assign(error.begin(), error.end());
   const auto refuse = [&](const std::string& what) {
-    throw Error(ExitCode::bad_input, file.path(),
+    throw Error(ExitCode::bad_input, container.path(),
                 text("material \"", table.material, "\": ", what, "; make the file again"));
   };
-  for (std::size_t e = 0; e < entries; ++e) {
+  const auto orders = file.values<std::uint8_t>(name_of(index, "orders"));
+  const auto error = file.values<float>(name_of(index, "error"));
+  if (orders.size() != entries)
+    refuse(text("tensor \"", name_of(index, "orders"), "\" has ", orders.size(), " rows, not ", entries));
+  table.orders.assign(orders.begin(), orders.end());
+  table.error.assign(error.begin(), error.end());
+  for (std::size_t e = 0; e < entries; ++e)
     if (table.orders[e] > table.order) refuse(text("entry ", e, " is of order ", int{table.orders[e]}));
-    if (!(table.error[e] >= 0 && table.error[e] <= 1)) refuse(text("entry ", e, " has no valid error"));
-  }
   if (table.order == 0) return table;
-  const auto values = file.values<float>(name_of(index, "coefficients"), {entries, stored, 3});
+  const auto values = file.values<float>(name_of(index, "coefficients"));
+  if (values.size() != 3 * entries * stored)
+    refuse(text("tensor \"", name_of(index, "coefficients"), "\" has ", file.extent(name_of(index, "i")),
+                " numbers a row and colour, not ", stored));
   const auto stride = 3 * static_cast<std::size_t>(harmonic_count(table.order));
   table.coefficients.assign(entries * stride, 0.f);
   for (std::size_t e = 0; e < entries; ++e) {
     for_each_stored(table, [&](std::size_t row, std::size_t i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float v = values[3 * (e * stored + row) + c];
-        if (!std::isfinite(v)) refuse(text("entry ", e, " holds a number that is not finite"));
-        table.coefficients[e * stride + 3 * i + c] = v;
-      }
+      for (std::size_t c = 0; c < 3; ++c)
+        table.coefficients[e * stride + 3 * i + c] = values[3 * (e * stored + row) + c];
     });
   }
   return table;
@@ -108,7 +106,7 @@ BrdfTable read_table(const Container& file, std::size_t index, const Json& heade
 }  // namespace
 
 void write_brdf(const std::string& path, std::span<const BrdfTable> tables, Provenance provenance) {
-  ContainerWriter file;
+  TensorWriter file(FileKind::brdf);
   Json headers = Json::Array{};
   std::vector<std::vector<float>> stored(tables.size());  // alive until written
   for (std::size_t t = 0; t < tables.size(); ++t) {
@@ -116,8 +114,8 @@ void write_brdf(const std::string& path, std::span<const BrdfTable> tables, Prov
     const std::size_t entries = table.entries(), rows = stored_per_entry(table);
     PHOS_CHECK(entries == entries_of(table), entries, " entries, resolution ", table.resolution);
     headers.push_back(header_of(table));
-    file.add<std::uint8_t>(name_of(t, "orders"), table.orders, {entries}, "1");
-    file.add<float>(name_of(t, "error"), table.error, {entries}, "1");
+    file.add<std::uint8_t>(name_of(t, "orders"), table.orders);
+    file.add<float>(name_of(t, "error"), table.error);
     if (table.order == 0) continue;
     const auto stride = 3 * static_cast<std::size_t>(harmonic_count(table.order));
     stored[t].resize(3 * entries * rows);
@@ -127,20 +125,19 @@ void write_brdf(const std::string& path, std::span<const BrdfTable> tables, Prov
           stored[t][3 * (e * rows + row) + c] = table.coefficients[e * stride + 3 * i + c];
       });
     }
-    file.add<float>(name_of(t, "coefficients"), stored[t], {entries, rows, 3}, "1/sqrt(sr)");
+    file.add<float>(name_of(t, "coefficients"), stored[t]);
   }
-  provenance.kind = "brdf";
   provenance.extra["materials"] = headers;
   provenance.extra["basis"] = "hsh, orthonormal, Condon-Shortley phase, index l*l+l+m, z = shading normal";
   file.write(path, provenance);
 }
 
 std::vector<BrdfTable> read_brdf(const Container& file) {
-  if (file.provenance().kind != "brdf") {
+  if (file.kind() != FileKind::brdf) {
     throw Error(ExitCode::bad_input, file.path(),
-                text("is a ", file.provenance().kind, " file, not one of phos-brdf"));
+                text("is a ", name_of(file.kind()), " file, not one of phos-brdf"));
   }
-  file.verify();
+  file.require_sound();
   const Json* headers = file.provenance().extra.find("materials");
   if (!headers || !headers->is_array()) {
     throw Error(ExitCode::bad_input, file.path(),

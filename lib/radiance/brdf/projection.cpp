@@ -8,6 +8,7 @@
 #include "core/sampling.h"
 #include "radiance/brdf/lobe_projection.h"
 #include "radiance/brdf/table.h"
+#include "radiance/events.h"
 #include "scene/material/bsdf.h"
 #include "scene/report/describe.h"
 
@@ -180,8 +181,8 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
   if (gaining > 0) counters.count(kGainsEnergyEvent, gaining);
   if (rejected > 0) {
     Counters own;
-    own.count("non-finite BRDF value", rejected);
-    own.require_allowed("non-finite BRDF value", evaluated);
+    own.count(kNonFiniteValueEvent, rejected);
+    own.require_allowed(kNonFiniteValueEvent, evaluated);
     counters.merge(own);
   }
 

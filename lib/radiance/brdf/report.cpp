@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text/quantity.h"
+#include "radiance/events.h"
 
 namespace phos::inline radiance {
 namespace {

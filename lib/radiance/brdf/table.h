@@ -64,8 +64,6 @@ struct BrdfTable {
 /// above 1. Throws Error(usage) for options out of range.
 BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTableOptions& options,
                        Counters& counters);
-inline constexpr const char* kGainsEnergyEvent = "BRDF with an albedo above 1";
-inline constexpr const char* kIntricateLobeEvent = "BRDF lobe not resolved by quadrature";
 
 /// Materials that need a table: glossy ones that cover some surface.
 std::vector<std::uint32_t> glossy_materials(const Scene& scene);

@@ -62,6 +62,5 @@ class EnvironmentHarmonics {
   std::vector<float> map_, lambert_;    // SH of the luminance, and of the irradiance as a function of normals
   std::optional<HarmonicConversion> to_hsh_;
 };
-inline constexpr const char* kDarkerThanBlackEvent = "harmonic light below zero";
 
 }  // namespace phos::inline splat

@@ -1,5 +1,7 @@
 #include "splat/picture/pixel_shader.h"
 
+#include "splat/events.h"
+
 namespace phos::inline splat {
 
 void ShadingResult::join(const ShadingResult& other) {

@@ -226,7 +226,7 @@ class Painter {
  private:
   bool by_gl() const { return by_gl_; }
   bool gloss_by_gl() const { return gloss_ && options_.gloss_splat == SplatBy::gl; }
-  bool cached_direct() const { return cache_.quantity == "all"; }
+  bool cached_direct() const { return cache_.quantity == Quantity::all; }
 
   RecordTree tree() const {
     RecordTree records(rays_.scene().bounds, *options_.accuracy,

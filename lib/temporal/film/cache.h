@@ -67,8 +67,8 @@ struct FilmInfo {
 };
 struct Film {
   FilmInfo info;
-  std::string quantity = "indirect";  ///< as IrradianceCache::quantity
-  std::vector<FilmRecord> records;    ///< by (chain, birth)
+  Quantity quantity = Quantity::indirect;  ///< as IrradianceCache::quantity
+  std::vector<FilmRecord> records;         ///< by (chain, birth)
 };
 struct RadianceFilm {
   FilmInfo info;

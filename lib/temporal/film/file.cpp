@@ -26,47 +26,40 @@ struct IrradianceChanges {
       translation.insert(translation.end(), std::begin(r.change.translation), std::end(r.change.translation));
     }
   }
-  void add_to(ContainerWriter& file) const {
-    const std::size_t n = irradiance.size();
-    const auto gradient = [&](const char* name, const std::vector<Vec3>& v, const char* unit) {
-      file.add<float>(name, {reinterpret_cast<const float*>(v.data()), 9 * n}, {n, 3, 3}, unit);
-    };
-    file.add_vectors("irradiance_change", irradiance, "lx/frame");
-    gradient("rotation_gradient_change", rotation, "lx/rad/frame");
-    gradient("translation_gradient_change", translation, "lx/m/frame");
-    file.add<float>("radius_change", radius_m, {n}, "m/frame");
+  void add_to(TensorWriter& file) const {
+    file.add_vectors("irradiance_change", irradiance);
+    file.add_vectors("rotation_gradient_change", rotation);
+    file.add_vectors("translation_gradient_change", translation);
+    file.add<float>("radius_change", radius_m);
   }
 };
 
 /// film.records[k] is row rows[k] of the file.
-void read_changes(const Container& file, const std::vector<std::size_t>& rows, Film& film) {
-  const std::uint64_t n = file.vectors("position").size();
-  const auto irradiance = file.values<float>("irradiance_change", {n, 3}),
-             rotation = file.values<float>("rotation_gradient_change", {n, 3, 3}),
-             translation = file.values<float>("translation_gradient_change", {n, 3, 3}),
-             radius_m = file.values<float>("radius_change", {n});
-  const auto vector = [](std::span<const float> v, std::size_t i) {
-    return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
-  };
+void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows, Film& film) {
+  const auto irradiance = file.vectors("irradiance_change"),
+             rotation = file.vectors("rotation_gradient_change"),
+             translation = file.vectors("translation_gradient_change");
+  const auto radius_m = file.values<float>("radius_change");
   for (std::size_t k = 0; k < rows.size(); ++k) {
     IrradianceChange& change = film.records[k].change;
     const std::size_t i = rows[k];
-    change.irradiance = vector(irradiance, i), change.radius_m = radius_m[i];
+    change.irradiance = irradiance[i], change.radius_m = radius_m[i];
     for (std::size_t c = 0; c < 3; ++c) {
-      change.rotation[c] = vector(rotation, 3 * i + c);
-      change.translation[c] = vector(translation, 3 * i + c);
+      change.rotation[c] = rotation[3 * i + c];
+      change.translation[c] = translation[3 * i + c];
     }
   }
 }
 
 struct RadianceChanges {
-  std::size_t n, count;  ///< coefficients of a colour
+  std::size_t n, bands, count;  ///< records, bands, coefficients of a colour
   bool gradients;
   std::vector<float> light, gradient_x, gradient_y, radius_m;
 
   explicit RadianceChanges(const RadianceFilm& film, int order)
       : n(film.records.size()),
-        count(static_cast<std::size_t>(order) * static_cast<std::size_t>(order)),
+        bands(static_cast<std::size_t>(order)),
+        count(bands * bands),
         gradients(n > 0 && !film.records.front().record.gradient_x.empty()),
         light(3 * n * count),
         gradient_x(gradients ? light.size() : 0),
@@ -86,13 +79,14 @@ struct RadianceChanges {
       radius_m.push_back(change.radius_m);
     }
   }
-  void add_to(ContainerWriter& file) const {
-    file.add<float>("coefficients_change", light, {n, 3, count}, "cd/m2 sqrt(sr)/frame");
+  void add_to(TensorWriter& file) const {
+    file.extent("n", n), file.extent("N", bands);
+    file.add<float>("coefficients_change", light);
     if (gradients) {
-      file.add<float>("gradient_x_change", gradient_x, {n, 3, count}, "cd/m2 sqrt(sr)/m/frame");
-      file.add<float>("gradient_y_change", gradient_y, {n, 3, count}, "cd/m2 sqrt(sr)/m/frame");
+      file.add<float>("gradient_x_change", gradient_x);
+      file.add<float>("gradient_y_change", gradient_y);
     }
-    file.add<float>("radius_change", radius_m, {n}, "m/frame");
+    file.add<float>("radius_change", radius_m);
   }
 };
 
@@ -102,18 +96,18 @@ struct RadianceChanges {
                    "; the file is damaged or was made by a faulty program: make it again"));
 }
 
-void read_changes(const Container& file, const std::vector<std::size_t>& rows, RadianceFilm& film) {
-  const Shape& shape = file.tensors().at("coefficients").shape;  // read_radiance_rows() has found it
-  const std::uint64_t n = shape[0], count = shape[2];
-  const auto radius_m = file.values<float>("radius_change", {n});
+void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows, RadianceFilm& film) {
+  const auto bands = static_cast<std::size_t>(file.extent("N")), count = bands * bands;
+  const auto radius_m = file.values<float>("radius_change");
   for (std::size_t k = 0; k < rows.size(); ++k) film.records[k].change.radius_m = radius_m[rows[k]];
   const auto take = [&](const char* name, std::vector<float> RadianceRecord::*of,
                         std::vector<float> RadianceChange::*to) {
-    const auto all = file.values<float>(name, shape);
+    const auto all = file.values<float>(name);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const float* row = all.data() + 3 * rows[k] * count;
       const std::size_t used = (film.records[k].record.*of).size() / 3;
-      if (!rest_is_zero(row, count, used)) refuse_record(file, rows[k], "changes beyond its own order");
+      if (!rest_is_zero(row, count, used))
+        refuse_record(file.file(), rows[k], "changes beyond its own order");
       if (!rest_is_zero(row, count, 0)) film.records[k].change.*to = from_column(row, count, used);
     }
   };
@@ -149,9 +143,9 @@ struct Wanted {
 
   explicit Wanted(const Container& file, std::optional<std::int64_t> frame = {})
       : info(read_film_info(file)) {
-    file.verify();
-    const std::size_t n = file.vectors("position").size();
-    lives = read_lives(file, n);
+    file.require_sound();
+    lives = read_lives(TensorReader(file));
+    const std::size_t n = lives.size();
     for (std::size_t i = 0; i < n; ++i)
       if (const char* wrong = what_is_wrong(lives[i], i > 0 ? &lives[i - 1] : nullptr, info))
         refuse_record(file, i, wrong);
@@ -171,14 +165,14 @@ template <class AnyFilm>
 void complete(const Container& file, const Wanted& wanted, AnyFilm& film) {
   film.info = wanted.info;
   for (std::size_t k = 0; k < wanted.rows.size(); ++k) film.records[k].life = wanted.lives[wanted.rows[k]];
-  if (film.info.gradients != TemporalGradients::none) read_changes(file, wanted.rows, film);
+  if (film.info.gradients != TemporalGradients::none) read_changes(TensorReader(file), wanted.rows, film);
   for (std::size_t k = 0; k < wanted.rows.size(); ++k)
     if (const char* wrong = what_is_wrong_with_change(film.records[k]))
       refuse_record(file, wanted.rows[k], wrong);
 }
 
 Film read(const Container& file, const Wanted& wanted) {
-  const RecordColumns columns(file, RecordsOf::film);
+  const RecordColumns columns(file, FileForm::film);
   Film film;
   film.quantity = columns.quantity();
   film.records.resize(wanted.rows.size());
@@ -188,7 +182,7 @@ Film read(const Container& file, const Wanted& wanted) {
 }
 
 RadianceFilm read_radiance(const Container& file, const Wanted& wanted) {
-  RadianceCache cache = read_radiance_rows(file, RecordsOf::film, &wanted.rows);
+  RadianceCache cache = read_radiance_rows(file, FileForm::film, &wanted.rows);
   RadianceFilm film;
   film.records.resize(cache.records.size());
   for (std::size_t k = 0; k < film.records.size(); ++k) film.records[k].record = std::move(cache.records[k]);
@@ -234,9 +228,9 @@ Cache born(const AnyFilm& film) {
 
 void write_film(const std::string& path, const Film& film, Provenance provenance) {
   const LifeColumns lives = lives_of(film);
-  provenance.extra["film"] = film_header(film.info, lives);
+  provenance.extra[name_of(FileForm::film)] = film_header(film.info, lives);
   const IrradianceChanges changes(film);
-  ContainerWriter more;
+  TensorWriter more(FileKind::irradiance);
   lives.add_to(more);
   if (film.info.gradients != TemporalGradients::none) changes.add_to(more);
   auto cache = born<IrradianceCache>(film);
@@ -246,18 +240,18 @@ void write_film(const std::string& path, const Film& film, Provenance provenance
 
 void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance) {
   const LifeColumns lives = lives_of(film);
-  provenance.extra["film"] = film_header(film.info, lives);
+  provenance.extra[name_of(FileForm::film)] = film_header(film.info, lives);
   const auto cache = born<RadianceCache>(film);
   const RadianceChanges changes(film, cache.order());
-  ContainerWriter more;
+  TensorWriter more(FileKind::radiance);
   lives.add_to(more);
   if (film.info.gradients != TemporalGradients::none) changes.add_to(more);
   write_radiance(path, cache, std::move(provenance), std::move(more));
 }
 
 bool is_film(const Container& file) {
-  const std::string& kind = file.provenance().kind;
-  return (kind == "irradiance" || kind == "radiance") && records_of(file) == RecordsOf::film;
+  const FileKind kind = file.kind();
+  return (kind == FileKind::irradiance || kind == FileKind::radiance) && file.form() == FileForm::film;
 }
 
 Film read_film(const Container& file) { return read(file, Wanted(file)); }

@@ -76,7 +76,7 @@ SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& sce
   for (const Container& file : files) (is_film(file) ? films : caches).push_back(file);
   SensorCaches all(caches, leak_test);
   for (const Container& film : films) {
-    const bool radiance = film.provenance().kind == "radiance";
+    const bool radiance = film.kind() == FileKind::radiance;
     all.add(radiance ? irradiance_of(read_radiance_at(film, scene)) : read_irradiance_at(film, scene),
             film.path());
   }

@@ -48,31 +48,30 @@ void LifeColumns::append(const Life& life) {
   moving = moving || life.anchor.triangle != kNoTriangle;
 }
 
-void LifeColumns::add_to(ContainerWriter& file) const {
-  const std::size_t n = birth.size();
-  file.add<std::int32_t>("birth", birth, {n}, "frame");
-  file.add<std::int32_t>("end", end, {n}, "frame");
-  file.add<std::uint32_t>("chain", chain, {n}, "1");
-  file.add<float>("rate", rate, {n}, "1/frame");
+void LifeColumns::add_to(TensorWriter& file) const {
+  file.add<std::int32_t>("birth", birth);
+  file.add<std::int32_t>("end", end);
+  file.add<std::uint32_t>("chain", chain);
+  file.add<float>("rate", rate);
   if (!moving) return;
-  file.add<std::uint32_t>("anchor", anchor, {n}, "1");
-  file.add<float>("anchor_uv", uv, {n, 2}, "1");
-  file.add<float>("anchor_turn", turn, {n, 4}, "1");
+  file.add<std::uint32_t>("anchor", anchor);
+  file.add<float>("anchor_uv", uv);
+  file.add<float>("anchor_turn", turn);
 }
 
-std::vector<Life> read_lives(const Container& file, std::size_t n) {
-  const auto birth = file.values<std::int32_t>("birth", {n}), end = file.values<std::int32_t>("end", {n});
-  const auto chain = file.values<std::uint32_t>("chain", {n});
-  const auto rate = file.values<float>("rate", {n});
-  std::vector<Life> lives(n);
-  for (std::size_t i = 0; i < n; ++i) {
+std::vector<Life> read_lives(const TensorReader& file) {
+  const auto birth = file.values<std::int32_t>("birth"), end = file.values<std::int32_t>("end");
+  const auto chain = file.values<std::uint32_t>("chain");
+  const auto rate = file.values<float>("rate");
+  std::vector<Life> lives(birth.size());
+  for (std::size_t i = 0; i < lives.size(); ++i) {
     lives[i].birth = birth[i], lives[i].end = end[i];
     lives[i].chain = chain[i], lives[i].rate = rate[i];
   }
-  if (!file.has("anchor") && !file.has("anchor_uv") && !file.has("anchor_turn")) return lives;
-  const auto anchor = file.values<std::uint32_t>("anchor", {n});
-  const auto uv = file.values<float>("anchor_uv", {n, 2}), turn = file.values<float>("anchor_turn", {n, 4});
-  for (std::size_t i = 0; i < n; ++i) {
+  if (!file.has("anchor")) return lives;
+  const auto anchor = file.values<std::uint32_t>("anchor");
+  const auto uv = file.values<float>("anchor_uv"), turn = file.values<float>("anchor_turn");
+  for (std::size_t i = 0; i < lives.size(); ++i) {
     lives[i].anchor = {anchor[i], uv[2 * i], uv[2 * i + 1]};
     lives[i].turn = {turn[4 * i + 3], turn[4 * i], turn[4 * i + 1], turn[4 * i + 2]};
   }
@@ -120,8 +119,8 @@ Json film_header(const FilmInfo& film, const LifeColumns& lives) {
 }
 
 FilmInfo read_film_info(const Container& file) {
-  require_records_of(RecordsOf::film, file);
-  const Json& film = *file.provenance().extra.find("film");
+  require_form(FileForm::film, file);
+  const Json& film = *file.provenance().extra.find(name_of(FileForm::film));
   const auto refuse = [&](const std::string& name) {
     throw Error(ExitCode::bad_input, file.path(),
                 text("its header does not say the film's ", name, "; make the file again"));
@@ -133,9 +132,9 @@ FilmInfo read_film_info(const Container& file) {
     return value->as_integer();
   };
   FilmInfo info;
-  const Json* accuracy = file.provenance().extra.find("accuracy");
-  if (!accuracy || !accuracy->is_number() || !(accuracy->as_number() > 0)) refuse("accuracy");
-  info.accuracy = accuracy->as_number();
+  const std::optional<double> accuracy = accuracy_of(file);
+  if (!accuracy) refuse(kAccuracyEntry);
+  info.accuracy = *accuracy;
   const Json* frames = film.find("frames");
   if (!frames || !frames->is_array() || frames->as_array().size() != 2) refuse("frames");
   info.frames = {integer("frames", &frames->as_array()[0]), integer("frames", &frames->as_array()[1])};

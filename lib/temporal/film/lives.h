@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/json.h"
-#include "file/container.h"
+#include "file/kinds/tensor_io.h"
 #include "temporal/film/cache.h"
 
 namespace phos::inline temporal {
@@ -22,10 +22,9 @@ struct LifeColumns {
   bool moving = false;  ///< is any anchored?
 
   void append(const Life& life);
-  void add_to(ContainerWriter& file) const;
+  void add_to(TensorWriter& file) const;
 };
-/// Of n records. Throws Error(bad_input) for columns that lack.
-std::vector<Life> read_lives(const Container& file, std::size_t n);
+std::vector<Life> read_lives(const TensorReader& file);
 
 /// A record that is alive at some frame, and the share of its place then.
 struct Alive {

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "place/parallel_maker.h"
+#include "temporal/events.h"
 
 namespace phos::inline temporal {
 namespace {
@@ -112,7 +113,7 @@ std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameL
     Pose pose;
     const std::optional<RecordSite> site = site_of(chains_[i], light.scene(), pose);
     if (!site) {
-      counters_.count("record without a surface");
+      counters_.count(kLostRecordEvent);
       continue;
     }
     sites.push_back(*site), poses.push_back(pose), there.push_back(i);

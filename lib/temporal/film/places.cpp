@@ -3,6 +3,7 @@
 #include <functional>
 #include <numeric>
 
+#include "temporal/events.h"
 #include "temporal/film/maker.h"
 #include "temporal/visible_places.h"
 
@@ -47,7 +48,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
       looked = f;
     }
     next_number_ = static_cast<std::uint32_t>(places.next_item() - kFilmItems);
-    if (places.lost() > 0) counters_.count("place without a surface", places.lost());
+    if (places.lost() > 0) counters_.count(kLostPlaceEvent, places.lost());
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (places.in_sight()[i])
         wanted.push_back(known[i]);
@@ -142,7 +143,7 @@ void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std:
   FilmInfo info;
   info.frames = {begin, end}, info.accuracy = task_.records.accuracy;
   info.gradients = TemporalGradients::interpolated;
-  IrradianceCache known = cache_at(film_of(chains, info, ""), look, light.scene());
+  IrradianceCache known = cache_at(film_of(chains, info, task_.records.paths), look, light.scene());
   const std::vector<RecordSite> holes = holes_in_view(light.at(), known, task_.placement, task_.wanted,
                                                       task_.unwanted, kFilmItems + next_number_);
   next_number_ += static_cast<std::uint32_t>(holes.size());

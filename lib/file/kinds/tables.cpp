@@ -1,0 +1,248 @@
+// The tables: pure data.
+#include "file/kinds/tensor_row.h"
+
+namespace phos::inline file {
+
+namespace {
+
+using Rule = NumberCheck::Rule;
+using enum TensorGroup::Present;
+
+constexpr double kInfinite = __builtin_inf();
+
+constexpr NumberCheck kAny{Rule::any, ""}, kFinite{Rule::finite, "finite"},
+    kNotNegative{Rule::within, "0 or above", 0, kInfinite},
+    kFiniteNotNegative{Rule::within, "finite and 0 or above", 0, 3.5e38},
+    kPositive{Rule::positive, "finite and above 0"}, kShare{Rule::within, "from 0 to 1", 0, 1},
+    kUnit{Rule::unit, "a vector of unit length"},
+    kFrame{Rule::frame, "two vectors of unit length at right angles"},
+    kPath{Rule::within, "from 0 to 3", 0, 3},
+    kPlace{Rule::within, "finite and less than 1e18 m away", -1e18f, 1e18f};
+
+// --- photons ---
+
+constexpr TensorRow kPhoton[] = {
+    {"position", Dtype::f32, "n,xyz", "m", kPlace, "the place where it landed"},
+    {"flux", Dtype::f32, "n,rgb", "lm", kFinite, "flux before the surface reflects"},
+    {"direction", Dtype::u32, "n", kOctahedralUnit, kAny, "towards the place it came from"},
+    {"normal", Dtype::u32, "n", kOctahedralUnit, kAny,
+     "of the surface it landed on, on the side it landed on"},
+    {"source_normal", Dtype::u32, "n", kOctahedralUnit, kAny, "of the surface it left; gradients need it"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "to the surface it left"},
+    {"path", Dtype::u8, "n", "1", kPath,
+     "0 straight from a light; 1 last left a surface that is no mirror, or further back did so; 2 caustic: "
+     "light, then mirrors and glass only; 3 the same over flat mirrors in which shadow rays find the light "
+     "too"},
+    {"bounce", Dtype::u8, "n", "1", kAny, "surfaces met before"},
+};
+constexpr TensorRow kTree[] = {
+    {"kdtree", Dtype::u8, "bytes", kOpaqueUnit, kAny, "the tree, compressed with lz4"},
+};
+constexpr TensorRow kFlights[] = {
+    {"flight_from", Dtype::f32, "flights,xyz", "m", kPlace, "where a stretch of caustic light begins"},
+    {"flight_flux", Dtype::f32, "flights,rgb", "lm", kFinite, "its flux"},
+    {"flight_direction", Dtype::u32, "flights", kOctahedralUnit, kAny, "towards which it goes"},
+    {"flight_length", Dtype::f32, "flights", "m", kNotNegative, "how far it goes"},
+};
+constexpr TensorGroup kPhotonGroups[] = {
+    {always, "", kPhoton},
+    {always, "", kTree, FileForm::whole, FileForm::shard},
+    {optional,
+     "Sensors in mid-air need stretches of caustic light that end at no stored photon. They are absent where "
+     "there are none:",
+     kFlights},
+};
+
+// --- what records of both kinds have ---
+
+constexpr TensorRow kLives[] = {
+    {"birth", Dtype::i32, "n", "frame", kAny, "first frame that it serves"},
+    {"end", Dtype::i32, "n", "frame", kAny, "first frame after its birth that it does not serve"},
+    {"chain", Dtype::u32, "n", "1", kAny, "number of its place: the records of one follow one another"},
+    {"rate", Dtype::f32, "n", "1/frame", kFiniteNotNegative, "relative change that was expected", "f2"},
+};
+constexpr TensorRow kAnchors[] = {
+    {"anchor", Dtype::u32, "n", "1", kAny, "triangle that it rides on; 4294967295: none"},
+    {"anchor_uv", Dtype::f32, "n,2", "1", kFinite, "place in the triangle"},
+    {"anchor_turn", Dtype::f32, "n,4", "1", kUnit, "turn of the triangle at birth, quaternion x, y, z, w"},
+};
+constexpr TensorRow kRadiusChange[] = {
+    {"radius_change", Dtype::f32, "n", "m/frame", kFinite, "change of the radius per frame"},
+};
+constexpr TensorRow kShared[] = {
+    {"shared", Dtype::f32, "n", "1", kShare,
+     "part of the variance that records about it have too; absent where it is the default for all"},
+};
+constexpr TensorRow kCaustics[] = {
+    {"caustic_position", Dtype::f32, "caustics,xyz", "m", kPlace, "place where a photon landed"},
+    {"caustic_flux", Dtype::f32, "caustics,rgb", "lm", kFinite, "its flux before the surface reflects"},
+    {"caustic_direction", Dtype::u32, "caustics", kOctahedralUnit, kAny, "towards the place it came from"},
+    {"caustic_normal", Dtype::u32, "caustics", kOctahedralUnit, kAny,
+     "of the surface, on the side it landed on"},
+    {"caustic_distance", Dtype::f32, "caustics", "m", kNotNegative, "to the last surface that turned it"},
+};
+constexpr TensorRow kCausticFlights[] = {
+    {"caustic_flight_from", Dtype::f32, "caustic_flights,xyz", "m", kPlace, "as `flight_from` of photons"},
+    {"caustic_flight_flux", Dtype::f32, "caustic_flights,rgb", "lm", kFinite, "as `flight_flux`"},
+    {"caustic_flight_direction", Dtype::u32, "caustic_flights", kOctahedralUnit, kAny,
+     "as `flight_direction`"},
+    {"caustic_flight_length", Dtype::f32, "caustic_flights", "m", kNotNegative, "as `flight_length`"},
+};
+constexpr TensorGroup kSharedGroup{optional, "", kShared};
+constexpr TensorGroup kCausticGroup{
+    optional, "Where a scene has caustic light, caches of records carry its photons:", kCaustics};
+constexpr TensorGroup kCausticFlightGroup{optional, "", kCausticFlights};
+constexpr TensorGroup kLifeGroup{
+    always,
+    "Records of films (`phos-temporal`) are those above, as they were born, in order of `chain` and `birth`. "
+    "One serves frames from its birth to before its end. `extra.film` of the header holds frames, fade, and "
+    "the scene's hash at each frame:",
+    kLives, FileForm::film};
+constexpr TensorGroup kAnchorGroup{optional, "Where surfaces move:", kAnchors, FileForm::film};
+constexpr TensorGroup kRadiusChangeGroup{
+    optional, "Unless the film was made with `--temporal-gradients none`:", kRadiusChange, FileForm::film};
+
+// --- irradiance ---
+
+constexpr TensorRow kIrradiance[] = {
+    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place"},
+    {"normal", Dtype::f32, "n,xyz", "1", kUnit, "unit normal on the lit side"},
+    {"irradiance", Dtype::f32, "n,rgb", "lx", kFiniteNotNegative,
+     "by the light that `quantity` of the header names: `indirect` or `all`"},
+    {"stderr", Dtype::f32, "n,rgb", "lx", kFinite, "its standard error"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance of the surroundings", "a7 c6"},
+    {"radius", Dtype::f32, "n", "m", kPositive,
+     "R of the weight; a record serves points within accuracy × R"},
+    {"rotation_gradient", Dtype::f32, "n,rgb,xyz", "lx/rad", kFinite, "change of light by a turn", "a5"},
+    {"translation_gradient", Dtype::f32, "n,rgb,xyz", "lx/m", kFinite, "change of light by a step", "a5"},
+};
+constexpr TensorRow kLeastRadius[] = {
+    {"least_radius", Dtype::f32, "n", "m", kNotNegative, "the radius that neighbours leave at least"},
+};
+constexpr TensorRow kFootprint[] = {
+    {"footprint_axis", Dtype::f32, "n,xyz", "1", kUnit, "first of eight axes, 45 degrees apart"},
+    {"footprint_length", Dtype::f32, "n,8", "m", kPositive, "length of each axis"},
+    {"footprint_slope", Dtype::f32, "n,rgb,8", "lx", kFinite,
+     "first order change of light over the whole of each axis"},
+    {"footprint_bend", Dtype::f32, "n,rgb,8", "lx", kFinite,
+     "second order change over the whole of each axis"},
+    {"footprint_turn_slope", Dtype::f32, "n,rgb,8", "lx/rad", kFinite,
+     "first order change by a turn of the surface about each axis"},
+    {"footprint_turn_bend", Dtype::f32, "n,rgb,8", "lx/rad2", kFinite, "second order change by such a turn"},
+};
+constexpr TensorRow kIndex[] = {
+    {"index_box", Dtype::f64, "4", "m", kFinite, "lower corner and side of the root"},
+    {"index_children", Dtype::u8, "cells", "1", kAny, "bit o tells whether octant o has a cell"},
+    {"index_cells", Dtype::u32, "cells+1,2", "1", kAny, "first child, first entry"},
+    {"index_entries", Dtype::u32, "entries", "1", kAny, "numbers of records, cell after cell"},
+};
+constexpr TensorRow kIrradianceChanges[] = {
+    {"irradiance_change", Dtype::f32, "n,rgb", "lx/frame", kFinite, "change of the irradiance per frame"},
+    {"rotation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/rad/frame", kFinite,
+     "of its gradient by turns"},
+    {"translation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/m/frame", kFinite,
+     "of its gradient by steps"},
+};
+constexpr TensorGroup kIrradianceGroups[] = {
+    {always, "", kIrradiance},
+    kSharedGroup,
+    {optional, "With `--footprint adaptive` ([methods E](../methods.md#e)):", kFootprint},
+    {optional,
+     "Files of 65,536 records or more also hold an octree, so that opening one builds nothing:", kIndex},
+    kCausticGroup,
+    kCausticFlightGroup,
+    {always, "Parts of a run (`--part`) alone:", kLeastRadius, FileForm::part},
+    kLifeGroup,
+    kAnchorGroup,
+    kRadiusChangeGroup,
+    {optional, "", kIrradianceChanges, FileForm::film},
+};
+
+// --- radiance ---
+
+constexpr TensorRow kRadiance[] = {
+    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place"},
+    {"frame", Dtype::f32, "n,2,xyz", "1", kFrame, "x axis and normal (z); y = z × x"},
+    {"coefficients", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)", kFinite, "c_i by colour"},
+    {"stderr", Dtype::f32, "n,rgb,N", "cd/m2 sqrt(sr)", kFiniteNotNegative,
+     "standard error of one coefficient of each band"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance of the surroundings", "a7 c6"},
+    {"radius", Dtype::f32, "n", "m", kPositive,
+     "R of the weight; a record serves points within accuracy × R"},
+};
+constexpr TensorRow kRadianceGradients[] = {
+    {"gradient_x", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
+     "change per metre along x; absent where there is none"},
+    {"gradient_y", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
+     "change per metre along y; absent where there is none"},
+};
+constexpr TensorRow kOrder[] = {
+    {"order", Dtype::u8, "n", "1", kAny, "where orders differ; numbers beyond a record's own are 0"},
+};
+constexpr TensorRow kRadianceChanges[] = {
+    {"coefficients_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/frame", kFinite,
+     "change of the coefficients per frame"},
+};
+constexpr TensorRow kRadianceGradientChanges[] = {
+    {"gradient_x_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m/frame", kFinite,
+     "change of `gradient_x` per frame"},
+    {"gradient_y_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m/frame", kFinite,
+     "change of `gradient_y` per frame"},
+};
+constexpr TensorGroup kRadianceGroups[] = {
+    {always, "", kRadiance},
+    {optional, "", kRadianceGradients},
+    {optional, "", kOrder},
+    {optional, "", kRadianceChanges, FileForm::film},
+    {optional, "", kRadianceGradientChanges, FileForm::film},
+    kSharedGroup,
+    kCausticGroup,
+    kCausticFlightGroup,
+    kLifeGroup,
+    kAnchorGroup,
+    kRadiusChangeGroup,
+};
+
+// --- lobes ---
+
+constexpr TensorRow kLobes[] = {
+    {"K.orders", Dtype::u8, "K.rows", "1", kAny, "lowest order that meets the error; 0: traced"},
+    {"K.error", Dtype::f32, "K.rows", "1", kShare, "share of the lobe's energy that is left out"},
+};
+constexpr TensorRow kLobeCoefficients[] = {
+    {"K.coefficients", Dtype::f32, "K.rows,K.i,rgb", "1/sqrt(sr)", kFinite,
+     "coefficients of the cosine-weighted lobe; of isotropic materials only coefficients of 0 ≤ m ≤ l; "
+     "absent "
+     "where all is traced"},
+};
+constexpr TensorGroup kLobeGroups[] = {{always, "", kLobes}, {optional, "", kLobeCoefficients}};
+
+constexpr KindRow kKindRows[] = {
+    {FileKind::photons, 1, ".photons", "phos-photons phos-merge",
+     "photons where they landed, and a kd-tree over them (FLANN builds it)", "Photons", "", kPhotonGroups},
+    {FileKind::irradiance, 1, ".irradiance", "phos-irradiance phos-temporal phos-merge", "irradiance records",
+     "Irradiance records", "", kIrradianceGroups},
+    {FileKind::radiance, 1, ".radiance", "phos-radiance phos-temporal",
+     "radiance records: light by direction", "Radiance records",
+     "N is the greatest order. Light arriving along w is the sum of c_i H_i(w), w in the record's frame; i = "
+     "l² + l + m; orthonormal, with the Condon-Shortley phase.",
+     kRadianceGroups},
+    {FileKind::brdf, 1, ".brdf", "phos-brdf", "glossy lobes as hemispherical harmonics", "Lobes",
+     "One table for each glossy material; K is its number in the file. An isotropic material has a row for "
+     "each of `resolution` angles, another one for each cell of the parabolic map.",
+     kLobeGroups},
+    {FileKind::image,
+     1,
+     ".exr",
+     "phos-splat phos-reference phos-bands",
+     "pictures with layers",
+     "Pictures",
+     "",
+     {}},
+};
+
+}  // namespace
+
+std::span<const KindRow> all_kinds() { return kKindRows; }
+
+}  // namespace phos::inline file

@@ -1,0 +1,68 @@
+// Writing and reading tensors as the table of their kind says.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "file/container.h"
+#include "file/kinds/shape_pattern.h"
+
+namespace phos::inline file {
+
+/// Collects the tensors of a file of one kind: type, shape and unit are those of their rows. Aborts for a
+/// tensor without a row, of another type, or of numbers that are no such shape. Spans must stay alive until
+/// write().
+class TensorWriter {
+ public:
+  explicit TensorWriter(FileKind kind) : kind_(kind) {}
+  /// The extent that a symbol of shapes stands for. One that is not stated follows from the first tensor that
+  /// has it.
+  void extent(const std::string& symbol, std::uint64_t n) { extents_[symbol] = n; }
+  template <class T>
+  void add(const std::string& name, std::span<const T> values) {
+    add_bytes(name, dtype_of<T>(), std::as_bytes(values));
+  }
+  /// A tensor of floats whose rows end in three numbers.
+  void add_vectors(const std::string& name, std::span<const Vec3> v) {
+    add_bytes(name, Dtype::f32, std::as_bytes(v));
+  }
+  /// As ContainerWriter::write(); kind and version are those of the table.
+  void write(const std::string& path, Provenance provenance) const;
+
+ private:
+  void add_bytes(const std::string& name, Dtype dtype, std::span<const std::byte> bytes);
+  FileKind kind_;
+  Extents extents_;
+  ContainerWriter file_;
+};
+
+/// The tensors of a file, present and shaped as the table of its kind says. Values are looked at by
+/// Container::require_sound().
+class TensorReader {
+ public:
+  /// Throws Error(bad_input) as require_layout().
+  explicit TensorReader(const Container& file);
+  const Container& file() const { return file_; }
+  bool has(const std::string& name) const { return file_.has(name); }
+  /// What a symbol of shapes stands for; 0 where no tensor of the file has it.
+  std::uint64_t extent(const std::string& symbol) const;
+  /// In place. Throws Error(bad_input) where the file has no such tensor; aborts for one without a row, or of
+  /// another type.
+  template <class T>
+  std::span<const T> values(const std::string& name) const {
+    const Tensor& t = require(name, dtype_of<T>());
+    return {reinterpret_cast<const T*>(t.bytes.data()), t.bytes.size() / sizeof(T)};
+  }
+  /// Floats whose rows end in three numbers.
+  std::span<const Vec3> vectors(const std::string& name) const {
+    const std::span<const float> v = values<float>(name);
+    return {reinterpret_cast<const Vec3*>(v.data()), v.size() / 3};
+  }
+
+ private:
+  const Tensor& require(const std::string& name, Dtype dtype) const;
+  Container file_;
+  Extents extents_;
+};
+
+}  // namespace phos::inline file
