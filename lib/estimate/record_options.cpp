@@ -185,12 +185,13 @@ void require_one_light(const Options& given) {
     throw Error(ExitCode::usage, "--direct", "says what --paths says; give one of the two");
 }
 
-void declare_raster_options(Options& options, RecordOptions& r) {
-  options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster",
-                  {8, 1024});
+void declare_raster_options(Options& options, RecordOptions& r, Recorded recorded) {
+  options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster", {8, 1024},
+                  recorded);
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
                                "what stands for directions beyond the plane: nothing, the plane's own mean "
-                               "(coverage), or its border pixels (stretch)");
+                               "(coverage), or its border pixels (stretch)",
+                               recorded);
 }
 
 void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {

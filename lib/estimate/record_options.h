@@ -106,7 +106,7 @@ struct RecordOptions {
 
 /// All but those of --estimate raster.
 void declare_options(Options& options, RecordOptions& records);
-void declare_raster_options(Options& options, RecordOptions& records);
+void declare_raster_options(Options& options, RecordOptions& records, Recorded recorded = Recorded::yes);
 /// --footprint, --rho and --direct (another name of --paths).
 void declare_footprint_options(Options& options, RecordOptions& records);
 /// Throws Error(usage) if both --direct and --paths were given.

@@ -2,6 +2,7 @@
 
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
+#include "splat/gl/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "temporal/film/inputs.h"
@@ -39,6 +40,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   job.of_radiance = asked.kind == RecordKind::radiance;
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
   if (tool.up_to_date()) return;
+  register_raster_estimator();
 
   {
     const auto timer = tool.time("survey");
