@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::string text_for_picture(std::string unit) {
   return unit;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 using Colour8 = std::array<std::uint8_t, 3>;
 
@@ -29,4 +29,4 @@ int text_height(int dot);
 /// "cd/m2" with a raised two.
 std::string text_for_picture(std::string unit);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -279,4 +279,4 @@ Picture difference_picture(std::span<const float> values, int width, int height,
                      {title, unit, figures_of(values), false}, colour);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 #include "image/canvas.h"
 #include "image/plot/plot.h"
 
-namespace phos {
+namespace phos::inline image {
 
 inline constexpr Colour8 kPaper{255, 255, 255}, kInk{40, 40, 40};
 inline constexpr int kLetter = 14;  ///< height of a line of text, pixels
@@ -60,4 +60,4 @@ class PixelPen : public Pen {
   Picture picture_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -3,7 +3,7 @@
 
 #include "image/plot/pen.h"
 
-namespace phos {
+namespace phos::inline image {
 
 PixelPen::PixelPen(int width, int height, int scale)
     : scale_(scale), picture_(make_picture(width * scale, height * scale, kPaper)) {}
@@ -80,4 +80,4 @@ void PixelPen::blend(int x, int y, const Colour8& colour, double cover) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

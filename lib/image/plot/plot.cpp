@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "image/plot/pen.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -256,4 +256,4 @@ Picture plot_picture(const Plot& plot, int scale) {
   return pen.finish();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

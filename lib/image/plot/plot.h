@@ -8,7 +8,7 @@
 #include "image/canvas.h"
 #include "image/false_colour.h"
 
-namespace phos {
+namespace phos::inline image {
 
 struct PlotPoint {
   double x = 0, y = 0;
@@ -51,4 +51,4 @@ std::string plot_svg(const Plot& plot);
 /// Same drawing, `scale` times as many pixels each way. Letters are those of draw_text.
 Picture plot_picture(const Plot& plot, int scale = 1);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -9,7 +9,7 @@
 #include "image/false_colour.h"
 #include "image/plot/pen.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 constexpr Colour8 kGrid{205, 205, 205};
@@ -148,4 +148,4 @@ Picture polar_plot_picture(const PolarPlot& plot, int scale) {
   return pen.finish();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

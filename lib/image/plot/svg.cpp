@@ -4,7 +4,7 @@
 #include "core/text/markup.h"
 #include "image/plot/pen.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -53,4 +53,4 @@ double SvgPen::width_of(const std::string& words) const {
   return 0.58 * kLetter * static_cast<double>(words.size());
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kUnsampled = "unsampled";
@@ -176,4 +176,4 @@ std::vector<LightWay> tell_unsampled_kept(Tool& tool, const std::string& path,
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "file/tool.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// How light is looked for.
 enum class Sampler : std::uint8_t {
@@ -62,4 +62,4 @@ std::vector<LightWay> tell_unsampled_kept(Tool& tool, const std::string& path,
                                           const std::vector<LightWay>& kept,
                                           const std::vector<LightWay>& missed);
 
-}  // namespace phos
+}  // namespace phos::inline scene
