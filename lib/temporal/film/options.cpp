@@ -55,8 +55,9 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
       refuse("--estimate", "raster makes irradiance records alone; give --kind radiance gather or hull");
     if (look_ahead == LookAhead::reproject) {
       if (given.given("look-ahead"))
-        refuse("--look-ahead",
-               "reproject moves what gathered rays saw, and --estimate raster sends none; give trace or none");
+        refuse(
+            "--look-ahead",
+            "reproject moves what gathered rays saw, and --estimate raster sends none; give trace or none");
       look_ahead = LookAhead::trace;
     }
   }
