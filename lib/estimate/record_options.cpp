@@ -194,13 +194,13 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
   options.another_name("direct", "paths");
 }
 
-void declare_raster_options(Options& options, RecordOptions& r) {
+void declare_raster_options(Options& options, RecordOptions& r, const InFiles& in_files) {
   options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster", {8, 1024},
-                  Adopted::estimate);
+                  in_files);
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
                                "what stands for directions beyond the plane: nothing, the plane's own mean "
                                "(coverage), or its border pixels (stretch)",
-                               Adopted::estimate);
+                               in_files);
 }
 
 }  // namespace phos::inline estimate

@@ -104,7 +104,8 @@ struct RecordOptions {
 
 /// All but those of --estimate raster.
 void declare_options(Options& options, RecordOptions& records);
-void declare_raster_options(Options& options, RecordOptions& records);
+void declare_raster_options(Options& options, RecordOptions& records,
+                            const InFiles& in_files = Adopted::estimate);
 /// --footprint, --rho and --direct (another name of --paths).
 void declare_footprint_options(Options& options, RecordOptions& records);
 // Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays

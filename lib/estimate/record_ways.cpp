@@ -13,13 +13,15 @@ double samples_of(const RecordOptions& records) {
   return records.estimate == Estimate::raster ? side * side : static_cast<double>(records.rays);
 }
 
-std::vector<LightWay> tell_missed_ways(Tool& tool, const RayScene& rays, const RecordOptions& records) {
+std::vector<LightWay> missed_ways(const RayScene& rays, const RecordOptions& records) {
   const Sampler sampler = sampler_of(records);
   if (sampler == Sampler::photons) return {};
-  const double samples = samples_of(records);
-  const std::vector<LightWay> missed =
-      unsampled(light_ways(rays, Luminaires(rays.scene())), sampler, samples);
-  tell_unsampled(tool, missed, sampler, samples);
+  return unsampled(light_ways(rays, Luminaires(rays.scene())), sampler, samples_of(records));
+}
+
+std::vector<LightWay> tell_missed_ways(Tool& tool, const RayScene& rays, const RecordOptions& records) {
+  const std::vector<LightWay> missed = missed_ways(rays, records);
+  tell_unsampled(tool, missed, sampler_of(records), samples_of(records));
   return missed;
 }
 

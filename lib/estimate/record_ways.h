@@ -12,6 +12,10 @@ namespace phos::inline estimate {
 Sampler sampler_of(const RecordOptions& records);
 double samples_of(const RecordOptions& records);
 
+/// The ways that the lamps of a scene take and such records do not hold. No ray is sent for records of
+/// photons, which hold all.
+std::vector<LightWay> missed_ways(const RayScene& rays, const RecordOptions& records);
+
 /// Looks at the scene, warns (Tool::doubt) of what such records will not hold, and returns it.
 std::vector<LightWay> tell_missed_ways(Tool& tool, const RayScene& rays, const RecordOptions& records);
 

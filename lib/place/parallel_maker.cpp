@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 
@@ -27,10 +28,14 @@ std::vector<Made> ParallelMaker::make(std::span<const RecordSite> sites) {
     }
     give_back(std::move(worker));
   };
-  if (estimator_.one_thread())
-    run(0, sites.size());
-  else
+  if (estimator_.one_thread()) {
+    for (std::size_t begin = 0; begin < sites.size(); begin += kChunk) {
+      throw_if_interrupted();
+      run(begin, std::min(begin + kChunk, sites.size()));
+    }
+  } else {
     parallel_chunks(sites.size(), kChunk, run);
+  }
   made_ += sites.size();
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;

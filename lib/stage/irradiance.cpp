@@ -68,12 +68,13 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
   }
 }
 
-/// The cache to add to. Options that were not given become its own; one that was and differs throws
-/// Error(mismatch).
+/// The cache to add to, and the ways of light that it does not hold. Options that were not given become its
+/// own; one that was and differs throws Error(mismatch).
 IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, Options& options,
-                             const IrradianceCommand& asked) {
+                             const IrradianceCommand& asked, std::vector<LightWay>& missed) {
   const Container file = open_to_add(asked.add_to, FileKind::irradiance, files, scene, asked.allow_mismatch);
   adopt_estimate(options, file);
+  missed = unsampled_in(file.provenance());
   return read_irradiance(file);
 }
 
@@ -94,7 +95,8 @@ void run(Tool& tool, IrradianceCommand& asked) {
   tell_losses(tool, scene);
   const RecordInputs inputs = open_record_inputs(files, scene, asked.allow_mismatch);
   IrradianceCache cache;
-  if (!asked.add_to.empty()) cache = open_earlier(files, scene, tool.options(), asked);
+  std::vector<LightWay> missed_before;
+  if (!asked.add_to.empty()) cache = open_earlier(files, scene, tool.options(), asked, missed_before);
   cache.scene_hash = scene.hash;
   cache.quantity = records.paths;
   cache.caustics = caustics_of_run(inputs, scene, asked.add_to.empty() ? nullptr : &cache, asked.add_to);
@@ -117,7 +119,8 @@ void run(Tool& tool, IrradianceCommand& asked) {
   if (!asked.at.empty() && of_photons_alone(records))
     source.points = points = require_surfaces(tool, rays, points, kOnSurface * typical.least_m, asked.at,
                                               "records of photons", "let rays gather: --estimate gather");
-  const std::vector<LightWay> missed = tell_missed_ways(tool, rays, records);
+  const std::vector<LightWay> missed =
+      tell_unsampled_kept(tool, asked.add_to, missed_before, tell_missed_ways(tool, rays, records));
   const auto provenance = [&] {
     Provenance own = tool.provenance(FileKind::irradiance, scene.hash, scene.parts);
     note_unsampled(own, missed);

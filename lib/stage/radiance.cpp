@@ -51,10 +51,12 @@ void run(Tool& tool, RadianceCommand& asked) {
     return GlossTables(scene, inputs.brdf, asked.gloss, {}, tool.counters());
   }();
   RadianceCache cache;
+  std::vector<LightWay> missed_before;
   if (!asked.add_to.empty()) {
     const Container earlier =
         open_to_add(asked.add_to, FileKind::radiance, files, scene, asked.allow_mismatch);
     adopt_estimate(tool.options(), earlier);
+    missed_before = unsampled_in(earlier.provenance());
     cache = read_radiance(earlier);
     require_same_orders(cache, tables, asked.add_to);
   }
@@ -72,8 +74,10 @@ void run(Tool& tool, RadianceCommand& asked) {
   const TypicalDistance typical = typical_distance(rays, placement, source);
   tool.stat("typical_distance_m", typical.least_m);
   radiance.records.resolve(typical);
-  std::vector<LightWay> missed;
   tell_of_gloss(tool, gloss_report(scene, tables), files.brdf.empty() && !tables.orders().empty());
+  std::vector<LightWay> missed;
+  if (!tables.orders().empty()) missed = tell_missed_ways(tool, rays, radiance.records);
+  missed = tell_unsampled_kept(tool, asked.add_to, missed_before, missed);
   if (tables.orders().empty()) {
     tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
                   ": the file is empty"));
@@ -81,7 +85,6 @@ void run(Tool& tool, RadianceCommand& asked) {
     if (!asked.at.empty())
       source.points = points = require_surfaces(tool, rays, points, kOnSurface * typical.least_m, asked.at,
                                                 "radiance records", "let phos-sense read light there");
-    missed = tell_missed_ways(tool, rays, radiance.records);
     const ChosenRadianceEstimators estimators = [&] {
       const auto timer = tool.time("coarse records");
       return ChosenRadianceEstimators(rays, inputs, radiance, tool.seed());

@@ -1,7 +1,9 @@
 #include "stage/temporal.h"
 
+#include "estimate/record_ways.h"
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
+#include "splat/gl/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "temporal/film/inputs.h"
@@ -26,6 +28,21 @@ void refuse_inputs(const RecordFiles& files) {
   refuse(files.source, "is an irradiance cache, which phos-temporal does not read; leave it out");
 }
 
+/// Ways of light that the records do not hold at any of the frames at which all places may have theirs
+/// computed: the ends of each shot, and every --max-life between.
+std::vector<LightWay> missed_in_film(const FilmJob& job, const RecordOptions& records, FrameScenes& scenes) {
+  std::vector<LightWay> missed;
+  if (sampler_of(records) == Sampler::photons) return missed;
+  for (const FrameRange& shot : job.survey.shots) {
+    for (std::int64_t f = shot.first;; f = std::min(f + job.options.max_life, shot.last)) {
+      missed = united(std::move(missed), missed_ways(scenes.at(f)->rays, records));
+      if (!job.survey.light_changes) return missed;
+      if (f == shot.last) break;
+    }
+  }
+  return missed;
+}
+
 }  // namespace
 
 void run(Tool& tool, TemporalCommand& asked) {
@@ -39,6 +56,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   job.of_radiance = asked.kind == RecordKind::radiance;
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
   if (tool.up_to_date()) return;
+  register_raster_estimator();
 
   {
     const auto timer = tool.time("survey");
@@ -60,6 +78,10 @@ void run(Tool& tool, TemporalCommand& asked) {
   if (job.of_radiance || job.covered_by_radiance)
     job.gloss = GlossTables(first->scene, lobes_of(files, first->scene), asked.gloss, {}, tool.counters());
   tell_of_film(tool, job);
+  const RecordOptions& made = job.of_radiance ? job.light.radiance.records : records;
+  std::vector<LightWay> missed;
+  if (!job.of_radiance || !job.gloss.orders().empty()) missed = missed_in_film(job, made, scenes);
+  tell_unsampled(tool, missed, sampler_of(made), samples_of(made));
 
   Film source;
   if (needs_source(job)) {
@@ -70,8 +92,10 @@ void run(Tool& tool, TemporalCommand& asked) {
   const auto timer = tool.time("records");
   const Film* read = needs_source(job) ? &source : nullptr;
   const auto provenance = [&] {
-    return tool.provenance(job.of_radiance ? FileKind::radiance : FileKind::irradiance, first->scene.hash,
-                           first->scene.parts);
+    Provenance own = tool.provenance(job.of_radiance ? FileKind::radiance : FileKind::irradiance,
+                                     first->scene.hash, first->scene.parts);
+    note_unsampled(own, missed);
+    return own;
   };
   FilmReport report;
   if (!job.survey.light_changes) {
@@ -85,12 +109,12 @@ void run(Tool& tool, TemporalCommand& asked) {
     if (journal.found() > 0)
       tool.say(text(journal.found(), " estimates of an interrupted run are kept; the film goes on"));
     job.journal = &journal;
-    const FilmChains made = journal.keeping([&] { return make_chains(job, scenes, read, tool.counters()); });
-    report = made.report;
+    const FilmChains film = journal.keeping([&] { return make_chains(job, scenes, read, tool.counters()); });
+    report = film.report;
     if (job.of_radiance)
-      write_film(tool.output(), radiance_film_of(made.chains, info_of(job)), provenance());
+      write_film(tool.output(), radiance_film_of(film.chains, info_of(job)), provenance());
     else
-      write_film(tool.output(), film_of(made.chains, info_of(job), records.paths), provenance());
+      write_film(tool.output(), film_of(film.chains, info_of(job), records.paths), provenance());
     journal.finish();
   }
   tell_of_records(tool, job, report);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "estimate/density.h"
 
 namespace phos::inline temporal {
 
@@ -68,9 +67,10 @@ const Estimator& FrameLight::irradiance(Counters& counters) {
 }
 
 const Estimator& FrameLight::source_records(Counters& counters) {
-  if (!source_records_)
-    source_records_ = std::make_unique<DensityEstimator>(photons(counters), rays(),
-                                                         coarse_options(options_.records), options_.seed);
+  if (!source_records_) {
+    const RecordOptions coarse_ones = coarse_options(options_.records);
+    source_records_ = make_estimator(parts(coarse_ones, counters));
+  }
   return *source_records_;
 }
 

@@ -40,7 +40,7 @@ void add(FilmReport& all, const FilmReport& part) {
 
 bool needs_source(const FilmJob& job) {
   const RecordOptions& r = records_of(job);
-  return r.estimate == Estimate::gather && r.gather_bounces != 1 && r.gather_from == GatherFrom::cache;
+  return !of_photons_alone(r) && r.gather_bounces != 1 && r.gather_from == GatherFrom::cache;
 }
 
 FilmInfo info_of(const FilmJob& job) {

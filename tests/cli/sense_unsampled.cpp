@@ -49,6 +49,11 @@ const std::string& folder() {
     camera_node["camera"] = 0, camera_node["translation"] = words({0, 1.5, 4});
     g.node(camera_node);
     spill(f + "/steel.glb", g.bytes());
+    Gltf matt = g;
+    Json::Array materials = matt.json.find("materials")->as_array();
+    materials[1]["extras"]["phos"]["ax"] = materials[1]["extras"]["phos"]["ay"] = 0.6;
+    matt.json["materials"] = materials;
+    spill(f + "/matt.glb", matt.bytes());
     spill(f + "/p.csv", "x,y,z,nx,ny,nz\n0.5,0,0.5,0,1,0\n-0.5,0,-0.5,0,1,0\n");
     EXPECT_EQ(run_tool({"photons", f + "/steel.glb", "--photons", "20000", "-o", f + "/l.photons"}).code, 0);
     return f;
@@ -130,6 +135,43 @@ TEST(Unsampled, RecordsOfRaysPassItOn) {
   expect_told(run_tool({"splat", file("steel.glb"), file("g.irradiance"), "--splat", "cpu", "--width", "16",
                         "-o", file("g.exr")}));
   EXPECT_FALSE(read_image(file("g.exr")).has_layer("stderr"));
+}
+
+// Records that are kept beside new ones keep their note, whether or not the new ones would have one.
+TEST(Unsampled, RecordsThatAreAddedToKeepTheirNote) {
+  const std::vector<std::string> how{"--estimate", "gather", "--gather-bounces", "1",
+                                     "--rays",     "64",     "--min-radius",     "0.5"};
+  const auto make = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "irradiance"), words.insert(words.end(), how.begin(), how.end());
+    return run_tool(words);
+  };
+  expect_told(make({file("steel.glb"), "--place", "surface", "-o", file("a.irradiance")}));
+  const test::Run alone = make({file("matt.glb"), "--place", "surface", "-o", file("matt.irradiance")});
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(alone.err.find("reaches surfaces"), std::string::npos) << alone.err;
+  EXPECT_EQ(slurp(file("matt.irradiance")).find("unsampled"), std::string::npos);
+
+  const auto add = [&](const std::string& scene, const std::string& more) {
+    std::vector<std::string> words{file(scene.c_str()),  "--at", file("p.csv"),        "--add-to",
+                                   file("a.irradiance"), "-o",   file("b.irradiance"), "--allow-mismatch"};
+    if (!more.empty()) words.push_back(more);
+    return make(words);
+  };
+  for (const char* scene : {"steel.glb", "matt.glb"}) {
+    std::filesystem::remove(file("b.irradiance"));
+    const test::Run added = add(scene, "");
+    expect_told(added);
+    EXPECT_EQ(added.err.find("a.irradiance: lamp") != std::string::npos, scene == std::string("matt.glb"))
+        << added.err;
+    EXPECT_NE(slurp(file("b.irradiance")).find("unsampled"), std::string::npos) << scene;
+    const test::Run sense =
+        run_tool({"sense", file(scene), file("b.irradiance"), "--points", file("p.csv"), "--allow-mismatch"});
+    expect_told(sense);
+    for (const std::string& cell : column(sense.out, "stderr_lx")) EXPECT_EQ(cell, "");
+  }
+  std::filesystem::remove(file("b.irradiance"));
+  EXPECT_EQ(add("matt.glb", "--strict").code, 5);
+  EXPECT_FALSE(std::filesystem::exists(file("b.irradiance")));
 }
 
 TEST(Unsampled, PhotonsHoldIt) {

@@ -21,10 +21,10 @@ void expect_failure(const Run& run, int code, const std::string& word) {
 TEST(Temporal, HelpVersionAndNoArguments) {
   const test::Run help = temporal({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* said :
-       {"--frames", "--temporal-accuracy", "--max-life", "--lives", "--look-ahead", "--kind", "--photons"})
+  for (const char* said : {"--frames", "--temporal-accuracy", "--max-life", "--lives", "--look-ahead",
+                           "--kind", "--photons", "--raster-side"})
     EXPECT_NE(help.out.find(said), std::string::npos) << said;
-  for (const char* of_no_film : {"--time", "--raster-side", "--points"})
+  for (const char* of_no_film : {"--time", "--points"})
     EXPECT_EQ(help.out.find(of_no_film + std::string(" ")), std::string::npos) << of_no_film;
   EXPECT_EQ(temporal({"--version"}).code, 0);
   EXPECT_EQ(temporal({}).code, 2);
@@ -47,7 +47,6 @@ TEST(Temporal, RefusesInOneLine) {
   expect_failure(temporal({scene, "--frames", "0:3", "--look-ahead", "none", "-o", out}), 2, "--lives rate");
   expect_failure(temporal({scene, "--frames", "0:3", "--lives", "rate", "--checks", "2", "-o", out}), 2,
                  "--checks");
-  expect_failure(temporal({scene, "--frames", "0:3", "--estimate", "raster", "-o", out}), 2, "--estimate");
   expect_failure(temporal({"nowhere.glb", "--frames", "0:3", "-o", out}), 3, "nowhere.glb");
   expect_failure(temporal({scene, "--frames", "0:3", "-o", folder + "/absent/o.irradiance"}), 3, "absent");
   EXPECT_TRUE(std::filesystem::is_empty(folder));

@@ -166,6 +166,27 @@ TEST(Unsampled, TellsLampWayAndCount) {
       << unsampled_line(way, Sampler::gathering, 1000);
 }
 
+/// Ways of one lamp and kind are one: what is worst of both, and all their materials.
+TEST(Unsampled, TwoListsAreUnited) {
+  using Kind = LightWay::Kind;
+  const LightWay sun{"sun", Kind::bent, {"ball"}, {"curved glass \"ball\""}, 0.1, 0.02},
+      other{"sun", Kind::bent, {"ball", "lens"}, {"curved glass \"ball\"", "curved glass \"lens\""},
+            0.2,   0.03},
+      mirrored{"sun", Kind::mirrored, {"wall"}, {"mirror \"wall\""}, 0.1, 0},
+      bulb{"bulb", Kind::bent, {"ball"}, {"curved glass \"ball\""}, 0.3, 0.01};
+  const std::vector<LightWay> all = united({sun, mirrored}, {bulb, other});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].lamp, "sun");
+  EXPECT_EQ(all[0].materials, other.materials);
+  EXPECT_EQ(all[0].by, other.by);
+  EXPECT_EQ(all[0].share, 0.2);
+  EXPECT_EQ(all[0].hit_share, 0.02);
+  EXPECT_EQ(all[1].kind, Kind::mirrored);
+  EXPECT_EQ(all[2].lamp, "bulb");
+  EXPECT_EQ(to_json(united({}, all)).dump(), to_json(all).dump());
+  EXPECT_EQ(to_json(united(all, {})).dump(), to_json(all).dump());
+}
+
 TEST(Unsampled, NotedInAFileOnlyWhereThereIsAny) {
   Provenance p;
   note_unsampled(p, {});

@@ -53,6 +53,22 @@ std::string begun(const LightWay& way) {
   return text("lamp \"", way.lamp, "\" reaches surfaces by way of ", by_text(way));
 }
 
+std::string held_by_no_record(const LightWay& way) {
+  return begun(way) + ", which its records do not hold; stderr is not stated";
+}
+
+/// The one of the same lamp and kind.
+template <class Ways>
+auto find_like(Ways& ways, const LightWay& way) {
+  return std::find_if(ways.begin(), ways.end(),
+                      [&](const LightWay& w) { return w.lamp == way.lamp && w.kind == way.kind; });
+}
+
+void add_new(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  for (const std::string& word : more)
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+}
+
 void tell(Tool& tool, const std::string& what, const std::vector<std::string>& lines) {
   const std::string where = what.empty() ? "" : what + ": ";
   const std::size_t shown = std::min(kShownWays, lines.size());
@@ -81,6 +97,20 @@ std::vector<LightWay> unsampled(const std::vector<LightWay>& ways, Sampler sampl
   for (const LightWay& way : ways)
     if (!samples(sampler, way, count)) out.push_back(way);
   return out;
+}
+
+std::vector<LightWay> united(std::vector<LightWay> ways, const std::vector<LightWay>& more) {
+  for (const LightWay& way : more) {
+    const auto same = find_like(ways, way);
+    if (same == ways.end()) {
+      ways.push_back(way);
+      continue;
+    }
+    add_new(same->materials, way.materials), add_new(same->by, way.by);
+    same->share = std::max(same->share, way.share);
+    same->hit_share = std::min(same->hit_share, way.hit_share);
+  }
+  return ways;
 }
 
 std::int64_t samples_wanted(const std::vector<LightWay>& ways, Sampler sampler, std::int64_t most) {
@@ -126,12 +156,23 @@ std::vector<LightWay> tell_unsampled_in(Tool& tool, const std::vector<Container>
   for (const Container& file : files) {
     const std::vector<LightWay> ways = unsampled_in(file.provenance());
     std::vector<std::string> lines;
-    for (const LightWay& way : ways)
-      lines.push_back(begun(way) + ", which its records do not hold; stderr is not stated");
+    for (const LightWay& way : ways) lines.push_back(held_by_no_record(way));
     tell(tool, file.path(), lines);
     all.insert(all.end(), ways.begin(), ways.end());
   }
   if (!all.empty()) tool.stat(kUnsampled, to_json(all));
+  return all;
+}
+
+std::vector<LightWay> tell_unsampled_kept(Tool& tool, const std::string& path,
+                                          const std::vector<LightWay>& kept,
+                                          const std::vector<LightWay>& missed) {
+  std::vector<std::string> lines;
+  for (const LightWay& way : kept)
+    if (find_like(missed, way) == missed.end()) lines.push_back(held_by_no_record(way));
+  std::vector<LightWay> all = united(kept, missed);
+  if (!lines.empty()) tool.stat(kUnsampled, to_json(all));
+  tell(tool, path, lines);
   return all;
 }
 

@@ -32,6 +32,10 @@ bool samples(Sampler sampler, const LightWay& way, double samples);
 /// The ways that are not.
 std::vector<LightWay> unsampled(const std::vector<LightWay>& ways, Sampler sampler, double samples);
 
+/// The ways of two lists, those of the first one first: ways of one lamp and kind are one, with the larger
+/// share, the lesser hit_share, and the materials of both.
+std::vector<LightWay> united(std::vector<LightWay> ways, const std::vector<LightWay>& more);
+
 /// The least samples with which all ways that can be sampled so, in no more than `most`, are; 0: none has to
 /// be.
 std::int64_t samples_wanted(const std::vector<LightWay>& ways, Sampler sampler, std::int64_t most);
@@ -52,5 +56,10 @@ void note_unsampled(Provenance& provenance, const std::vector<LightWay>& ways);
 std::vector<LightWay> unsampled_in(const Provenance& provenance);
 /// Warns as above of the files that say so. All their ways.
 std::vector<LightWay> tell_unsampled_in(Tool& tool, const std::vector<Container>& files);
+/// Of a file whose records are kept beside new ones: `kept` are its ways, `missed` those of the new records,
+/// which are told already. Warns as above of those that the file alone says. The ways of both, united.
+std::vector<LightWay> tell_unsampled_kept(Tool& tool, const std::string& path,
+                                          const std::vector<LightWay>& kept,
+                                          const std::vector<LightWay>& missed);
 
 }  // namespace phos::inline scene

@@ -29,9 +29,9 @@ void declare_options(Options& options, FilmOptions& f) {
   options.choice<LookAhead>(
       "look-ahead", f.look_ahead,
       {{"reproject", LookAhead::reproject}, {"trace", LookAhead::trace}, {"none", LookAhead::none}},
-      "with --lives rate: how the next frame's light is expected: what rays saw, moved; by the same rays in "
-      "that frame; or "
-      "as it is");
+      "with --lives rate: how the next frame's light is expected: what rays saw, moved (photons are counted "
+      "again instead); by the same rays, or the same drawing, in that frame (the default of --estimate "
+      "raster); or as it is");
   options.integer(
       "checks", f.checks, "N",
       "with --lives midpoint: halvings of --max-life that are made whatever they show; of radiance, "
@@ -41,9 +41,8 @@ void declare_options(Options& options, FilmOptions& f) {
                   "in which the first record of a place fades in and the last one out", {0, 1000});
   options.integer("photons", f.photons, "N", "paths from the lights, wherever photons are traced", {0, 1e12});
   options.integer("source-life", f.source_life, "FRAMES",
-                  "with --estimate gather: frames between those at which photons are traced; between them, "
-                  "what they show is "
-                  "interpolated",
+                  "with --estimate gather and raster: frames between those at which photons are traced; "
+                  "between them, what they show is interpolated",
                   {1, 1 << 20});
 }
 
@@ -51,8 +50,17 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   const auto refuse = [](const char* option, const std::string& message) {
     throw Error(ExitCode::usage, option, message);
   };
-  if (estimate == Estimate::raster)
-    refuse("--estimate", "raster makes no films; use gather, which sees the same, or hull");
+  if (estimate == Estimate::raster) {
+    if (of_radiance)
+      refuse("--estimate", "raster makes irradiance records alone; give --kind radiance gather or hull");
+    if (look_ahead == LookAhead::reproject) {
+      if (given.given("look-ahead"))
+        refuse(
+            "--look-ahead",
+            "reproject moves what gathered rays saw, and --estimate raster sends none; give trace or none");
+      look_ahead = LookAhead::trace;
+    }
+  }
   if (lives == Lives::midpoint) {
     if (gradients == TemporalGradients::extrapolated)
       refuse("--temporal-gradients",

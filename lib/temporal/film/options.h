@@ -20,7 +20,7 @@ enum class Lives {
 enum class LookAhead {
   none,       ///< as it is: lives are max_life
   reproject,  ///< what its rays saw, moved and lit as it then is (docs/methods.md#f6)
-  trace,      ///< by the same rays one frame on
+  trace,      ///< by the same rays, or the same drawing, one frame on
 };
 
 struct FilmOptions {
@@ -31,12 +31,12 @@ struct FilmOptions {
   LookAhead look_ahead = LookAhead::reproject;  ///< with Lives::rate
   std::int64_t checks = 1;  ///< halvings of max_life that are made whatever they show; with Lives::midpoint
   std::int64_t fade = 4;    ///< frames: of a place's first record in, of its last one out
-  std::int64_t source_life = 8;  ///< frames between those at which photons are traced for gathered rays
+  std::int64_t source_life = 8;  ///< frames between those at which photons are traced for rays and rasters
   std::int64_t photons =
       100'000;  ///< paths traced at each of those, or at each frame with estimates from photons
 
-  /// Films of radiance are checked twice if nothing is given. Throws Error(usage) for what does not go
-  /// together.
+  /// Films of radiance are checked twice if nothing is given, and a raster looks ahead by LookAhead::trace.
+  /// Throws Error(usage) for what does not go together.
   void resolve(const Options& given, Estimate estimate, bool of_radiance);
 };
 void declare_options(Options& options, FilmOptions& film);
