@@ -6,7 +6,7 @@
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 /// Lights whose numbers one bounce of a stream holds, and the bounces of more.
@@ -174,4 +174,4 @@ DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& light
   return {Rgb(sum.irradiance), Rgb(glm::sqrt(sum.variance))};
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

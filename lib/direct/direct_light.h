@@ -10,7 +10,7 @@
 #include "scene/rays.h"
 #include "scene/receiver.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// One visible sample of a lamp.
 struct LampSample {
@@ -67,4 +67,4 @@ struct DirectIrradiance {
 DirectIrradiance direct_irradiance(const RayScene& rays, const Luminaires& lights,
                                    const SurfacePoint& receiver, int samples, RandomStream& random);
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -6,7 +6,7 @@
 
 #include "direct/ray_shares.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 /// Rays of a pilot to each lamp of an extent, and where these are more than that. Powers of 4 (sobol_set()).
@@ -167,4 +167,4 @@ DirectReading DirectReader::read(const SurfacePoint& at, const DirectTarget& tar
   return {Rgb(sum.irradiance), Rgb(glm::sqrt(sum.variance)), sent, found_lx <= target.relative_error * of_lx};
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

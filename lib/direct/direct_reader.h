@@ -8,7 +8,7 @@
 #include "direct/direct_light.h"
 #include "direct/light_cut.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// How well direct light is to be known.
 struct DirectTarget {
@@ -57,4 +57,4 @@ class DirectReader {
   std::vector<std::uint32_t> aimed_;  // lights that are no part of the tree
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -6,7 +6,7 @@
 #include "core/sampling.h"
 #include "scene/mirror/images.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 // No image is less likely than this part of an equal share: by power the lamp beside the mirror would starve.
@@ -147,4 +147,4 @@ void ImageSampler::sample_all(const SurfacePoint& point, int k, int total, Rando
   });
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

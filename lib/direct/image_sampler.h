@@ -8,7 +8,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// Chooses among the images that lamps have in flat mirrors (scene/mirror/images.h): by the light that they
 /// promise at the point (ImageBounds), or where there are too many to compare, a chain of mirrors by its
@@ -69,4 +69,4 @@ class ImageSampler {
   std::vector<Side> side_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

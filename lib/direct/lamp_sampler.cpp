@@ -9,7 +9,7 @@
 #include "scene/offset.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
@@ -234,4 +234,4 @@ void LampSampler::sample(const SurfacePoint& point, const std::array<float, 3>& 
   light.certain = !(light.ray.t_max_m > 0);
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -11,7 +11,7 @@
 #include "scene/lamp/panel.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// A sample of the light that a diffuse point receives from the lamps.
 struct ArrivingLight {
@@ -84,4 +84,4 @@ class LampSampler {
   std::uint32_t samples_ = 1;
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// Point k of an additive sequence of three dimensions (R3), each shifted: low discrepancy over the rays of a
 /// hemisphere, so that together they see all of the lamps evenly. Of several points to a ray, the first
@@ -39,4 +39,4 @@ class LampSequence {
   std::uint32_t shift_[3], to_a_ray_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -8,7 +8,7 @@
 #include "core/sequence_error.h"
 #include "direct/ray_shares.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 /// From so many rays on a lamp of an extent gets even points, and their error.
@@ -143,4 +143,4 @@ CutLight light_by_cut(const RayScene& rays, const Luminaires& lights, const Ligh
   return sent.send();
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -9,7 +9,7 @@
 #include "direct/light_tree.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 struct CutNode {
   LightTree::Index node = 0;
@@ -34,4 +34,4 @@ struct CutLight {
 CutLight light_by_cut(const RayScene& rays, const Luminaires& lights, const LightTree& tree,
                       const SurfacePoint& point, std::size_t nodes, RandomStream& random);
 
-}  // namespace phos
+}  // namespace phos::inline direct

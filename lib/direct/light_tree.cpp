@@ -7,7 +7,7 @@
 #include "scene/luminaire/fitting.h"
 #include "scene/luminaire/photometry.h"
 
-namespace phos {
+namespace phos::inline direct {
 namespace {
 
 constexpr LightTree::Index kNone = ~0u;
@@ -191,4 +191,4 @@ double LightTree::probability(const SurfacePoint& point, std::size_t light) cons
   return probability;
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -6,7 +6,7 @@
 
 #include "scene/lamp/luminaires.h"
 
-namespace phos {
+namespace phos::inline direct {
 
 /// A binary tree over the lamps that stand somewhere: point, spot, measured, area (not directional ones, nor
 /// the environment). One lamp a leaf; groups are halved at the median along the longest side of their bounds.
@@ -71,4 +71,4 @@ class LightTree {
   std::vector<Index> leaf_;  // of each light
 };
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline direct {
 
 int sobol_set(double n) {
   double whole = 1;
@@ -32,4 +32,4 @@ std::vector<int> share_rays(std::span<const PilotNoise> lamps, double stderr_lx,
   return rays;
 }
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline direct {
 
 /// What a pilot found of one lamp.
 struct PilotNoise {
@@ -29,4 +29,4 @@ int sobol_set(double n);
 /// where stderr_lx is 0.
 std::vector<int> share_rays(std::span<const PilotNoise> lamps, double stderr_lx, int most);
 
-}  // namespace phos
+}  // namespace phos::inline direct

@@ -11,7 +11,7 @@
 #include "core/options.h"
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Values of a choice by name.
 template <class E>
@@ -89,4 +89,4 @@ class Adoption {
   const Container& earlier_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

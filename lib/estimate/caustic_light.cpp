@@ -7,7 +7,7 @@
 
 #include "direct/direct_light.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Photons of the first, smallest query; each next one has four times as many.
@@ -173,4 +173,4 @@ Rgb CausticLight::gloss(const LocalDensity& estimate, const Bsdf& bsdf, const Ve
   return sum / static_cast<float>(estimate.area_m2);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -9,7 +9,7 @@
 #include "photon/local_density.h"
 #include "scene/material/bsdf.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Estimates it where it is asked for: no record smears it. Const and usable from any thread, each with a
 /// worker of its own; holds a reference to `rays`.
@@ -62,4 +62,4 @@ inline constexpr std::size_t kPictureCaustics = 512, kSensorCaustics = 8192;
 /// Where rays of gathering and gloss land, whose light is averaged over many places.
 inline constexpr std::size_t kGatherCaustics = 64;
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -7,7 +7,7 @@
 #include "estimate/next_surface.h"
 #include "estimate/record_of.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr const char* kWithoutPhotons = "records without photons";
@@ -344,4 +344,4 @@ Made DensityEstimator::make_of(const RecordSite& at, Zone about, Scratch& s) con
   return {record, std::min(least, record.radius_m), at.least_radius_m, at.most_radius_m};
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -15,7 +15,7 @@
 #include "photon/photon_noise.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Records from photons, by hull or kernel. radius_m is the distance after the gradient and edge limits, not
 /// clamped.
@@ -92,4 +92,4 @@ class DensityEstimator : public Estimator {
   Rgb one_photon_lm_{0};
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -7,9 +7,11 @@
 #include "core/counters.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
-
+namespace phos::inline radiance {
 struct RadianceRecord;
+}
+
+namespace phos::inline estimate {
 
 inline constexpr std::uint32_t kNoPhoton = ~0u;
 
@@ -66,4 +68,4 @@ class Estimator {
   virtual bool one_thread() const { return false; }
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

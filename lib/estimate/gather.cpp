@@ -7,7 +7,7 @@
 #include "core/sampling.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr std::int64_t kFirstPass = 64;  // rays; later passes have as many as all before them
@@ -206,4 +206,4 @@ Made GatherEstimator::record_from(const RecordSite& site, std::span<const Hemisp
   return impl_->record(site, light_of(passes, impl_->options), passes, static_cast<Impl::Worker&>(worker));
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

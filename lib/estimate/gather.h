@@ -17,7 +17,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
 /// standard error is at most error x its value, or all of options.rays are spent (counted). With paths = all,
@@ -48,4 +48,4 @@ class GatherEstimator : public HemisphereEstimator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

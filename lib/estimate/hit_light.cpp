@@ -14,7 +14,7 @@
 #include "scene/mirror/images.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr const char* kWithoutRecord = "gathered places without a record";
@@ -568,4 +568,4 @@ void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -18,7 +18,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// What lights the places that rays find, besides the lamps.
 struct GatherSource {
@@ -117,4 +117,4 @@ class HitLight {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -1,6 +1,6 @@
 #include "estimate/next_surface.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 float height_over_next_m(const RayScene& rays, const Vec3& p, const Vec3& n, float least_m, float radius_m) {
   Hit hit;
@@ -8,4 +8,4 @@ float height_over_next_m(const RayScene& rays, const Vec3& p, const Vec3& n, flo
   return ray.t_max_m > ray.t_min_m && rays.intersect(ray, hit) ? hit.distance_m : kInfinity;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -3,7 +3,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Of a record's radius: how far below its place a parallel surface must lie for lookups to tell the two
 /// apart (record_apart allows half of it).
@@ -13,4 +13,4 @@ inline constexpr float kNextSurface = 0.02f;
 /// (least_m, kNextSurface x radius_m). `least_m` keeps clear of p's own surface.
 float height_over_next_m(const RayScene& rays, const Vec3& p, const Vec3& n, float least_m, float radius_m);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

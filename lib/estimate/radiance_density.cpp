@@ -8,7 +8,7 @@
 #include "estimate/harmonics/light_sums.h"
 #include "hsh/rotation.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Least cosine of a source in a gradient, which it divides (as translation_term).
@@ -169,4 +169,4 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
   return made;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

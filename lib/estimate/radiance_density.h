@@ -9,7 +9,7 @@
 #include "estimate/radiance_record.h"
 #include "estimate/zone/gradients.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Turns the photons of one zone into coefficients; holds memory, for one thread.
 class PhotonProjector {
@@ -67,4 +67,4 @@ class RadianceDensityEstimator : public Estimator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -5,7 +5,7 @@
 
 #include "hsh/quadrature.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: what of a
@@ -78,4 +78,4 @@ std::vector<float> RadianceError::of(const Hemisphere& hemisphere) {
   return error;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -5,7 +5,7 @@
 
 #include "estimate/hemisphere/hemisphere.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Remembers what it has found of the cells; for one thread.
 class RadianceError {
@@ -25,4 +25,4 @@ class RadianceError {
   std::vector<std::vector<double>> variation_;  // by ring and band
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -6,7 +6,7 @@
 #include "direct/direct_light.h"
 #include "estimate/next_surface.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Sets the random numbers of radiance records apart from those of irradiance records at the same places.
@@ -85,4 +85,4 @@ const Hemisphere& RadianceEstimator::seen(const Estimator::Worker& worker) {
   return static_cast<const RadianceWorker&>(worker).hemisphere;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

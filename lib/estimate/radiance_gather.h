@@ -7,7 +7,7 @@
 #include "estimate/gather.h"
 #include "estimate/radiance_record.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// One stratified hemisphere of rays per record, uniform over solid angle, each lit where it lands as
 /// GatherEstimator does. Const, usable from any thread, each with a worker of its own; holds references.
@@ -36,4 +36,4 @@ class RadianceEstimator : public HemisphereEstimator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

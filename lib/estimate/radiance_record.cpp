@@ -11,7 +11,7 @@
 #include "estimate/record_of.h"
 #include "hsh/rotation.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Least cosine of an emitter in a gradient, which it divides.
@@ -143,4 +143,4 @@ float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOpt
   return std::max(within_gradient_m(record, most_m), std::numeric_limits<float>::min());
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

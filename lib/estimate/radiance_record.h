@@ -9,7 +9,7 @@
 #include "estimate/record_options.h"
 #include "radiance/cache.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// How the change of coefficients with the place is found. What the rays hit shines on as it does; analytic
 /// and numeric let all of it stay in sight, and so are blind to occlusion.
@@ -55,4 +55,4 @@ float within_gradient_m(const RadianceRecord& record, float radius_m);
 /// max_radius_m, and no farther than within_gradient_m.
 float reach_m(const RadianceRecord& record, const Hemisphere& h, const RecordOptions& resolved);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

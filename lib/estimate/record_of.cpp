@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/origin.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Channels dimmer than this part of the brightest have no say in the radius.
@@ -40,7 +40,7 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   if (mode == GradientMode::none) mode = stratified ? GradientMode::hybrid : GradientMode::analytic;
   PlaceLight light;
   DVec3 sum(0), variance(0), source(0);
-  double nearness = 0;
+  double nearness = 0, light_nearness = 0;
   float least_m = kInfinity;
   for (const Hemisphere& h : passes) {
     const double weight = static_cast<double>(h.size()) / rays;
@@ -51,6 +51,8 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
     const auto distance_m = static_cast<double>(harmonic_distance_m(h));
     nearness += distance_m > 0 ? weight / distance_m : HUGE_VAL;
     least_m = std::min(least_m, least_distance_m(h));
+    light_nearness +=
+        weight * static_cast<double>(luminance(irradiance_of(h))) / static_cast<double>(light_distance_m(h));
     add(light.gradients, ray_gradients(h, mode, static_cast<float>(*resolved.min_radius_m)),
         static_cast<float>(weight));
   }
@@ -59,6 +61,8 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
   light.shared_lx2 = source;
   const float mean_m = nearness > 0 ? static_cast<float>(1 / nearness) : kInfinity;
   light.distance_m = resolved.radius == RadiusRule::least ? least_m : mean_m;
+  if (resolved.radius == RadiusRule::light && light_nearness > 0)
+    light.light_m = static_cast<float>(static_cast<double>(luminance(light.irradiance)) / light_nearness);
   return light;
 }
 
@@ -86,11 +90,15 @@ void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires&
   const LampSum sum = sum_of(lamps, samples, lights);
   const double around = static_cast<double>(luminance(light.irradiance));
   const double straight = static_cast<double>(luminance(Rgb(sum.irradiance)));
+  const auto with_lamps = [&](float& distance_m) {
+    const double per_m = around / static_cast<double>(distance_m) + brightness_per_m;
+    distance_m = per_m > 0 ? static_cast<float>((around + straight) / per_m) : kInfinity;
+  };
   if (resolved.radius == RadiusRule::least) {
     light.distance_m = std::min(light.distance_m, nearest_m);
   } else if (straight > 0 && light.distance_m > 0) {
-    const double per_m = around / static_cast<double>(light.distance_m) + brightness_per_m;
-    light.distance_m = per_m > 0 ? static_cast<float>((around + straight) / per_m) : kInfinity;
+    with_lamps(light.distance_m);
+    if (resolved.radius == RadiusRule::light) with_lamps(light.light_m);
   }
   light.irradiance += Rgb(sum.irradiance);
   light.stderr_lx = Rgb(glm::sqrt(DVec3(light.stderr_lx) * DVec3(light.stderr_lx) + sum.variance));
@@ -134,7 +142,8 @@ Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOpti
   record.irradiance = light.irradiance, record.stderr_lx = light.stderr_lx;
   record.shared = shared_part(light);
   record.distance_m = light.distance_m;
-  const float most_m = std::min(light.distance_m, static_cast<float>(*resolved.max_radius_m));
+  const float most_m =
+      std::min({light.distance_m, light.light_m, static_cast<float>(*resolved.max_radius_m)});
   const float radius_m = within_gradient_m(light.irradiance, light.gradients.translation, most_m);
   for (int c = 0; c < 3 && resolved.gradients != GradientMode::none; ++c) {
     record.rotation_gradient[c] = light.gradients.rotation[c];
@@ -148,4 +157,4 @@ Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const
   return record_of(site, light_of(passes, resolved), resolved);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -9,13 +9,14 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "estimate/record_options.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Light at a place, with what the radius of a record follows from.
 struct PlaceLight {
   Rgb irradiance{0}, stderr_lx{0};
   DVec3 shared_lx2{0};           ///< of its variance: what places about it have in common
   float distance_m = kInfinity;  ///< of surroundings: harmonic mean or least, as RecordOptions::radius says
+  float light_m = kInfinity;     ///< harmonic mean distance that the light comes from, by RadiusRule::light
   Gradients gradients;
 };
 
@@ -26,8 +27,8 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
 
 /// Adds the light of lamp samples at a place of unit normal n; `samples` of each area light were taken.
 /// Gradients are the samples' own (docs/methods.md#b4: an area light moves as a surface does, a point light
-/// by 3 w / d, a directional one not at all): blind to shadow edges. The harmonic distance becomes that of
-/// all light, each part by its luminance.
+/// by 3 w / d, a directional one not at all): blind to shadow edges. The harmonic distances become
+/// those of all light, each part by its luminance.
 void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires& lights, const Vec3& n,
                const RecordOptions& resolved, PlaceLight& light);
 
@@ -43,9 +44,9 @@ void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance,
 /// What require_finite() throws.
 [[noreturn]] void throw_beyond_range(const DVec3& origin_m, const Vec3& p);
 
-/// The record of such a place; its radius is the distance, at most max_radius_m, and no more than where the
-/// gradient would change a channel by its own value (docs/methods.md#a7). Throws Error(numerical) where a
-/// value exceeds the range of numbers; `origin_m` is the scene's.
+/// The record of such a place; its radius is the less of both distances, at most max_radius_m, and no more
+/// than where the gradient would change a channel by its own value (docs/methods.md#a7). Throws
+/// Error(numerical) where a value exceeds the range of numbers; `origin_m` is the scene's.
 Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved,
                const DVec3& origin_m = DVec3(0));
 
@@ -54,4 +55,4 @@ Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOpti
 /// gradient). Shared by all estimators that sample hemispheres.
 Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const RecordOptions& resolved);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

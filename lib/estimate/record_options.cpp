@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "estimate/adoption.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 const Names<Estimate> kEstimates{{"hull", Estimate::hull},
@@ -25,7 +25,8 @@ const Names<GradientMode> kGradients{{"auto", GradientMode::automatic},
                                      {"positional", GradientMode::positional},
                                      {"blend", GradientMode::blend},
                                      {"none", GradientMode::none}};
-const Names<RadiusRule> kRadii{{"harmonic", RadiusRule::harmonic}, {"least", RadiusRule::least}};
+const Names<RadiusRule> kRadii{
+    {"harmonic", RadiusRule::harmonic}, {"light", RadiusRule::light}, {"least", RadiusRule::least}};
 const Names<Footprint> kFootprints{{"circle", Footprint::circle},
                                    {"circle-min", Footprint::circle_min},
                                    {"circle-harmonic", Footprint::circle_harmonic},
@@ -127,8 +128,10 @@ void declare_gather_options(Options& options, RecordOptions& r) {
   options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
   options.integer("source-photons", r.source_photons, "N",
                   "photons that a zone of the coarse cache should hold at least", {16, 1e6});
-  options.choice<RadiusRule>("radius", r.radius, kRadii,
-                             "radius from the harmonic mean or the least distance");
+  options.choice<RadiusRule>(
+      "radius", r.radius, kRadii,
+      "radius from the harmonic mean distance of surroundings, from the less of it and of the "
+      "harmonic mean distance that the light comes from, or from the least distance");
 }
 
 const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
@@ -227,4 +230,4 @@ void adopt_all_but_gradients(RecordOptions& r, const Adoption& from) {
   from.choice("raster-border", r.raster_border, kBorders);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

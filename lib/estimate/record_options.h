@@ -9,7 +9,7 @@
 #include "file/container.h"
 #include "photon/density.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 enum class Quantity {
   indirect,  ///< all light but that straight from a lamp
@@ -34,7 +34,11 @@ enum class Footprint {
                     ///< adaptive caching, Krivanek et al. 2006)
   adaptive,         ///< eight axes, each as long as surroundings and light allow (ARIC)
 };
-enum class RadiusRule { harmonic, least };  ///< docs/methods.md#a7
+enum class RadiusRule {  ///< docs/methods.md#a7
+  harmonic,              ///< harmonic mean distance of what stands around
+  light,                 ///< the same, and no more than the harmonic mean distance that the light comes from
+  least,                 ///< least distance of what stands around
+};
 enum class LeakTest {
   none,
   ray,  ///< a record serves a point only if the two can see each other
@@ -123,4 +127,4 @@ void adopt_options(RecordOptions& records, const Options& given, const Container
 class Adoption;
 void adopt_all_but_gradients(RecordOptions& records, const Adoption& from);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

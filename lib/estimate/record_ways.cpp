@@ -1,6 +1,6 @@
 #include "estimate/record_ways.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 Sampler sampler_of(const RecordOptions& records) {
   const bool photons = of_photons_alone(records);
@@ -23,4 +23,4 @@ std::vector<LightWay> tell_missed_ways(Tool& tool, const RayScene& rays, const R
   return missed;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

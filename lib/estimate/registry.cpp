@@ -9,7 +9,7 @@
 #include "estimate/radiance_density.h"
 #include "estimate/radiance_gather.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 std::unique_ptr<Estimator> density(const EstimatorParts& p) {
@@ -73,4 +73,4 @@ std::unique_ptr<Estimator> make_radiance_estimator(const EstimatorParts& parts, 
   return kind.radiance(parts, order, gradient);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

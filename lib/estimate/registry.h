@@ -12,7 +12,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// What estimators are made from. Photons and source are asked for only by the rows that need them.
 struct EstimatorParts {
@@ -41,4 +41,4 @@ std::unique_ptr<Estimator> make_estimator(const EstimatorParts& parts);
 std::unique_ptr<Estimator> make_radiance_estimator(const EstimatorParts& parts, int order,
                                                    RadianceGradient gradient);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -6,7 +6,7 @@
 #include "core/sequence_error.h"
 #include "scene/mirror/images.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 namespace {
 
@@ -385,4 +385,4 @@ Rgb Shading::outgoing(const SurfacePoint& point, const Vec3& wo, int depth, cons
   return light + specular(point, bsdf, wo, depth, throughput, of_many, random, log);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

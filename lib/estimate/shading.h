@@ -18,7 +18,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 struct ShadingOptions {
   int light_samples = 16;      ///< shadow rays per area light at the visible surface
@@ -169,4 +169,4 @@ class Shading {
   std::vector<LampExtent> extent_;  // per light
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -19,7 +19,7 @@
 #include "file/mapped_file.h"
 #include "file/same_file.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -191,4 +191,4 @@ std::string read_text(const std::string& path) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -8,7 +8,7 @@
 
 #include "core/last_words.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// Writes to a temporary file beside `path`; commit() syncs and renames it into place. Destroyed without
 /// commit(), it removes the temporary and leaves what was at `path`. Every failure (no folder, no right, full
@@ -40,4 +40,4 @@ void require_writable(const std::string& path);
 /// Whole file as text. Throws Error(bad_input).
 std::string read_text(const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline file

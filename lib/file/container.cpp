@@ -13,7 +13,7 @@
 #include "file/layout.h"
 #include "file/mapped_file.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -220,4 +220,4 @@ void ContainerWriter::write(const std::string& path, const Provenance& provenanc
   file.commit();
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

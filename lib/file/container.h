@@ -15,7 +15,7 @@
 #include "core/vector.h"
 #include "file/hash.h"
 
-namespace phos {
+namespace phos::inline file {
 
 enum class Dtype { u8, u16, i32, u32, i64, u64, f32, f64 };
 std::size_t dtype_size(Dtype);
@@ -159,4 +159,4 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
 
 static_assert(sizeof(Vec3) == 12);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "file/lfs_pointer.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -172,4 +172,4 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
               text("\"", rows[row][column], "\" under \"", columns[column], "\" is no number"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

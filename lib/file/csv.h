@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace phos {
+namespace phos::inline file {
 
 /// Cells as they stand in the file, without quotes and outer blanks.
 struct CsvTable {
@@ -68,4 +68,4 @@ bool is_plain_text(std::string_view bytes);
 /// too.
 CsvTable parse_csv(std::string_view text, const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline file {
 
 void check_folder(const std::string& path) {
   std::error_code none;
@@ -20,4 +20,4 @@ void make_folder(const std::string& path) {
                 text("cannot be a folder", failed ? ": " + failed.message() : "", "; name another with -o"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 [[noreturn]] void refuse(const std::string& frames) {
@@ -148,4 +148,4 @@ FramePattern existing_sequence(const std::string& path, const FrameRange& range,
   return {folder + "/" + *patterns.begin(), where};
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -6,7 +6,7 @@
 
 #include "core/options.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// Whole frames, both ends included. Frame f is the scene at f / frames_per_s seconds.
 struct FrameRange {
@@ -45,4 +45,4 @@ FramePattern sequence_pattern(const std::string& pattern, const FrameRange& rang
 /// (.exr, .hdr) in that folder. Throws Error(bad_input) for a folder without any, or with several sequences.
 FramePattern existing_sequence(const std::string& path, const FrameRange& range, const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline file

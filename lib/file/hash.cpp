@@ -10,7 +10,7 @@
 #include "file/layout.h"
 #include "file/mapped_file.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -62,4 +62,4 @@ void Hasher::add(float v) { add(std::bit_cast<std::uint32_t>(v == 0.f ? 0.f : v)
 
 Hash128 Hasher::finish() const { return from(XXH3_128bits_digest(state_of(state_))); }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace phos {
+namespace phos::inline file {
 
 struct Hash128 {
   std::uint64_t high = 0, low = 0;
@@ -54,4 +54,4 @@ class Hasher {
   void* state_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline file

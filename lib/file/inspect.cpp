@@ -8,7 +8,7 @@
 #include "core/origin.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -303,4 +303,4 @@ std::string canonical_text(const Container& file) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

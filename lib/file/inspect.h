@@ -8,7 +8,7 @@
 
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// Receives text piece by piece.
 using Sink = std::function<void(std::string_view)>;
@@ -42,4 +42,4 @@ void write_ply(const Container& file, PlyFormat format, const Sink& sink);
 /// Is this tensor a column of octahedral directions?
 bool is_octahedral(const Tensor& tensor);
 
-}  // namespace phos
+}  // namespace phos::inline file

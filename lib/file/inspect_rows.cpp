@@ -10,7 +10,7 @@
 #include "core/origin.h"
 #include "file/inspect.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -299,4 +299,4 @@ void write_ply(const Container& file, PlyFormat format, const Sink& sink) {
            [&](std::string& out, std::size_t i) { append_vertex(out, p, i, format); });
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

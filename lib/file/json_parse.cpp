@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/text/line.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -116,4 +116,4 @@ Json parse_json(std::string_view s, const std::string& where) {
   return std::move(builder.root);
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

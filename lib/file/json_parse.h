@@ -5,10 +5,10 @@
 
 #include "core/json.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// Strict JSON. Throws Error(bad_input) with `where` and the byte at fault. Nesting deeper than 256 is an
 /// error.
 Json parse_json(std::string_view s, const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -7,7 +7,7 @@
 #include "file/json_parse.h"
 #include "file/lfs_pointer.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -252,4 +252,4 @@ bool is_cut_in_header(std::span<const std::byte> file) {
          begin.starts_with(header.substr(0, begin.size()));
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -9,7 +9,7 @@
 
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline file {
 
 inline constexpr std::size_t kMaxHeaderBytes = std::size_t{256} << 20;
 inline constexpr std::size_t kDataAlignment = 64;
@@ -41,4 +41,4 @@ std::span<const std::byte> phos_header_bytes(std::span<const std::byte> file);
 /// Does the file begin as a phos container does, and end within its header?
 bool is_cut_in_header(std::span<const std::byte> file);
 
-}  // namespace phos
+}  // namespace phos::inline file

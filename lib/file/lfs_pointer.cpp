@@ -1,6 +1,6 @@
 #include "file/lfs_pointer.h"
 
-namespace phos {
+namespace phos::inline file {
 
 bool is_lfs_pointer(std::string_view bytes) {
   // The first line of the specification's every version; pointers are below 1024 bytes.
@@ -8,4 +8,4 @@ bool is_lfs_pointer(std::string_view bytes) {
                                  bytes.starts_with("version https://hawser.github.com/spec/"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

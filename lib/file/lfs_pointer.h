@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace phos {
+namespace phos::inline file {
 
 /// Are these the bytes of a pointer of Git LFS, and not of the file that it stands for?
 bool is_lfs_pointer(std::string_view bytes);
@@ -12,4 +12,4 @@ bool is_lfs_pointer(std::string_view bytes);
 inline constexpr const char* kLfsPointer =
     "a Git LFS pointer; fetch the file that it stands for (git lfs pull)";
 
-}  // namespace phos
+}  // namespace phos::inline file

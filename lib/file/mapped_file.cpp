@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "core/last_words.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -127,4 +127,4 @@ MappedFile::~MappedFile() {
   if (mapping_ != nullptr) ::munmap(mapping_, bytes_.size());
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace phos {
+namespace phos::inline file {
 
 /// Read-only bytes of a file: mapped, or read into memory where it cannot be mapped (a pipe). Aligned to 64
 /// bytes. Where a mapped file fails later (its disk does, or another program cut it short), the process ends
@@ -39,4 +39,4 @@ void require_bytes(const std::string& path);
 /// "No space left on device" and so on for an errno.
 std::string system_message(int error);
 
-}  // namespace phos
+}  // namespace phos::inline file

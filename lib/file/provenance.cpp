@@ -6,7 +6,7 @@
 #include "file/container.h"
 #include "file/json_parse.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -216,4 +216,4 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
                    change, ")", remedy));
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::vector<std::string> differences(const Provenance& then, const Provenance& n
   return lines;
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -6,10 +6,10 @@
 
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// One line per difference between how `then` was made and how `now` would be: algorithm, parameters, inputs.
 /// A parameter that is null now is found while working, so it is not compared.
 std::vector<std::string> differences(const Provenance& then, const Provenance& now);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline file {
 
 int standard_stream(const std::string& path) {
   if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1") return 1;
@@ -23,4 +23,4 @@ std::string file_key(const std::string& path) {
   return text(place(info), "/", path.substr(slash + 1));  // npos + 1 is 0
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

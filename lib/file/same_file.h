@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace phos {
+namespace phos::inline file {
 
 /// The same for all names of one regular file (links, ways through other folders), and for those of standard
 /// output. A file that is not there yet is told by its folder and name. "" for what cannot be lost by writing
@@ -13,4 +13,4 @@ std::string file_key(const std::string& path);
 /// 1 or 2 where the path names that standard stream; else -1.
 int standard_stream(const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline file

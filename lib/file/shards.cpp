@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 constexpr std::uint64_t kMostShares = 1u << 20;
@@ -112,4 +112,4 @@ void refuse_other_run(const Shard& a, const Shard& b, const ShardKind& kind, con
 
 std::string key_of_whole(const Provenance& shard) { return shard.key.substr(0, shard.key.find(':')); }
 
-}  // namespace phos
+}  // namespace phos::inline file

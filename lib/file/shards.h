@@ -7,7 +7,7 @@
 
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// Share `index` of `count`, counted from 1.
 struct Share {
@@ -49,4 +49,4 @@ std::vector<Shard> open_shards(const std::vector<std::string>& paths, const Shar
 /// A shard's key is that of the whole run's file with ":shard k/n" behind it.
 std::string key_of_whole(const Provenance& shard);
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -20,7 +20,7 @@
 #include "file/mapped_file.h"
 #include "file/reuse.h"
 
-namespace phos {
+namespace phos::inline file {
 
 namespace {
 
@@ -300,4 +300,4 @@ Tool::Timer::~Timer() { tool_.stat("seconds." + name_, seconds()); }
 
 double Tool::Timer::seconds() const { return seconds_since(start_); }
 
-}  // namespace phos
+}  // namespace phos::inline file

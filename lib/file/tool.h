@@ -17,7 +17,7 @@
 #include "file/container.h"
 #include "file/frames.h"
 
-namespace phos {
+namespace phos::inline file {
 
 /// One run of one program. Typical main:
 ///
@@ -185,4 +185,4 @@ class Tool {
 /// Largest resident set of this process so far, bytes.
 std::uint64_t peak_memory_bytes();
 
-}  // namespace phos
+}  // namespace phos::inline file

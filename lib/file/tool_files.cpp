@@ -5,7 +5,7 @@
 #include "file/same_file.h"
 #include "file/tool.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 /// Of a longer sequence its first frames are looked at: three quarters of an hour of film.
@@ -85,4 +85,4 @@ void Tool::writes(const std::string& option, const std::string& folder,
       for (const std::string& path : files_of(file)) require_not_written(file, path);
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -5,7 +5,7 @@
 #include "file/atomic_file.h"
 #include "file/tool.h"
 
-namespace phos {
+namespace phos::inline file {
 namespace {
 
 Json counts_of(const Counters& counters) {
@@ -94,4 +94,4 @@ void Tool::run_frames(const std::function<void()>& body) {
   stats_["frames"] = std::move(each);
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -2,7 +2,7 @@
 
 #include "file/atomic_file.h"
 
-namespace phos {
+namespace phos::inline file {
 
 void write_text(const std::string& path, const std::string& bytes) {
   AtomicFile file(path);
@@ -10,4 +10,4 @@ void write_text(const std::string& path, const std::string& bytes) {
   file.commit();
 }
 
-}  // namespace phos
+}  // namespace phos::inline file

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace phos {
+namespace phos::inline file {
 
 /// The whole of it, or nothing: see AtomicFile, with its errors.
 void write_text(const std::string& path, const std::string& bytes);
 
-}  // namespace phos
+}  // namespace phos::inline file

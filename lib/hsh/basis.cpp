@@ -8,7 +8,7 @@
 #define PHOS_HSH_GRADIENT_KERNEL evaluate_gradients_plain
 #include "hsh/basis_kernel.inc"
 
-namespace phos {
+namespace phos::inline hsh {
 
 template <class Real>
 BasisTables<Real>::BasisTables() {
@@ -90,4 +90,4 @@ template const BasisTables<double>& basis_tables<double>();
 template class HarmonicBasis<float>;
 template class HarmonicBasis<double>;
 
-}  // namespace phos
+}  // namespace phos::inline hsh

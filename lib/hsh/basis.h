@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// Order n = number of bands l = 0 .. n-1; a function has n^2 coefficients, index l*l + l + m, -l <= m <= l.
 /// m > 0: cos(m phi), m < 0: sin(|m| phi), with the Condon-Shortley phase (-1)^m (Y_1^1 = -0.4886 x).
@@ -44,4 +44,4 @@ class HarmonicBasis {
   int order_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -5,7 +5,7 @@
 
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// Y_l^m = Q_l^m(z) C_m(x, y), C_m + i S_m = (x + i y)^m; the same table serves every order.
 template <class Real>
@@ -41,4 +41,4 @@ GradientKernel<float> evaluate_gradients_avx2;
 GradientKernel<double> evaluate_gradients_avx2;
 #endif
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::vector<double> accuracy_by_order(const DirectionalFunction& f, ComparisonBa
   return accuracy;
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -6,7 +6,7 @@
 
 #include "hsh/projection.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// All but `sh` (orthonormal on the sphere; a function is taken to be 0 below the horizon) are orthonormal on
 /// the hemisphere. Makhotkin's own definition (1996) is known here only from those who cite it: both
@@ -37,4 +37,4 @@ void evaluate_comparison(ComparisonBasis basis, int order, double x, double y, d
 std::vector<double> accuracy_by_order(const DirectionalFunction& f, ComparisonBasis basis, int order,
                                       const Quadrature& hemisphere);
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -8,7 +8,7 @@
 #include "hsh/basis.h"
 #include "hsh/quadrature.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 /// |m| of an index, and its band.
@@ -112,4 +112,4 @@ void HarmonicConversion::hsh_to_sh(std::span<const float> hsh, std::span<float> 
   convert(*this, true, hsh, sh, channels);
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

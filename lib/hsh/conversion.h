@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// C_ij = integral over the upper hemisphere of H_i Y_j dw, HSH order x SH order, nonzero for equal m alone.
 /// SH coefficients in the local frame to HSH: h = C s. HSH, zero below the horizon, to SH: s = C^T h (least
@@ -29,4 +29,4 @@ class HarmonicConversion {
   std::vector<std::vector<double>> block_;  // per |m|
 };
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 namespace {
 
@@ -107,4 +107,4 @@ void apply_window(Window window, std::span<double> coefficients) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

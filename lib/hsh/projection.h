@@ -8,7 +8,7 @@
 #include "hsh/basis.h"
 #include "hsh/quadrature.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// A function of a unit direction in the local frame, z up.
 using DirectionalFunction = std::function<double(double x, double y, double z)>;
@@ -43,4 +43,4 @@ std::vector<double> error_by_order(std::span<const double> coefficients, double 
 enum class Window : unsigned char { none, hann, lanczos };
 void apply_window(Window window, std::span<double> coefficients);
 
-}  // namespace phos
+}  // namespace phos::inline hsh

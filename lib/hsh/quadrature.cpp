@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 namespace {
 
@@ -72,4 +72,4 @@ Quadrature sphere_quadrature(int rings, int sectors) {
   return sweep(z, weight, sectors);
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

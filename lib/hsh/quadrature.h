@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace phos {
+namespace phos::inline hsh {
 
 struct Quadrature {
   std::vector<double> x, y, z;  ///< unit directions, local, z up
@@ -20,4 +20,4 @@ Quadrature hemisphere_quadrature(int rings, int sectors);
 /// Sphere: Gauss-Legendre in z.
 Quadrature sphere_quadrature(int rings, int sectors);
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -11,7 +11,7 @@
 #include "hsh/turn/kernel.h"
 #include "hsh/turn/turn.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 constexpr int kDegrees = 90;  // the last table
@@ -235,4 +235,4 @@ void ShRotation::rotate(std::span<const float> in, std::span<float> out, int cha
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

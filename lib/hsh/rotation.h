@@ -7,7 +7,7 @@
 #include "core/vector.h"
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// Angles of R = Rz(gamma) Ry(beta) Rz(alpha), radians; Ry(beta) takes +z to (sin beta, 0, cos beta). beta in
 /// [0, pi]. Where beta is next to 0 (or pi) gamma is 0 and alpha holds all of it.
@@ -72,4 +72,4 @@ class ShRotation {
   std::unique_ptr<const Turns> turns_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -6,7 +6,7 @@
 
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 constexpr float kLeastZ = 0x1p-20f;
@@ -78,4 +78,4 @@ void HshSlopes::subtract(std::span<const double> with_p, std::span<const double>
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

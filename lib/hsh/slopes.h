@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// The x and y components of the surface gradient G_i of HSH i (as HarmonicBasis gives them) are
 ///   G_i = p(z) sum of A_ij H_j + q(z) sum of B_ij H_j
@@ -38,4 +38,4 @@ class HshSlopes {
   std::vector<Term> terms_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 struct Limit {
@@ -98,4 +98,4 @@ std::string CompareLimits::verdict(std::span<const FlickerMetrics> layers) const
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 #include "image/flicker.h"
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Limits that were given. A pixel that is not finite breaks every one, and none.
 class CompareLimits {
@@ -26,4 +26,4 @@ class CompareLimits {
   std::optional<double> values_[kLimits];
 };
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -9,7 +9,7 @@
 #include "image/canvas.h"
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -302,4 +302,4 @@ Picture difference_picture(std::span<const float> values, int width, int height,
                      {title, unit, figures_of(values), false}, colour);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

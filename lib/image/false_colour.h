@@ -10,7 +10,7 @@
 #include "image/colour8.h"
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 enum class Palette { viridis, turbo, grey };
 enum class Scale { linear, logarithmic };
@@ -58,4 +58,4 @@ std::vector<double> scale_marks(const FalseColourRange& range, int wanted);
 double round_up_125(double v);
 double round_down_125(double v);
 
-}  // namespace phos
+}  // namespace phos::inline image

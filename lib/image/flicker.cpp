@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "image/false_colour.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 constexpr float kLeftOut = std::numeric_limits<float>::quiet_NaN();
@@ -254,4 +254,4 @@ std::string to_csv(const std::vector<FrameMetrics>& frames) {
   return csv;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -12,7 +12,7 @@
 #include "image/image.h"
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Differences d = image - reference of one layer (luminance, or its only component), over every pixel of
 /// every frame that counts. What changes fast in them is
@@ -103,4 +103,4 @@ std::string to_table(const std::vector<FlickerMetrics>& metrics);
 /// cells of flicker are empty where there is none.
 std::string to_csv(const std::vector<FrameMetrics>& frames);
 
-}  // namespace phos
+}  // namespace phos::inline image

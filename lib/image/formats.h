@@ -6,7 +6,7 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Each decoder throws Error(bad_input) with `where` for bytes that are truncated or damaged, and allocates
 /// no more than the bytes can hold at the format's best compression.
@@ -27,4 +27,4 @@ std::string encode_hdr(const Image& image);
 Picture decode_png(std::string_view bytes, const std::string& where);
 std::string encode_png(const Picture& picture);
 
-}  // namespace phos
+}  // namespace phos::inline image

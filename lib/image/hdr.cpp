@@ -7,7 +7,7 @@
 #include "image/formats.h"
 #include "image/primaries.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -323,4 +323,4 @@ std::string encode_hdr(const Image& image) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

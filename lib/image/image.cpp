@@ -11,7 +11,7 @@
 #include "file/lfs_pointer.h"
 #include "image/formats.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -104,4 +104,4 @@ void write_hdr(const std::string& path, const Image& image) { write_file(path, e
 void write_png(const std::string& path, const Picture& picture) { write_file(path, encode_png(picture)); }
 Picture read_png(const std::string& path) { return decode_png(read_text(path), path); }
 
-}  // namespace phos
+}  // namespace phos::inline image

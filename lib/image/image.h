@@ -12,7 +12,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Planar float channels of one size, row 0 at the top. Names are "R", "indirect.R", "normal.X", "Z" and so
 /// on. Light is photometric RGB (cd/m2, or lx for illuminance.Y), linear Rec.709.
@@ -80,4 +80,4 @@ void write_png(const std::string& path, const Picture& picture);
 /// For tests: reads what write_png wrote (8-bit RGB or RGBA or grey).
 Picture read_png(const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -37,4 +37,4 @@ std::optional<Provenance> read_image_provenance(const std::string& path) {
   return from_metadata(metadata, path);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -7,7 +7,7 @@
 #include "file/container.h"
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Stores it as attributes "phos.tool", "phos.command", ...
 void set_provenance(Image& image, const Provenance& provenance);
@@ -15,4 +15,4 @@ void set_provenance(Image& image, const Provenance& provenance);
 /// Error(bad_input).
 std::optional<Provenance> read_image_provenance(const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline image

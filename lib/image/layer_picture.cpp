@@ -5,7 +5,7 @@
 
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -108,4 +108,4 @@ ToneMapped layer_picture(const Image& image, const LayerPictureOptions& p) {
   return tone_map(layer_colours(image, layer), image.width(), image.height(), tone);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -9,7 +9,7 @@
 #include "image/false_colour.h"
 #include "image/tone_map.h"
 
-namespace phos {
+namespace phos::inline image {
 
 enum class ScaleChoice { automatic, linear, logarithmic };
 
@@ -37,4 +37,4 @@ LayerPictureOptions fixed_exposure(const Image& image, const LayerPictureOptions
 /// Tone mapped (directions: linear, white 1), or in false colours, which count in `non_finite` alone.
 ToneMapped layer_picture(const Image& image, const LayerPictureOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -315,4 +315,4 @@ std::string to_table(const std::vector<LayerMetrics>& metrics) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

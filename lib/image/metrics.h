@@ -11,7 +11,7 @@
 #include "image/image.h"
 #include "image/pu21.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Differences d = image - reference of one layer, over all its components of every pixel that counts.
 /// Relative measures are free of the unit. Where the reference is zero everywhere, they are 0 if the image is
@@ -86,4 +86,4 @@ std::string layer_from_label(const std::string& label);
 /// "cd/m2", "lx", "m" or "1", by the layer's name.
 std::string layer_unit(const std::string& layer);
 
-}  // namespace phos
+}  // namespace phos::inline image

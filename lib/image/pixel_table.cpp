@@ -7,7 +7,7 @@
 #include "core/json.h"
 #include "image/metrics.h"
 
-namespace phos {
+namespace phos::inline image {
 
 std::string pixel_csv(const Image& image, const std::string& layer) {
   std::string out = "x,y";
@@ -29,4 +29,4 @@ std::string pixel_csv(const Image& image, const std::string& layer) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

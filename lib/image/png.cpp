@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "image/formats.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::string encode_png(const Picture& picture) {
   return bytes;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

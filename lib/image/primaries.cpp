@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -45,4 +45,4 @@ Mat3 convert_primaries(const Primaries& from, const Primaries& to) {
   return Mat3(glm::inverse(matrix(to)) * scale * matrix(from));
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -3,7 +3,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// CIE xy of the primaries and the white of an RGB space.
 struct Primaries {
@@ -29,4 +29,4 @@ Mat3 rgb_to_xyz(const Primaries& p);
 /// of the whites. (Cone-space adaptation would keep hues slightly better, but not luminance.)
 Mat3 convert_primaries(const Primaries& from, const Primaries& to);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -106,4 +106,4 @@ Pu21 compare_pu21(std::span<const float> luminance, std::span<const float> refer
   return result;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace phos {
+namespace phos::inline image {
 
 /// Perceptually uniform value of a luminance in cd/m2 (clamped to 0.005 .. 10,000): R. Mantiuk and M. Azimi,
 /// "PU21: A novel perceptually uniform encoding for adapting existing quality metrics for HDR", Picture
@@ -23,4 +23,4 @@ struct Pu21 {
 Pu21 compare_pu21(std::span<const float> luminance, std::span<const float> reference,
                   std::span<const char> counts, int width, int height);
 
-}  // namespace phos
+}  // namespace phos::inline image

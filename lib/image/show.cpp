@@ -7,7 +7,7 @@
 #include "image/pixel_table.h"
 #include "image/video.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 std::size_t write_hdr_layer(const std::string& path, const Image& image, const std::string& layer) {
@@ -90,4 +90,4 @@ void show_sequence(Tool& tool, const PictureSequence& s, LayerPictureOptions p) 
   if (film) film->commit();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -7,7 +7,7 @@
 #include "file/tool.h"
 #include "image/layer_picture.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Returns the picture, or writes it where `output` ends in .hdr, or its numbers where it ends in .csv. Warns
 /// of pixels of pictures that are not finite; `input` is their file.
@@ -23,4 +23,4 @@ struct PictureSequence {
 /// output's name says so. Throws as show_image(), FramePattern and VideoFile do.
 void show_sequence(Tool& tool, const PictureSequence& sequence, LayerPictureOptions options);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "image/false_colour.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -96,4 +96,4 @@ ToneMapped tone_map(std::span<const Rgb> values, int width, int height, const To
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -7,7 +7,7 @@
 
 #include "image/colour8.h"
 
-namespace phos {
+namespace phos::inline image {
 
 enum class ToneOperator {
   reinhard,  ///< E. Reinhard et al. 2002, eq. 4: L (1 + L / white^2) / (1 + L)
@@ -37,4 +37,4 @@ ToneOptions fixed_exposure(std::span<const Rgb> values, const ToneOptions& optio
 /// its own luminance. Black images stay black. Negative components count as 0.
 ToneMapped tone_map(std::span<const Rgb> values, int width, int height, const ToneOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline image

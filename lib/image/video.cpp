@@ -16,7 +16,7 @@
 
 extern char** environ;
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 struct Format {
@@ -174,4 +174,4 @@ void VideoFile::commit() {
   file_.commit();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -11,7 +11,7 @@
 #include "file/atomic_file.h"
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Does the name end as that of a video that VideoFile writes (.mp4, .mkv: H.264; .webm: VP9)?
 bool is_video(const std::string& path);
@@ -53,4 +53,4 @@ class VideoFile {
   pid_t ffmpeg_ = -1;
 };
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace phos {
+namespace phos::inline image {
 
 Image without_errors(const Image& image) {
   Image out(image.width(), image.height());
@@ -15,4 +15,4 @@ Image without_errors(const Image& image) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

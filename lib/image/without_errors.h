@@ -3,9 +3,9 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// The same without the layers of standard errors: stderr, and all whose names end with _stderr.
 Image without_errors(const Image& image);
 
-}  // namespace phos
+}  // namespace phos::inline image

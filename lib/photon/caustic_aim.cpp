@@ -7,7 +7,7 @@
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 /// This part of the paths goes to all mirrors and pieces of glass alike, the rest by their area: so each has
@@ -92,4 +92,4 @@ CausticAim::Start CausticAim::start(std::size_t light, RandomStream& random) con
   return start;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -9,7 +9,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Starts paths at the lamps towards mirrors and glass, so that small ones get as many photons as large ones.
 /// A path counts if the first event on it happens on the triangle that it was aimed at (panes may be passed
@@ -47,4 +47,4 @@ class CausticAim {
   float far_m_ = 0;  // longer than any way within the scene
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

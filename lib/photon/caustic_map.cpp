@@ -6,7 +6,7 @@
 #include "core/octahedral.h"
 #include "photon/photon_file.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr const char* kFlights = "caustic_flight_";
@@ -142,4 +142,4 @@ void CausticMap::landed(const Vec3& p, const Vec3& n, std::size_t k, float above
   std::stable_sort(hits.begin(), hits.end(), nearer);
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -13,7 +13,7 @@
 #include "photon/photon_map.h"
 #include "photon/tree/kd_tree.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Photons alone, as they travel in files of caches: columns of those that landed, and flights.
 struct CausticPhotons {
@@ -85,4 +85,4 @@ class CausticMap {
   Rgb one_photon_lm_{0};
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr double kLeastHull = 1e-9;      // of R^2: below it the hull is degenerate
@@ -329,4 +329,4 @@ float mean_distance_m(std::span<const Vec3> directions, std::span<const float> w
   return bounded(std::min(by_flux, by_angle));
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -9,7 +9,7 @@
 #include "core/vector.h"
 #include "photon/hull.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Is the tangent plane at this offset from the zone's centre (m) on the surface that is measured? Empty:
 /// everywhere.
@@ -92,4 +92,4 @@ double cap_fraction(double h);
 float mean_distance_m(std::span<const Vec3> directions, std::span<const float> weights,
                       std::span<const float> distances_m);
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -10,7 +10,7 @@
 #include "scene/load.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::uint64_t kLastTick = std::numeric_limits<std::uint64_t>::max();
@@ -252,4 +252,4 @@ EmittedPhoton Emitter::from_infinity(const Vec3& direction, const Rgb& lux, Rand
   return photon;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -10,7 +10,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 struct EmittedPhoton {
   Ray ray;
@@ -79,4 +79,4 @@ double spot_solid_angle_sr(double cos_inner, double cos_outer);
 /// Cosine to the axis with density proportional to the intensity.
 double sample_spot_cosine(double cos_inner, double cos_outer, float u);
 
-}  // namespace phos
+}  // namespace phos::inline photon

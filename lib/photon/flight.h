@@ -9,7 +9,7 @@
 #include "scene/mirror/planes.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Sums over paths.
 struct PathSums {
@@ -92,4 +92,4 @@ inline void store(Photons& photons, const Flight& flight, const SurfacePoint& po
   photons.bounce.push_back(static_cast<std::uint8_t>(std::min(flight.bounce, 255u)));
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

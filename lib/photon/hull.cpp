@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -117,4 +117,4 @@ void convex_hull(std::span<const Vec2> points, Hull& hull) {
   measure(points, hull);
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

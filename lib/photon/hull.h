@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 struct Hull {
   std::vector<std::uint32_t>
@@ -21,4 +21,4 @@ struct Hull {
 /// points one is a vertex.
 void convex_hull(std::span<const Vec2> points, Hull& hull);
 
-}  // namespace phos
+}  // namespace phos::inline photon

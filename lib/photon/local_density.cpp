@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 /// Half width of a confidence interval, in standard errors. Measured over edges, folds, foci, waves and even
@@ -109,4 +109,4 @@ LocalDensity local_density(std::span<const float> distance2_m2, std::span<const 
   return result;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

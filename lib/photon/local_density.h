@@ -8,7 +8,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Share of the disc of this radius (m) about the place that is part of what is measured, in (0, 1], and its
 /// relative standard error.
@@ -44,4 +44,4 @@ struct LocalDensity {
 LocalDensity local_density(std::span<const float> distance2_m2, std::span<const Rgb> flux_lm, float radius_m,
                            const Rgb& one_photon_lm, const ShareOfDisc& share = {});
 
-}  // namespace phos
+}  // namespace phos::inline photon

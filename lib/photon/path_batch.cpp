@@ -5,7 +5,7 @@
 
 #include "scene/texture/ask_texels.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kBatch = 64;       // paths: what they hold stays in the first caches
@@ -117,4 +117,4 @@ void trace_paths(const PathTracer& tracer, std::uint64_t begin, std::uint64_t en
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -6,7 +6,7 @@
 #include "photon/flight.h"
 #include "photon/path_tracer.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Are so many paths of a part too long that nothing seems to absorb the light? Its photons would fill any
 /// memory.
@@ -18,4 +18,4 @@ inline bool has_no_end(const PathPart& part) { return part.too_long() >= 16; }
 /// takes a tenth less time. Stops once the part has_no_end().
 void trace_paths(const PathTracer& tracer, std::uint64_t begin, std::uint64_t end, PathPart& part);
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -8,7 +8,7 @@
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::uint32_t kMaxBounces = 65534;  // the last that a random stream can number
@@ -249,4 +249,4 @@ void PathTracer::send_through_portals(const Bsdf& bsdf, const SurfacePoint& poin
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -14,7 +14,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Const and usable from any thread; holds references.
 class PathTracer {
@@ -86,4 +86,4 @@ class PathTracer {
   double units_per_lm_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "photon/tree/kd_tree.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 Json rgb(const Rgb& v) { return Json::Array{v.x, v.y, v.z}; }
@@ -269,4 +269,4 @@ void append(Flights& to, const FlightColumns& from) {
   join(to.direction, from.direction), join(to.length, from.length);
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -7,7 +7,7 @@
 #include "file/container.h"
 #include "photon/photon_map.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Read-only columns, wherever they lie.
 struct PhotonColumns {
@@ -61,4 +61,4 @@ MergedShards read_shards(const std::vector<std::string>& paths);
 /// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
 std::string key_of_merged(const std::vector<std::string>& paths);
 
-}  // namespace phos
+}  // namespace phos::inline photon

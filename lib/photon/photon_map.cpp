@@ -11,7 +11,7 @@
 #include "photon/tree/kd_tree.h"
 #include "photon/tree/space_order.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kRowChunk = 1 << 14;
@@ -134,4 +134,4 @@ void PhotonMap::write(const std::string& path, Provenance provenance) const {
   writer.write(path, provenance);
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

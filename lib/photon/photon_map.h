@@ -12,7 +12,7 @@
 #include "core/vector.h"
 #include "file/container.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// How a photon came to where it was stored.
 enum class PhotonPath : std::uint8_t {
@@ -151,4 +151,4 @@ class PhotonMap {
 void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
                  const std::string& shard, Provenance provenance);
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
@@ -94,4 +94,4 @@ PhotonNoise photon_noise(const PhotonMap& photons, bool with_direct) {
   return noise;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

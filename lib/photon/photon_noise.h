@@ -5,7 +5,7 @@
 
 #include "photon/photon_map.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 struct PhotonNoise {
   double photons = 0;  ///< that count
@@ -31,4 +31,4 @@ struct PhotonNoise {
 /// no more, paths are taken to end as often as there.
 PhotonNoise photon_noise(const PhotonMap& photons, bool with_direct);
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -3,7 +3,7 @@
 #include "file/shards.h"
 #include "photon/photon_file.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 const ShardKind kKind{"photons", "shard", "map", "phos-photons --shard i/n"};
@@ -87,4 +87,4 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
   return merged;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

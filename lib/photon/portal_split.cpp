@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 /// Of one scattering.
@@ -81,4 +81,4 @@ void PortalSplit::children(const SurfacePoint& point, const Bsdf& bsdf, const Ve
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -8,7 +8,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/opening/portal_piece.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Few of the environment's paths that are not aimed at portals meet one after they were scattered by the
 /// ground or a house opposite, and they carry thousands of times as much as those that are aimed. In place of
@@ -36,4 +36,4 @@ class PortalSplit {
   double unit_lm_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

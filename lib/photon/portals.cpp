@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 Portals::Portals(std::span<const Portal> pieces, const Environment& light)
     : pieces_(pieces.begin(), pieces.end()) {
@@ -75,4 +75,4 @@ double Portals::density(const Vec3& point, const Vec3& direction) const {
   return guide_->flux_density(-direction) * crossings(point, direction) / seen;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -9,7 +9,7 @@
 #include "scene/opening/portal.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Aims lines of light at portals. A line is a direction and a place on a plane across it; its density is per
 /// sr and m2 of that plane. Lines that meet several portals are drawn by each of them: crossings() is how
@@ -42,4 +42,4 @@ class Portals {
   double flux_lm_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -15,7 +15,7 @@
 #include "photon/photon_file.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kPathChunk = 1024;
@@ -172,4 +172,4 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   return photons;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

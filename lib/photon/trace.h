@@ -11,7 +11,7 @@
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 struct PhotonOptions {
   std::int64_t paths = 1'000'000;  ///< emitted from the lights
@@ -44,4 +44,4 @@ inline constexpr const char* kTooLongEvent = "photon path of 65535 bounces ended
 Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::uint64_t seed,
                       PhotonTotals& totals, Counters& counters, std::vector<Ray>* log = nullptr);
 
-}  // namespace phos
+}  // namespace phos::inline photon

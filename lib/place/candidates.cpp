@@ -7,7 +7,7 @@
 #include "direct/direct_light.h"
 #include "estimate/density.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 /// Roundings of positions by which a place may lie beside its surface: its own, and that of a CSV file.
@@ -81,4 +81,4 @@ Candidates on_materials(const RayScene& rays, MaterialFilter wanted, Candidates 
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -13,9 +13,11 @@
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
-namespace phos {
-
+namespace phos::inline scene {
 class CameraRays;
+}
+
+namespace phos::inline place {
 
 struct SurfaceSample {
   Vec3 position{0}, normal{0, 0, 1};
@@ -78,4 +80,4 @@ float pixel_side_m(const View& view, const Vec2& st, float travelled_m, float co
 /// The same for many pixels: `eye` sees the view.
 float pixel_side_m(const View& view, const CameraRays& eye, const Vec2& st, float travelled_m, float cosine);
 
-}  // namespace phos
+}  // namespace phos::inline place

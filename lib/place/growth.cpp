@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "radiance/cache.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 /// What circles may foretell wrongly, of the light.
@@ -189,4 +189,4 @@ std::size_t Growth::compare() {
   return shrunk;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -12,7 +12,7 @@
 #include "place/neighbour_clamp.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// Bounds of every radius, m.
 struct RadiusBounds {
@@ -120,4 +120,4 @@ class Growth {
   std::vector<int> shrunk_in_;  // of records that have
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -8,7 +8,7 @@
 #include "scene/load.h"
 #include "scene/picture.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 View view_of(const PlacementOptions& p, const Scene& scene) {
@@ -98,7 +98,7 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
   resolve_size(find_camera(scene, p.camera), kPictureSide, p.width, p.height);
 }
 
-PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+PlacementReport extend_cache(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                       const RecordOptions& records, const PlacementOptions& placement,
                       const PlacementSource& source, Counters& counters) {
   const auto by = [&](Candidates candidates) {
@@ -123,4 +123,4 @@ PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const 
   PHOS_CHECK(false, "resolve() first");
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kBucket = 8;
@@ -130,4 +130,4 @@ float NeighbourClamp::insert(const Vec3& p, const Vec3& n, float radius_m, bool 
   return q.radius_m;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

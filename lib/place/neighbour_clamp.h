@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// Which points clamp others.
 enum class ClampBy {
@@ -55,4 +55,4 @@ class NeighbourClamp {
   ClampBy by_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -16,7 +16,7 @@
 #include "place/refinement.h"
 #include "place/surface_sides.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr float kFine = 0.125f;  // a piece this small beside the reach of a record there is not cut further
@@ -264,4 +264,4 @@ PlacementReport place_on_surfaces(IrradianceCache& cache, const Estimator& estim
   return report;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

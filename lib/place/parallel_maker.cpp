@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kChunk = 4;     // records made by one task
@@ -94,4 +94,4 @@ std::size_t Placer::cover(std::span<const RecordSite> open) {
   return placed;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -11,7 +11,7 @@
 #include "place/candidates.h"
 #include "place/growth.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// One estimator, at work in all threads (in one, if it must).
 class ParallelMaker {
@@ -55,4 +55,4 @@ class Placer {
   std::size_t batch_size_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -5,7 +5,7 @@
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 const ShardKind kKind{"irradiance", "part", "cache", "phos-irradiance --place every --part k/n"};
@@ -185,4 +185,4 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
   return merged;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

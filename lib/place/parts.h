@@ -13,7 +13,7 @@
 #include "place/placement.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// A share of the records of `--place every`, as made: their neighbours have had no say in their radii yet.
 struct IrradiancePart {
@@ -47,4 +47,4 @@ MergedParts read_parts(const std::vector<std::string>& paths);
 /// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
 std::string key_of_merged_parts(const std::vector<std::string>& paths);
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -11,7 +11,7 @@
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kTaskPlaces = 256;  // looked up by one task
@@ -232,4 +232,4 @@ PlacementReport place_every(IrradianceCache& cache, const Estimator& estimator, 
   return report;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -15,7 +15,7 @@
 #include "radiance/cache.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline place {
 
 enum class Place {
   automatic,  ///< given points, or photons, or every surface: the first that there is
@@ -76,7 +76,7 @@ struct PlacementReport {
 
 /// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all
 /// but options.part, which is make_part()'s. Same records for any number of threads.
-PlacementReport place(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
+PlacementReport extend_cache(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                       const RecordOptions& records, const PlacementOptions& placement,
                       const PlacementSource& source, Counters& counters);
 
@@ -114,4 +114,4 @@ void finish_placement(Growth& growth, const ParallelMaker& maker, IrradianceCach
 /// "x_m" are read as x. '#' starts a comment line. Throws Error(bad_input) naming line and column.
 std::vector<SurfaceSample> read_points(const std::string& path, const DVec3& origin_m = DVec3(0));
 
-}  // namespace phos
+}  // namespace phos::inline place

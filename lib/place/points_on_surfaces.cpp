@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "scene/receiver.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr float kLeastFacing = 0.5f;  // cosine; shading normals differ from their triangles'
@@ -70,4 +70,4 @@ std::vector<SurfaceSample> require_surfaces(Tool& tool, const RayScene& rays,
   return std::move(found.points);
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -8,7 +8,7 @@
 #include "file/tool.h"
 #include "place/candidates.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// Of the typical distance of surroundings (typical_distance_m()): a point this far above or below a surface
 /// is meant to lie on it.
@@ -31,4 +31,4 @@ std::vector<SurfaceSample> require_surfaces(Tool& tool, const RayScene& rays,
                                             const std::string& path, const std::string& records,
                                             const std::string& instead);
 
-}  // namespace phos
+}  // namespace phos::inline place

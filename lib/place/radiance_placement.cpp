@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "estimate/adoption.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 const Names<Estimate> kEstimates{{"gather", Estimate::gather}, {"hull", Estimate::hull}};
@@ -54,7 +54,7 @@ std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables&
       if (r.order() == order) own.records.push_back(irradiance_of(r));
     source.wanted = [&tables, order](std::uint32_t material) { return tables.order(material) == order; };
     RadianceRun& run = runs.emplace_back(RadianceRun{order, {}});
-    run.report = place(own, *estimator_of(order), rays, resolved, placement, source, counters);
+    run.report = extend_cache(own, *estimator_of(order), rays, resolved, placement, source, counters);
     std::vector<RadianceRecord>& made = run.report.radiance;
     PHOS_CHECK(made.size() == run.report.kept, made.size(), " of ", run.report.kept, " hold radiance");
     std::move(made.begin(), made.end(), std::back_inserter(cache.records));
@@ -77,4 +77,4 @@ void require_same_orders(const RadianceCache& earlier, const GlossTables& tables
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

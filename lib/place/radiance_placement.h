@@ -15,7 +15,7 @@
 #include "radiance/cache.h"
 #include "radiance/gloss_tables.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// How radiance records are made. The defaults are the cheapest that leave an error of 2 to 3 % in glossy
 /// rooms (place_radiance_table): of fewer rays gradients are noise, and many bands change within short ways.
@@ -49,4 +49,4 @@ std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables&
 /// it holds one of an order that no material wants: nothing would read it.
 void require_same_orders(const RadianceCache& earlier, const GlossTables& tables, const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline place

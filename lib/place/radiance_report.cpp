@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 /// Records that are there.
@@ -82,4 +82,4 @@ RadianceReport report_of(const RadianceCache& cache, const std::vector<RadianceR
   return report;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -7,7 +7,7 @@
 #include "core/json.h"
 #include "place/radiance_placement.h"
 
-namespace phos {
+namespace phos::inline place {
 
 struct RadianceReport {
   Json figures;                    ///< an object, by name, for --stats
@@ -16,4 +16,4 @@ struct RadianceReport {
 /// `cache` holds what the runs added, and perhaps earlier records.
 RadianceReport report_of(const RadianceCache& cache, const std::vector<RadianceRun>& runs);
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -3,7 +3,7 @@
 #include "place/placement.h"
 #include "scene/point_table.h"
 
-namespace phos {
+namespace phos::inline place {
 
 std::vector<SurfaceSample> read_points(const std::string& path, const DVec3& origin_m) {
   const PointTable table = parse_points(read_text(path), path, origin_m);
@@ -13,4 +13,4 @@ std::vector<SurfaceSample> read_points(const std::string& path, const DVec3& ori
   return points;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

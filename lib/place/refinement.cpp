@@ -9,7 +9,7 @@
 #include "core/parallel.h"
 #include "photon/tree/kd_tree.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kPilots = 32;
@@ -249,4 +249,4 @@ void Refinement::fit_gradients(std::vector<IrradianceRecord>& records, std::size
     std::copy(fitted[i].begin(), fitted[i].end(), records[i].translation_gradient);
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -10,7 +10,7 @@
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// How much records of one kind scatter, as pairs of records at the same places tell.
 struct RecordNoise {
@@ -50,4 +50,4 @@ class Refinement {
   RecordNoise noise_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

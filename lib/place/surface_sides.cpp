@@ -7,7 +7,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr int kRays = 16;  // that must all end at backs
@@ -78,4 +78,4 @@ bool SurfaceSides::cameras_see_backs() const {
   return backs > fronts;
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

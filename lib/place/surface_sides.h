@@ -6,7 +6,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// One side of one triangle: 2 * triangle, + 1 for its back.
 using Side = std::uint32_t;
@@ -35,4 +35,4 @@ class SurfaceSides {
   bool oriented_;                // fronts look away from solids
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -6,7 +6,7 @@
 #include "estimate/density.h"
 #include "place/placement.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
@@ -158,4 +158,4 @@ GatherSource CoarseLevel::source() const {
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -12,7 +12,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline place {
 
 /// How coarse records are made from photons, where finer ones are made as `fine` says.
 RecordOptions coarse_options(const RecordOptions& fine);
@@ -66,4 +66,4 @@ class CoarseLevel {
   double zone_photons_ = 0, usual_lx_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline place

@@ -12,7 +12,7 @@
 #include "place/placement.h"
 #include "scene/load.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kPlaces = 1024, kFewPlaces = 32;
@@ -119,4 +119,4 @@ TypicalDistance typical_distance(const RayScene& rays, const PlacementOptions& p
   return {std::min(here_m, seen_m), std::max(here_m, seen_m)};
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

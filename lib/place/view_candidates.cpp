@@ -11,7 +11,7 @@
 #include "scene/camera.h"
 #include "scene/material/bsdf.h"
 
-namespace phos {
+namespace phos::inline place {
 namespace {
 
 // As phos-splat follows them.
@@ -175,4 +175,4 @@ Candidates view_candidates(const RayScene& rays, const View& view, const Materia
   return count <= kRemembered ? remember(count, level, sites) : Candidates{count, sites, true};
 }
 
-}  // namespace phos
+}  // namespace phos::inline place

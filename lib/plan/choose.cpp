@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 bool in(const KnobGroup& group, Knob knob) {
@@ -115,4 +115,4 @@ std::vector<PlanPoint> plan_front(const std::vector<KnobGroup>& groups, const Kn
   return front;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -7,7 +7,7 @@
 
 #include "plan/model.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Knobs that are chosen together, each from a list of levels. `derive` fills in knobs that follow from them;
 /// what it says is not `allowed` is not tried.
@@ -33,4 +33,4 @@ std::vector<PlanPoint> plan_front(const std::vector<KnobGroup>& groups, const Kn
                                   const PlanModel& cost, const std::vector<const PlanModel*>& errors);
 inline constexpr std::size_t kMostPoints = 4000;
 
-}  // namespace phos
+}  // namespace phos::inline plan

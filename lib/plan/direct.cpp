@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 constexpr const char* kWhat = "direct light in the records";
@@ -71,4 +71,4 @@ PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect wh
   return *std::move(ways[cached]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -9,7 +9,7 @@
 #include "plan/plan.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Lamps to each of which a picture sends shadow rays of its own: area lights and the environment.
 struct LampCount {
@@ -38,4 +38,4 @@ struct PlannedWay {
 PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect which, const LampCount& lamps,
                        const std::function<Pilot(const PlanTask&)>& pilot, Needs& needs);
 
-}  // namespace phos
+}  // namespace phos::inline plan

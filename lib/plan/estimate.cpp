@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "scene/report/unsampled.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const PlanTask& task, Needs& needs) {
   constexpr const char* kWhat = "records of photons alone";
@@ -31,4 +31,4 @@ bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const Plan
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

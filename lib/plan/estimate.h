@@ -7,7 +7,7 @@
 #include "plan/task.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 enum class PlanRecords { automatic, gather, hull };
 
@@ -16,4 +16,4 @@ enum class PlanRecords { automatic, gather, hull };
 /// by rays, which are less noisy. Says in `needs` why.
 bool by_photons(PlanRecords which, const std::vector<LightWay>& ways, const PlanTask& task, Needs& needs);
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/random.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 /// A pivot this much smaller than its column's own square sum: the column is told by those before it.
@@ -127,4 +127,4 @@ Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_
   return fit;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

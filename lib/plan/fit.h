@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline plan {
 
 /// One measurement: value = sum over terms of coefficient x term, within `sigma` (one standard deviation).
 struct FitRow {
@@ -36,4 +36,4 @@ struct Fit {
 };
 Fit fit_with_draws(std::span<const FitRow> rows, std::size_t draws, std::uint64_t seed);
 
-}  // namespace phos
+}  // namespace phos::inline plan

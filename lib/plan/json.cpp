@@ -1,7 +1,7 @@
 // A plan for programs.
 #include "plan/text.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 Json json_of(const Interval& i) {
@@ -73,4 +73,4 @@ Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, con
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

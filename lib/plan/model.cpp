@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 constexpr double kNormal95 = 1.6449;  ///< 95th percentile of the standard normal distribution
@@ -138,4 +138,4 @@ Json PlanModel::to_json(const Knobs& knobs) const {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -10,7 +10,7 @@
 #include "core/json.h"
 #include "plan/fit.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// What the figures of a plan depend on. The first are settings; records and pixels follow from them and from
 /// what is asked.
@@ -101,4 +101,4 @@ struct PlanModel {
   Json to_json(const Knobs& knobs) const;
 };
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -9,7 +9,7 @@
 #include "scene/opening/find_portals.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 void declare_options(Options& options, PlanOptions& p) {
   using Of = PlanOptions::Of;
@@ -170,4 +170,4 @@ void add_portals(PlanTask& task, const Scene& scene, Needs& needs) {
   task.scene_words.insert(task.scene_words.end(), {"--portals", "auto"});
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -9,7 +9,7 @@
 #include "scene/load.h"
 #include "sense/grid.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 struct PlanOptions {
   std::string error;  ///< "5%" or "0.05"
@@ -41,4 +41,4 @@ PlanTask task_of(const Options& options, const PlanOptions& plan, const std::str
 /// are given; says so in `needs`.
 void add_portals(PlanTask& task, const Scene& scene, Needs& needs);
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 /// What the terms leave out, relative standard deviation: of a mean square, and of a time. (Errors of 45
@@ -253,4 +253,4 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
   return plan;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -12,7 +12,7 @@
 #include "plan/requirements.h"
 #include "plan/task.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// At least one of them.
 struct PlanGoal {
@@ -64,4 +64,4 @@ inline constexpr double kMargin = 0.8, kSurety = 0.85, kEnoughRays = 16, kNextTo
 std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
                                    const std::vector<PlanPoint>& front, double error, bool* wide = nullptr);
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "plan/plan.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 void ReferenceDoubts::add(const Json& stats, double places) {
   if (const Json* ways = stats.find("unsampled")) unsampled_ = light_ways_from(*ways);
@@ -23,4 +23,4 @@ std::vector<std::string> ReferenceDoubts::lines() const {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

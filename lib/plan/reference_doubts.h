@@ -7,7 +7,7 @@
 #include "core/json.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Of the --stats of phos-reference: ways of light that it did not sample ("unsampled"), and places whose
 /// light rests on too few bright paths ("untrusted").
@@ -29,4 +29,4 @@ class ReferenceDoubts {
   double untrusted_share_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline plan

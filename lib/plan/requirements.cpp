@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 /// "wall and floor", "wall, floor and 3 more"
@@ -102,4 +102,4 @@ Json to_json(const Needs& needs) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

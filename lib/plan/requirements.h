@@ -9,7 +9,7 @@
 #include "scene/report/describe.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 struct Needs {
   bool lit = false;            ///< there is a lamp
@@ -28,4 +28,4 @@ Needs plan_needs(const Scene& scene, const Json& gloss);
 
 Json to_json(const Needs& needs);
 
-}  // namespace phos
+}  // namespace phos::inline plan

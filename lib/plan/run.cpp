@@ -10,7 +10,7 @@
 #include "plan/runner.h"
 #include "plan/text.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
@@ -247,4 +247,4 @@ Json to_json(const PlanReport& report) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

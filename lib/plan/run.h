@@ -10,7 +10,7 @@
 #include "plan/plan.h"
 #include "study/measure.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 struct PlanRunOptions {
   std::string folder;  ///< where the files go; made if it is missing
@@ -82,4 +82,4 @@ std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, dou
 
 Json to_json(const PlanReport& report);
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -8,7 +8,7 @@
 #include "file/atomic_file.h"
 #include "file/write_text.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 constexpr std::uint64_t kReferenceSeed = 201;
@@ -122,4 +122,4 @@ double PlanRunner::make_pair(bool lux, double samples) {
   return pair_s_[lux];
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -8,7 +8,7 @@
 #include "plan/run.h"
 #include "study/command.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 class PlanRunner {
  public:
@@ -42,4 +42,4 @@ class PlanRunner {
   ReferenceDoubts doubts_[2];
 };
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 /// Mean, and its standard error from the spread of blocks.
@@ -92,4 +92,4 @@ std::vector<double> tiled_values(const Image& image, const std::string& layer, c
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Mean squares over all values; with a and b of independent noise about one mean m, and references p and q
 /// about the truth t, noise = mean (a - b)^2 / 2 is the variance, and bias = mean ((a - p)(b - q) + (a - q)(b
@@ -37,4 +37,4 @@ double mean_magnitude(std::span<const double> a, std::span<const double> b);
 std::vector<double> tiled_values(const Image& image, const std::string& layer, const Image& reference);
 inline constexpr std::size_t kTileValues = 3 * 8 * 8;
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -180,4 +180,4 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
   return stages;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

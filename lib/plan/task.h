@@ -8,7 +8,7 @@
 #include "plan/model.h"
 #include "study/command.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Of which scene what is wanted.
 struct PlanTask {
@@ -71,4 +71,4 @@ Command seeded(Command command, std::uint64_t seed);
 /// "100000", "0.4": a knob's value as an option has it.
 std::string knob_word(const Knobs& knobs, Knob knob);
 
-}  // namespace phos
+}  // namespace phos::inline plan

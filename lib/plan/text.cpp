@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 const char* const kErrorMeaning =
     "Error of an image: root mean square error of the beauty layer, without pixels that show a lamp, over "
@@ -161,4 +161,4 @@ std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& p
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

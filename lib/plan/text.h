@@ -5,7 +5,7 @@
 
 #include "plan/plan.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// What is asked, in a line: "image of 200 x 150 from camera desk, error at most 5 %".
 std::string goal_line(const PlanTask& task, const PlanGoal& goal);
@@ -25,4 +25,4 @@ Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, con
 /// What is meant by error, for --help and for scripts.
 extern const char* const kErrorMeaning;
 
-}  // namespace phos
+}  // namespace phos::inline plan

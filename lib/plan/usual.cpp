@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 /// Of a picture or table that is right to 5 %.
@@ -75,4 +75,4 @@ PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanO
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

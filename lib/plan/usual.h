@@ -3,7 +3,7 @@
 
 #include "plan/options.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// By rules of thumb, not measured on the scene: rays and photons grow as the error shrinks, and records
 /// reach less far. `error` is relative, in (0, 1]. With several `lamps` of an extent each gets fewer of a
@@ -19,4 +19,4 @@ PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanO
                          const LampCount& lamps, const std::function<Pilot(const PlanTask&)>& pilot,
                          Needs& needs);
 
-}  // namespace phos
+}  // namespace phos::inline plan

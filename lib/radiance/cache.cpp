@@ -11,7 +11,7 @@
 #include "radiance/check.h"
 #include "radiance/columns.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 /// E = first x c_00 + second x c_10.
@@ -240,4 +240,4 @@ RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std:
   return cache;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

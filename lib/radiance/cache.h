@@ -13,7 +13,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// One record. Radiance L(w) that arrives along w is the sum of c_i H_i(w), HSH of hsh/basis.h, w in the
 /// record's frame; light that comes straight from a lamp is not in it. Numbers of RGB stand side by side.
@@ -131,4 +131,4 @@ class RadianceTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -3,9 +3,9 @@
 
 #include "radiance/cache.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// In words that follow "has": "a value that is not finite"; nullptr: nothing.
 const char* what_is_wrong(const RadianceRecord& record);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

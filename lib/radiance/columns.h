@@ -8,7 +8,7 @@
 
 #include "radiance/cache.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 inline void to_column(const std::vector<float>& record, float* column, std::size_t n) {
   for (std::size_t i = 0; i < record.size(); ++i) column[i % 3 * n + i / 3] = record[i];
@@ -31,4 +31,4 @@ inline bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
 /// As read_radiance(), but of some rows alone, which then are all that is looked at; null: all.
 RadianceCache read_radiance_rows(const Container& file, RecordsOf of, const std::vector<std::size_t>* rows);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -2,7 +2,7 @@
 
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 /// The first bands of a record.
@@ -55,4 +55,4 @@ std::optional<GlossyLight> GlossCache::outgoing(const SurfacePoint& point, const
       ->outgoing(point.position, lobe.frame, lobe.coefficients, lobe.least, worker.tree);
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -7,7 +7,7 @@
 #include "radiance/cache.h"
 #include "radiance/gloss_tables.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// Lookups of what glossy surfaces show, at the eye and where secondary rays land. Materials that want equal
 /// orders share their records; a record of fewer bands than a material wants does not serve it, one of an
@@ -40,4 +40,4 @@ class GlossCache {
   std::vector<RadianceTree> trees_;  // of tables_.orders()
 };
 
-}  // namespace phos
+}  // namespace phos::inline radiance

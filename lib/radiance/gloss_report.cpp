@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/text/quantity.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 std::string title(const Json& choice) {
@@ -74,4 +74,4 @@ void add_gloss(Json& description, const Json& report) {
   description["gloss"] = report;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -6,7 +6,7 @@
 #include "core/json.h"
 #include "radiance/gloss_tables.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// Per glossy material: "material" (its name), "index", "order" (bands of its radiance records, 0: none),
 /// "traced_share" (of directions) and "why".
@@ -19,4 +19,4 @@ std::string gloss_text(const Json& report);
 /// records and traced gloss stand in for "gloss".
 void add_gloss(Json& description, const Json& report);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -10,7 +10,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 /// Does any place of a material have a vertex colour other than white?
@@ -137,4 +137,4 @@ bool GlossTables::lobe(const SurfacePoint& point, const Vec3& wo, GlossLobe& lob
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

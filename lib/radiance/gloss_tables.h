@@ -13,7 +13,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 enum class GlossBy : unsigned char {
   traced,     ///< rays
@@ -74,4 +74,4 @@ class GlossTables {
   std::vector<HshRotator> turns_;  // of orders 1, 2, ...
 };
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// Sum over i of c_i L_i by colour; both hold `n` numbers, RGB side by side.
 inline Rgb lobe_dot(const float* c, const float* light, std::size_t n) {
@@ -21,4 +21,4 @@ inline Rgb lobe_dot(const float* c, const float* light, std::size_t n) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

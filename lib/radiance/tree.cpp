@@ -7,7 +7,7 @@
 #include "radiance/cache.h"
 #include "radiance/lobe_dot.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 std::size_t numbers(int order) { return 3 * static_cast<std::size_t>(harmonic_count(order)); }
@@ -223,4 +223,4 @@ GlossyLight RadianceTree::outgoing(const Vec3& p, const Frame& frame, std::span<
   return light;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -5,7 +5,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// Of the variance of a record from photons: the part that the others about a place have too, for their zones
 /// overlap, and light that is not even in them is mistaken by all alike. (Of two discs whose middles are a
@@ -61,4 +61,4 @@ inline Rgb blended_error(const BlendSums& sums, float weight, const Rgb& value, 
   return Rgb(glm::sqrt(variance));
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

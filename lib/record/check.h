@@ -3,9 +3,9 @@
 
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// In words that follow "has": "a value that is not finite"; nullptr: nothing.
 const char* what_is_wrong(const IrradianceRecord& record);
 
-}  // namespace phos
+}  // namespace phos::inline record

@@ -1,6 +1,6 @@
 #include "record/far_records.h"
 
-namespace phos {
+namespace phos::inline record {
 
 const RecordTree& FarRecords::wide(std::size_t i, RecordTree::Widen widen) const {
   const std::size_t at = i + (widen == RecordTree::Widen::along_plane ? kFactors.size() : 0);
@@ -25,4 +25,4 @@ Rgb FarRecords::irradiance(const Vec3& p, const Vec3& n, float& weight, RecordTr
   return found;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

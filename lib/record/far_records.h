@@ -7,7 +7,7 @@
 
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// Looks beyond the records' reach: to twice as far, then to four times. What is found is less exact than the
 /// accuracy that was asked for, and better than dark; callers count such points as missed all the same. The
@@ -32,4 +32,4 @@ class FarRecords {
   mutable std::array<std::optional<RecordTree>, 2 * kFactors.size()> wide_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline record

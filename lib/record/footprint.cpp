@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 constexpr int kAxes = AdaptiveFootprint::kAxes;
@@ -95,4 +95,4 @@ const char* what_is_wrong(const AdaptiveFootprint& f, const Vec3& normal) {
   return nullptr;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

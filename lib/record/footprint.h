@@ -23,7 +23,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline record {
 
 class AdaptiveFootprint {
  public:
@@ -71,4 +71,4 @@ class AdaptiveFootprint {
 /// What is wrong with one that was read, in words that follow "has"; nullptr: nothing.
 const char* what_is_wrong(const AdaptiveFootprint& footprint, const Vec3& normal);
 
-}  // namespace phos
+}  // namespace phos::inline record

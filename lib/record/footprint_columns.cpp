@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 constexpr std::uint64_t kAxes = AdaptiveFootprint::kAxes;
@@ -74,4 +74,4 @@ std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const Cont
   return footprints;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

@@ -10,7 +10,7 @@
 #include "file/container.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// Holds the columns until the file is written.
 class FootprintColumns {
@@ -30,4 +30,4 @@ class FootprintColumns {
 std::vector<std::shared_ptr<const AdaptiveFootprint>> read_footprints(const Container& file,
                                                                       std::span<const Vec3> normal);
 
-}  // namespace phos
+}  // namespace phos::inline record

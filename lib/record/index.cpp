@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline record {
 
 RecordIndex index_records(std::span<const IrradianceRecord> records, double accuracy) {
   Bounds bounds;
@@ -134,4 +134,4 @@ Interpolated RecordLookup::interpolate(const Vec3& p, const Vec3& n) const {
   return sum;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

@@ -9,7 +9,7 @@
 
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// Cells of an octree lie at most this deep; points and zones beyond the root fall into its border cells.
 inline constexpr int kDeepestCell = 40;
@@ -74,4 +74,4 @@ class RecordLookup {
   std::span<const std::uint32_t> cell_, entry_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline record

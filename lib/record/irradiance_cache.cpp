@@ -10,7 +10,7 @@
 #include "record/index.h"
 #include "scene/receiver.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 std::span<const float> flat(const std::vector<Vec3>& v) {
@@ -270,4 +270,4 @@ IrradianceCache RecordColumns::cache() const {
 
 IrradianceCache read_irradiance(const Container& file) { return RecordColumns(file).cache(); }
 
-}  // namespace phos
+}  // namespace phos::inline record

@@ -15,7 +15,7 @@
 #include "record/footprint.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline record {
 
 /// One record. Gradients are absolute (docs/methods.md#a5), world space: row c is the gradient of channel c.
 struct IrradianceRecord {
@@ -259,4 +259,4 @@ class RecordTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline record

@@ -9,7 +9,7 @@
 #include "record/index.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline record {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
@@ -245,4 +245,4 @@ Interpolated RecordTree::interpolate(const Vec3& p, const Vec3& n) const {
   return sum;
 }
 
-}  // namespace phos
+}  // namespace phos::inline record

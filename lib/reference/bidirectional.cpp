@@ -9,7 +9,7 @@
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 // At the first scattering up to so many lamps are sampled one by one.
@@ -433,4 +433,4 @@ PathSample BidirectionalTracer::splat(const LightVertex& vertex, const Vec3& tow
   return sum;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -7,7 +7,7 @@
 #include "reference/light_path.h"
 #include "reference/vertex_grid.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// What the eye paths of one pass work with.
 struct LightPass {
@@ -94,4 +94,4 @@ class BidirectionalTracer {
   PathOptions options_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -11,7 +11,7 @@
 #include "reference/sensor_disc.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 /// Passes that tell an error, at least; and sensor paths of a pass, at most.
@@ -194,4 +194,4 @@ std::vector<PointIrradiance> estimate_bidirectionally(const RayScene& rays, cons
   return Measurement(rays, luminaires, sensors, options).run();
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -5,7 +5,7 @@
 
 #include "reference/point_irradiance.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Irradiance of many sensors, which share light paths; as estimate_irradiance() else. At least 16 passes of
 /// as many independent light paths tell the standard error. Light that comes to a sensor by way of mirrors,
@@ -18,4 +18,4 @@ std::vector<PointIrradiance> estimate_bidirectionally(const RayScene& rays, cons
                                                       std::span<const SensorPoint> sensors,
                                                       const PointOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline reference

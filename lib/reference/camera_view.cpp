@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline reference {
 
 CameraView::CameraView(const Camera& camera, std::size_t width, std::size_t height, double light_paths)
     : rays_(camera, static_cast<float>(width) / static_cast<float>(height)),
@@ -56,4 +56,4 @@ bool CameraView::see(const Vec3& point, PixelSight& sight) const {
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -6,7 +6,7 @@
 #include "reference/bidirectional.h"
 #include "scene/camera.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Which way a point is seen.
 struct PixelSight {
@@ -37,4 +37,4 @@ class CameraView {
   double light_paths_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

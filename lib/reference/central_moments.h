@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Central moments up to the fourth, streamed and merged (Pebay 2008, SAND2008-6212, eqs. 1.1 to 3.1), so
 /// that they do not cancel where the spread is small beside the mean.
@@ -52,4 +52,4 @@ inline bool trusted(const CentralMoments& m) {
   return m.any() && !(m.fourths() > kFewBright * m.squares() * m.squares());
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

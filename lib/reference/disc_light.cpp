@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 /// Differences between radii up to so many standard deviations are noise: one of some twenty comparisons may
@@ -92,4 +92,4 @@ DiscLight::Estimate DiscLight::estimate() const {
   return e;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

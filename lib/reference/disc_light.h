@@ -9,7 +9,7 @@
 #include "core/vector.h"
 #include "reference/moments.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Radii fall by sqrt(2), from the largest of a disc.
 inline constexpr std::size_t kDiscRadii = 24;
@@ -56,4 +56,4 @@ class DiscLight {
   std::vector<Row> rows_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -9,7 +9,7 @@
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 namespace {
 
@@ -279,4 +279,4 @@ Rgb EyePathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) 
   return lux + kPi * sum.total();  // cos / density = pi
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

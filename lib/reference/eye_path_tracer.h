@@ -10,7 +10,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 struct PathOptions {
   /// Scatterings between a light and the eye, the one at the visible surface (or sensor) included: 0 =
@@ -71,4 +71,4 @@ class EyePathTracer {
   std::vector<double> cdf_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

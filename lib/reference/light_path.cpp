@@ -8,7 +8,7 @@
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// The edge that is gone along, and the vertex it began at.
 struct LightTracer::Walk {
@@ -169,4 +169,4 @@ LightPaths trace_light(const LightTracer& tracer, std::uint64_t seed, std::uint6
       });
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -10,7 +10,7 @@
 #include "reference/path_weights.h"
 #include "scene/material/bsdf.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Where a light path met a surface that scatters it not as a mirror alone.
 struct LightVertex {
@@ -71,4 +71,4 @@ class LightTracer {
 LightPaths trace_light(const LightTracer& tracer, std::uint64_t seed, std::uint64_t item, std::size_t paths,
                        double eta, bool segments_only = false);
 
-}  // namespace phos
+}  // namespace phos::inline reference

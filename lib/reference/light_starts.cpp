@@ -8,7 +8,7 @@
 #include "scene/material/sharp_materials.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 /// No light falls below this part of an equal share.
@@ -279,4 +279,4 @@ bool LightStarts::start(RandomStream& random, Start& result) const {
                                                                : start_near(light, random, result);
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

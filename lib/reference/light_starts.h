@@ -8,7 +8,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Draws a lamp, a place on it and a direction. Half of the rays are aimed at what casts caustics, where that
 /// is small: spheres about the instances that reflect or refract sharply. Const and usable from any thread;
@@ -64,4 +64,4 @@ class LightStarts {
   double radius_m_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

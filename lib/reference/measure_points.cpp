@@ -3,7 +3,7 @@
 #include "core/progress.h"
 #include "reference/bidirectional_points.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 MeasuredPoints measure_points(const RayScene& rays, const Luminaires& luminaires,
                               std::span<const SensorPoint> points, ReferenceMethod method,
@@ -27,4 +27,4 @@ MeasuredPoints measure_points(const RayScene& rays, const Luminaires& luminaires
   return measured;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -8,7 +8,7 @@
 #include "reference/point_doubts.h"
 #include "reference/point_irradiance.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 struct MeasuredPoints {
   std::vector<PointIrradiance> light;       ///< of each point, in order
@@ -23,4 +23,4 @@ MeasuredPoints measure_points(const RayScene& rays, const Luminaires& luminaires
                               std::span<const SensorPoint> points, ReferenceMethod method,
                               const std::vector<LightWay>& ways, PointOptions options);
 
-}  // namespace phos
+}  // namespace phos::inline reference

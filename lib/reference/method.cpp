@@ -3,7 +3,7 @@
 #include "scene/material/sharp_materials.h"
 #include "scene/report/unsampled.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 void declare_method(Options& options, ReferenceMethod& method, const std::string& help) {
   options.choice<ReferenceMethod>("method", method,
@@ -20,4 +20,4 @@ bool is_bidirectional(ReferenceMethod method, const Scene& scene, const std::vec
          !unsampled(ways, Sampler::path_tracing, samples).empty();
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

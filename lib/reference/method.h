@@ -8,7 +8,7 @@
 #include "core/options.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 enum class ReferenceMethod : std::uint8_t {
   automatic,      ///< bidirectional where path tracing leaves light out, else path
@@ -24,4 +24,4 @@ void declare_method(Options& options, ReferenceMethod& method, const std::string
 bool is_bidirectional(ReferenceMethod method, const Scene& scene, const std::vector<LightWay>& ways,
                       double samples);
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Sums in double of float samples: the squares are exact, and cancellation stays below the error that is
 /// asked about.
@@ -36,4 +36,4 @@ inline double with_bias(double standard_error, const Moments& bias) {
                    std::max(0.0, bias.mean() * bias.mean() - doubt * doubt));
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

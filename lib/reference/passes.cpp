@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace phos {
+namespace phos::inline reference {
 
 double shrunk_area(std::uint64_t pass) {
   // The product of (k + 2/3) / (k + 1), k = 1 .. pass, in closed form.
@@ -26,4 +26,4 @@ LightPass make_pass(const LightTracer& tracer, std::uint64_t seed, std::uint64_t
   return made;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

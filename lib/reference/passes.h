@@ -5,7 +5,7 @@
 
 #include "reference/bidirectional.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Square of the radius of pass i (from 0) over that of the first: r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1),
 /// i from 1 (Knaus and Zwicker 2011): the bias of the mean of all passes and its variance both fall to
@@ -23,4 +23,4 @@ LightPass make_pass(const LightTracer& tracer, std::uint64_t seed, std::uint64_t
 /// Bit that tells the random streams of light paths from those of eyes.
 inline constexpr std::uint64_t kLightItem = std::uint64_t{1} << 62;
 
-}  // namespace phos
+}  // namespace phos::inline reference

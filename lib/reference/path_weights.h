@@ -13,7 +13,7 @@
 // squares of distances from 1e-6 to 1e6 m.
 #pragma once
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Numbers of the last vertex of a sub-path.
 struct SubPathEnd {
@@ -35,4 +35,4 @@ struct SubPathEnd {
 /// Weight of a strategy from the sums over those that leave more to one side and to the other.
 inline double balance(double one_side, double other_side) { return 1 / (1 + one_side + other_side); }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 void PointDoubts::prepare(PointOptions& options) const {
   options.least_samples = samples_wanted(ways_, sampler_, options.samples);
@@ -31,4 +31,4 @@ void PointDoubts::tell(Tool& tool) const {
                   dark_ > 0 ? text(" (", dark_, " of them found no light)") : "", "; raise --samples"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

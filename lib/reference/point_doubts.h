@@ -7,7 +7,7 @@
 #include "reference/point_irradiance.h"
 #include "scene/report/unsampled.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Goes with one run over points, and is told of each.
 class PointDoubts {
@@ -29,4 +29,4 @@ class PointDoubts {
   std::optional<std::uint64_t> least_samples_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -11,7 +11,7 @@
 #include "reference/moments.h"
 #include "scene/point_table.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -9,7 +9,7 @@
 #include "core/counters.h"
 #include "reference/eye_path_tracer.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 struct PointIrradiance {
   Rgb irradiance_lx{0};
@@ -64,4 +64,4 @@ std::vector<SensorPoint> parse_sensor_points(const std::string& csv, const std::
 std::string sensor_csv(const std::vector<SensorPoint>& points, const std::vector<PointIrradiance>& light,
                        const DVec3& origin_m = DVec3(0));
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -14,7 +14,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/material/sharp_materials.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 namespace {
 
@@ -395,4 +395,4 @@ ReferencePicture render_reference(const RayScene& rays, const Luminaires& lumina
   return result;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -13,7 +13,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 struct ReferenceOptions {
   std::string camera;  ///< "" = the scene's first
@@ -57,4 +57,4 @@ struct ReferencePicture {
 ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
                                   const ReferenceOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline reference

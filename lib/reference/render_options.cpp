@@ -1,7 +1,7 @@
 #include "reference/render.h"
 #include "scene/picture.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 void declare_options(Options& options, ReferenceOptions& r) {
   options.section("Picture");
@@ -40,4 +40,4 @@ void resolve_size(ReferenceOptions& r, const Camera& camera) {
   resolve_size(camera, kLongerSide, r.width, r.height);
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Russian roulette from this scattering on (3 to 5 measured best in variance x time, in a box and in an
 /// atrium). Survival stays below 1, so that paths end where nothing absorbs.
@@ -29,4 +29,4 @@ inline bool survives(std::int64_t scatterings, float share, RandomStream& random
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

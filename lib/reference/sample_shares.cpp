@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 constexpr double kEven = 1.0 / 3;
@@ -53,4 +53,4 @@ std::vector<std::uint32_t> sample_shares(std::span<const double> variance, std::
   return shares;
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

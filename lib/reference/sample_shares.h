@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Samples of each pixel, `mean` on the mean, in whole groups of four but for what is left of all. A third of
 /// them are the same for all; the rest go by the standard deviation of a sample, which makes the sum of all
@@ -15,4 +15,4 @@ namespace phos {
 std::vector<std::uint32_t> sample_shares(std::span<const double> variance, std::size_t width,
                                          std::int64_t mean);
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace phos {
+namespace phos::inline reference {
 namespace {
 
 /// Of the distance to what stands in the plane, so much is taken as free: a sector's sides reach it before
@@ -117,4 +117,4 @@ double SensorDisc::balanced_radius_m(const LightPaths& paths) const {
   return radius_m(last);
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

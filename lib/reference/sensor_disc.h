@@ -9,7 +9,7 @@
 #include "reference/disc_light.h"
 #include "reference/light_path.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// The part of a sensor's plane that it sees within a radius: sectors of a disc, each up to what stands in
 /// its way. Illuminance there is the flux that crosses it from the front over its area, without a cosine.
@@ -55,4 +55,4 @@ class SensorDisc {
   std::array<float, kSectors> reach_m_{};
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

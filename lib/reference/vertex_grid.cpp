@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline reference {
 
 VertexGrid::VertexGrid(std::span<const LightVertex> vertices, float radius_m)
     : vertices_(vertices), radius_m_(radius_m), per_cell_(0.5 / static_cast<double>(radius_m)) {
@@ -39,4 +39,4 @@ std::uint64_t VertexGrid::hash(std::int64_t x, std::int64_t y, std::int64_t z) c
   return (h ^ (h >> 31)) & (first_.size() - 2);
 }
 
-}  // namespace phos
+}  // namespace phos::inline reference

@@ -7,7 +7,7 @@
 
 #include "reference/light_path.h"
 
-namespace phos {
+namespace phos::inline reference {
 
 /// Hash grid over the vertices that eye paths may be merged with. Holds a reference.
 class VertexGrid {
@@ -51,4 +51,4 @@ class VertexGrid {
   std::vector<std::uint32_t> first_, index_;  // of each hash, and the end; vertices by hash
 };
 
-}  // namespace phos
+}  // namespace phos::inline reference

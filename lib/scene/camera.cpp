@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -75,4 +75,4 @@ Mat4 Camera::view_projection(float image_aspect, float near_m, float far_m) cons
   return projection * view;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

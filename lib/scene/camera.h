@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Camera::ray for many rays: what they share is worked out once. Same bits.
 class CameraRays {
@@ -18,4 +18,4 @@ class CameraRays {
   float half_height_, image_aspect_;  // tangent (perspective), or m
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 struct PlaceHash {
@@ -46,4 +46,4 @@ ConnectedParts find_connected_parts(const std::vector<Vec3>& corner) {
   return found;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

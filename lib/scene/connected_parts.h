@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Of triangles of three corners each. Corners at the same place are one, however the file splits its meshes.
 struct ConnectedParts {
@@ -16,4 +16,4 @@ struct ConnectedParts {
 };
 ConnectedParts find_connected_parts(const std::vector<Vec3>& corner);
 
-}  // namespace phos
+}  // namespace phos::inline scene

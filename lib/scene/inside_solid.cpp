@@ -8,7 +8,7 @@
 #include "core/sampling.h"
 #include "scene/material/passage.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::uint64_t kPaths = 64;
@@ -88,4 +88,4 @@ std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camer
               "\" stands inside a solid, or behind walls that show their backs: move it");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Is a point inside a solid, or behind the one-sided walls of a room? More than half of the surfaces that
 /// eight rays meet are seen from behind. Backs of double-sided surfaces say little, as exporters of building
@@ -17,4 +17,4 @@ bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
 /// A line for people where a perspective camera stands in such a place.
 std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camera& camera);
 
-}  // namespace phos
+}  // namespace phos::inline scene

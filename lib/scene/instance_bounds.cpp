@@ -1,6 +1,6 @@
 #include "scene/instance_bounds.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 Bounds bounds_of(const Scene& scene, const Instance& instance) {
   Bounds bounds;
@@ -10,4 +10,4 @@ Bounds bounds_of(const Scene& scene, const Instance& instance) {
   return bounds;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,9 +3,9 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// About the corners of its triangles, in the world; empty where it has none.
 Bounds bounds_of(const Scene& scene, const Instance& instance);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -18,7 +18,7 @@
 #include "scene/sky/environment.h"
 #include "scene/spectral/to_bands.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 bool is_gltf(const std::string& bytes) { return looks_like_glb(bytes) || looks_like_json(bytes); }
@@ -163,4 +163,4 @@ const Camera& find_camera(const Scene& scene, const std::string& name) {
   throw Error(ExitCode::usage, "--camera", "there is no camera \"" + name + "\"; the scene has " + names);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

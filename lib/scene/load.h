@@ -11,7 +11,7 @@
 #include "scene/sky/daylight_options.h"
 #include "scene/spectral/band_options.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Options of every stage that reads a scene.
 struct SceneOptions {
@@ -50,4 +50,4 @@ std::string how_to_add_to(const Scene& scene);
 /// if none.
 const Camera& find_camera(const Scene& scene, const std::string& name);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scene/shading_frame.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 template <class T>
@@ -268,4 +268,4 @@ void add_instance(Scene& scene, MeshData mesh, const glm::dmat4& to_world, const
   scene.instance.push_back(std::move(instance));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

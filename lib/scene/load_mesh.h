@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Local coordinates. Every array but position may be empty; else it is as long as position.
 struct MeshData {
@@ -34,4 +34,4 @@ void add_corner_normals(const std::vector<Vec3>& position, const Triangle& t, st
 /// Gives every triangle vertices of its own.
 void unshare_vertices(MeshData& mesh);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void NodeExtent::include(const std::vector<Vec3>& local, const glm::dmat4& to_world,
                          const std::string& what) {
@@ -32,4 +32,4 @@ std::string NodeExtent::coarse() const {
               " m; put that offset into the node's translation");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

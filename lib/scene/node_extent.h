@@ -7,7 +7,7 @@
 
 #include "core/origin.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 class NodeExtent {
  public:
@@ -24,4 +24,4 @@ class NodeExtent {
   std::string what_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "file/tool.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kShown = 3;
@@ -71,4 +71,4 @@ void tell_losses(Tool& tool, const Scene& scene) {
   if (tool.strict() && refused(told)) throw Error(ExitCode::bad_input, scene.path, kRefusedForLosses);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-namespace phos {
-
+namespace phos::inline file {
 class Tool;
+}
+
+namespace phos::inline scene {
+
 struct Scene;
 
 struct Note {
@@ -59,4 +62,4 @@ void tell_losses(Tool& tool, const Scene& scene);
 inline constexpr const char* kRefusedForLosses =
     "not all of it is modelled as it says; mend the scene, or leave --strict out";
 
-}  // namespace phos
+}  // namespace phos::inline scene

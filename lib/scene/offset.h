@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Offset along the normal, m, that keeps a ray from meeting the triangle it starts on. Three roundings add
 /// up, in units of the roundoff u = 2^-24:
@@ -37,4 +37,4 @@ inline float offset_m(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
   return static_cast<float>(kRoundoff * (16 * largest + 32 * longest + sliver));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void resolve_size(const Camera& camera, std::int64_t longer_side, std::int64_t& width, std::int64_t& height) {
   constexpr double kMostPixels = 0x1p28;
@@ -36,4 +36,4 @@ Vec2 subpixel_offset(int i, int n) {
   return i < centre ? Vec2(0.5f) : further_offset(i - centre, n - centre, 0);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "core/vector.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Longer side, pixels, of a picture drawn from a cache, where no size is given; and of the view that a cache
 /// is made for.
@@ -26,4 +26,4 @@ Vec2 subpixel_offset(int i, int n);
 /// the last one if n is odd, their mirror images.
 Vec2 further_offset(int i, int n, int before);
 
-}  // namespace phos
+}  // namespace phos::inline scene

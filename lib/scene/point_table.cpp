@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "file/csv.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr float kFarthest = 1e18f;  // the ray tracer takes no coordinates beyond
@@ -115,4 +115,4 @@ PointTable parse_points(std::string_view text, const std::string& where, const D
   return table;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct PointTable {
   std::vector<Vec3> position, normal;  ///< m; unit
@@ -20,4 +20,4 @@ struct PointTable {
 /// `where` is the text's name in messages. Positions are the world's, and come counted from `origin_m`.
 PointTable parse_points(std::string_view text, const std::string& where, const DVec3& origin_m = DVec3(0));
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -18,7 +18,7 @@
 #include "scene/shading_frame.h"
 #include "scene/texture/visible_share.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -556,4 +556,4 @@ void declare_isa(Options& options, std::string& isa) {
                               "rounds reciprocals in its own way)");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "core/options.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct Ray {
   Vec3 origin{0};
@@ -115,4 +115,4 @@ Ray ray_between(const SurfacePoint& from, const Vec3& to, float error_m);
 /// intersect + surface.
 bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace phos {
+namespace phos::inline scene {
 
 SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
   // The bound of scene/offset.h, for the largest coordinates and the longest edge that the scene can have.
@@ -19,4 +19,4 @@ SurfacePoint receiver(const Scene& scene, const Vec3& p, const Vec3& n) {
   return point;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

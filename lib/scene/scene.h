@@ -16,7 +16,7 @@
 #include "scene/opening/blind.h"
 #include "scene/opening/portal.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 class Environment;
 class MerlBrdf;
@@ -266,4 +266,4 @@ float area_m2(const Scene& scene, std::uint32_t tri);
 /// Radius of the smallest sphere about the centre of the bounds, m.
 float bounding_radius_m(const Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

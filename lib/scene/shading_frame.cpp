@@ -5,7 +5,7 @@
 #include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -158,4 +158,4 @@ void shade(const Scene& scene, const Reads& reads, const float weight[3], const 
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

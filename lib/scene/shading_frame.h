@@ -4,7 +4,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// What a material needs to know of a point beyond its normals, so that plain ones pay for nothing.
 struct Reads {
@@ -27,4 +27,4 @@ Vec3 level_tangent(const Vec3& normal);
 void shade(const Scene& scene, const Reads& reads, const float weight[3], const Vec3& towards_eye,
            SurfacePoint& point, bool flat = false);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline sense {
 namespace {
 
 struct Share {
@@ -49,4 +49,4 @@ std::string daylight_line(const Json& summary) {
   return line + text(", of ", summary.find("open_sky_lx")->dump(), " lx in the open");
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

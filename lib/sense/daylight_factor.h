@@ -3,7 +3,7 @@
 
 #include "sense/sensors.h"
 
-namespace phos {
+namespace phos::inline sense {
 
 /// Horizontal illuminance in the open by the scene's sky or environment map (luminance of RGB), lx: what
 /// daylight factors are shares of. Throws Error(usage) where there is none, and where the scene has other
@@ -15,4 +15,4 @@ double open_sky_lx(const Scene& scene);
 void add_daylight_factors(Json& summary, double open_lx);
 std::string daylight_line(const Json& summary);
 
-}  // namespace phos
+}  // namespace phos::inline sense

@@ -13,7 +13,7 @@
 #include "direct/direct_light.h"
 #include "scene/inside_solid.h"
 
-namespace phos {
+namespace phos::inline sense {
 namespace {
 
 constexpr double kMostPoints = 1e8;
@@ -350,4 +350,4 @@ Sensors workplane(const RayScene& rays, const GridOptions& grid) {
   return sensors;
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

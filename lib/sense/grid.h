@@ -7,7 +7,7 @@
 #include "core/options.h"
 #include "sense/sensors.h"
 
-namespace phos {
+namespace phos::inline sense {
 
 enum class Axis { x, y, z };
 
@@ -42,4 +42,4 @@ Sensors mesh_grid(const Scene& scene, const GridOptions& grid);
 /// beside them.
 Sensors workplane(const RayScene& rays, const GridOptions& grid);
 
-}  // namespace phos
+}  // namespace phos::inline sense

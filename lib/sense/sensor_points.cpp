@@ -7,7 +7,7 @@
 #include "scene/point_table.h"
 #include "sense/sensors.h"
 
-namespace phos {
+namespace phos::inline sense {
 
 Sensors parse_sensors(std::string_view text, const std::string& where, const DVec3& origin_m) {
   PointTable table = parse_points(text, where, origin_m);
@@ -25,4 +25,4 @@ Sensors read_sensors(const std::string& path, const DVec3& origin_m) {
   return parse_sensors(all, "stdin", origin_m);
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

@@ -9,7 +9,7 @@
 #include "scene/spectral/bands.h"
 #include "sense/sensors.h"
 
-namespace phos {
+namespace phos::inline sense {
 namespace {
 
 constexpr std::size_t kLines = 4096;
@@ -79,4 +79,4 @@ std::string summary_line(const Json& summary) {
   return line;
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

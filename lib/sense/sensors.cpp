@@ -17,7 +17,7 @@
 #include "radiance/cache.h"
 #include "scene/inside_solid.h"
 
-namespace phos {
+namespace phos::inline sense {
 namespace {
 
 constexpr std::size_t kChunk = 256;
@@ -323,4 +323,4 @@ std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& 
   return readings;
 }
 
-}  // namespace phos
+}  // namespace phos::inline sense

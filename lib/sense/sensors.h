@@ -16,7 +16,7 @@
 #include "record/index.h"
 #include "scene/lamp/luminaires.h"
 
-namespace phos {
+namespace phos::inline sense {
 
 /// Where light is measured, and on which side.
 struct Sensors {
@@ -138,4 +138,4 @@ Json summarise(std::span<const Reading> readings);
 /// A summary (which may also hold the level_m of a workplane) in a line for people.
 std::string summary_line(const Json& summary);
 
-}  // namespace phos
+}  // namespace phos::inline sense

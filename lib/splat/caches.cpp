@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "temporal/film/inputs.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 namespace {
 
@@ -60,4 +60,4 @@ SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene,
   return caches;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

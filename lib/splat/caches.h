@@ -10,7 +10,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 struct SplatCaches {
   /// Of all files together, the accuracy of the first (the others' radii are fitted to it); what radiance
@@ -27,4 +27,4 @@ bool is_radiance(const Container& file);
 /// Error(mismatch) for records of different paths of light, or a film without that frame.
 SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy = true);
 
-}  // namespace phos
+}  // namespace phos::inline splat

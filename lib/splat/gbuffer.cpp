@@ -7,7 +7,7 @@
 #include "scene/material/bsdf.h"
 #include "splat/gbuffer_pixel.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 Ray pixel_ray(const Camera& camera, int width, int height, int x, int y, const Vec2& subpixel) {
   return PixelRays(camera, width, height)(x, y, subpixel);
@@ -68,4 +68,4 @@ GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int
   return g;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -8,7 +8,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Row 0 at the top. One sample per pixel; several are made with other `subpixel` offsets and averaged after
 /// shading.
@@ -47,4 +47,4 @@ class PixelRays {
 GBuffer trace_gbuffer(const RayScene& rays, const Camera& camera, int width, int height,
                       const Vec2& subpixel);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -3,7 +3,7 @@
 
 #include "splat/gbuffer.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Nothing visible anywhere.
 GBuffer empty_gbuffer(int width, int height);
@@ -11,4 +11,4 @@ GBuffer empty_gbuffer(int width, int height);
 void set_pixel(GBuffer& gbuffer, std::size_t i, const Scene& scene, const Hit& hit,
                const SurfacePoint& point);
 
-}  // namespace phos
+}  // namespace phos::inline splat

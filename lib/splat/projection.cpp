@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Cuts [lo, hi] given in pixels, with a margin of one, to a picture of `size` pixels.
@@ -58,4 +58,4 @@ PixelRect Projection::sphere_bounds(const Vec3& centre, double radius_m) const {
   return rect.empty() ? PixelRect{} : rect;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

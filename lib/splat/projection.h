@@ -4,7 +4,7 @@
 #include "core/vector.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Pixels [x0, x1) x [y0, y1), row 0 at the top.
 struct PixelRect {
@@ -43,4 +43,4 @@ class Projection {
   double half_width_, half_height_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

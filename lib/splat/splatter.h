@@ -9,7 +9,7 @@
 #include "splat/cpu/gloss_splatter.h"
 #include "splat/gbuffer.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What blending leaves per pixel, before normalisation.
 struct SplatBuffer {
@@ -62,4 +62,4 @@ class GlRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

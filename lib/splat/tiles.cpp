@@ -4,7 +4,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 float distance_to(const Bounds& box, const Vec3& p) {
@@ -82,4 +82,4 @@ std::vector<PixelRect> record_bounds(std::span<const IrradianceRecord> records, 
   return bounds;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -9,7 +9,7 @@
 #include "splat/gbuffer.h"
 #include "splat/projection.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 class TileGrid {
  public:
@@ -45,4 +45,4 @@ inline bool drawable(const IrradianceRecord& r) { return r.radius_m > 0; }
 std::vector<PixelRect> record_bounds(std::span<const IrradianceRecord> records, double accuracy,
                                      const Camera& camera, int width, int height);
 
-}  // namespace phos
+}  // namespace phos::inline splat

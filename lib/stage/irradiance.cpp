@@ -135,7 +135,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
     }
     const CoveredBy covered(cache, inputs.radiance);
     const PlacementReport report =
-        place(cache, *estimator, rays, records, placement, source, tool.counters());
+        extend_cache(cache, *estimator, rays, records, placement, source, tool.counters());
     covered.take_out(cache);
     summarise(tool, cache, report, missed.empty());
   }

@@ -12,12 +12,12 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 20;
+inline constexpr int kIrradianceAlgorithm = 21;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;
   SceneOptions scene;
-  RecordOptions records;
+  RecordOptions records{.radius = RadiusRule::light};
   PlacementOptions placement;
   std::string at, add_to;  ///< files
   std::string isa;

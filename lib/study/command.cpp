@@ -24,7 +24,7 @@
 
 extern char** environ;
 
-namespace phos {
+namespace phos::inline study {
 namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -151,4 +151,4 @@ CommandRun CommandRunner::require(const Command& command) const {
               command.tool, message);
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -7,7 +7,7 @@
 
 #include "core/json.h"
 
-namespace phos {
+namespace phos::inline study {
 
 struct Command {
   std::string tool;                    ///< "phos-photons"
@@ -48,4 +48,4 @@ class CommandRunner {
   std::string folder_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

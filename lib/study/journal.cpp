@@ -12,7 +12,7 @@
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -69,4 +69,4 @@ void StudyJournal::add(const std::string& id, const Command& command, const Comm
   costs_[id] = cost;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

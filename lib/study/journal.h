@@ -7,7 +7,7 @@
 
 #include "study/command.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// What one command took.
 struct CommandCost {
@@ -36,4 +36,4 @@ class StudyJournal {
   std::map<std::string, CommandCost> costs_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

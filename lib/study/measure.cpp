@@ -7,7 +7,7 @@
 #include "image/metrics.h"
 #include "study/noise_free.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -151,4 +151,4 @@ Json to_json(const MeasuredError& e) {
   return j;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "core/json.h"
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// The error of one result. Differences are d = result - reference, over all components of every place
 /// (pixel, sensor) that counts; the reference is the mean of two where there are two. Relative measures are
@@ -73,4 +73,4 @@ MeasuredError measure_lux(const LuxTable& table, const LuxTable& reference, cons
 /// Absent values are left out.
 Json to_json(const MeasuredError& error);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -6,7 +6,7 @@
 #include "file/csv.h"
 #include "study/measure.h"
 
-namespace phos {
+namespace phos::inline study {
 
 LuxTable read_lux(const std::string& path) {
   const CsvTable csv = parse_csv(read_text(path), path);
@@ -74,4 +74,4 @@ MeasuredError measure_lux(const LuxTable& table, const LuxTable& reference, cons
   return error;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

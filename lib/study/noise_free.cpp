@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -69,4 +69,4 @@ void NoiseFree::finish(MeasuredError& to) const {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

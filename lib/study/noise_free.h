@@ -6,7 +6,7 @@
 
 #include "study/measure.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// Where the variance of a reference comes from.
 enum class NoiseFrom {
@@ -40,4 +40,4 @@ class NoiseFree {
   double variance2_ = 0, square_variance_ = 0;                              ///< sums over places, of means
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -153,4 +153,4 @@ Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJourn
   return failures;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "study/journal.h"
 #include "study/work.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// Of stages that failed, and of those that read them: what the program said.
 using Failures = std::map<std::size_t, std::string>;
@@ -28,4 +28,4 @@ Failures run_work(const StudyWork& work, const CommandRunner& runner, StudyJourn
 /// The commands that run_work() would run, in order.
 std::vector<std::size_t> work_left(const StudyWork& work, const StudyJournal& journal);
 
-}  // namespace phos
+}  // namespace phos::inline study

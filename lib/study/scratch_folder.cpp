@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline study {
 namespace {
 
 constexpr const char* kPrefix = "phos-scratch-";
@@ -60,4 +60,4 @@ ScratchFolder::~ScratchFolder() {
   ::close(lock_);
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace phos {
+namespace phos::inline study {
 
 /// A folder that goes with it, with all that is in it. It is locked while it lives: one that nobody holds was
 /// left by a killed process, and the first that is made in a process removes it.
@@ -21,4 +21,4 @@ class ScratchFolder {
   int lock_ = -1;
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

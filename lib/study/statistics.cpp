@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -55,4 +55,4 @@ double median(std::span<const double> values) {
   return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace phos {
+namespace phos::inline study {
 
 /// A mean with its interval of confidence. lo and hi are not numbers where nothing bounds it.
 struct MeanInterval {
@@ -28,4 +28,4 @@ double normal_quantile(double confidence);
 /// The middle value, or the mean of the two in the middle; not a number for none.
 double median(std::span<const double> values);
 
-}  // namespace phos
+}  // namespace phos::inline study

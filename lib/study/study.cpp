@@ -10,7 +10,7 @@
 #include "study/results/results.h"
 #include "study/spec/check.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -81,4 +81,4 @@ StudyOutcome run_study(const StudyOptions& options, const std::function<void(con
   return outcome;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

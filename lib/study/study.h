@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace phos {
+namespace phos::inline study {
 
 struct StudyOptions {
   std::string file, folder;
@@ -28,4 +28,4 @@ struct StudyOutcome {
 StudyOutcome run_study(const StudyOptions& options, const std::function<void(const std::string&)>& say,
                        const std::function<void(const std::string&)>& warn);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "study/spec/check.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -162,4 +162,4 @@ StudyWork plan_work(const StudyFile& study, const CommandRunner& runner, const s
   return work;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "study/spec/settings.h"
 #include "study/spec/stages.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// One setting with one seed: the commands that end in its picture and in its table of lux.
 struct Job {
@@ -45,4 +45,4 @@ struct StudyWork {
 /// or has no light.
 StudyWork plan_work(const StudyFile& study, const CommandRunner& runner, const std::string& folder);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -12,7 +12,7 @@
 #include "scene/motion/anchor.h"
 #include "temporal/reprojection.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 /// Sets the random numbers of looking ahead apart from those of the records.
@@ -291,4 +291,4 @@ Made AheadEstimator::make(const RecordSite& site, Estimator::Worker& worker) con
   return made;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

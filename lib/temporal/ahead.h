@@ -11,7 +11,7 @@
 #include "scene/rays.h"
 #include "temporal/film/options.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// With LookAhead::none, Made::ahead is null. Reprojection is for estimators that sample hemispheres; others
 /// make the next frame's record in full.
@@ -59,4 +59,4 @@ class AheadEstimator : public Estimator {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -6,7 +6,7 @@
 #include "radiance/cache.h"
 #include "temporal/change.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 void scale_gradients(Key& key, float factor) {
@@ -143,4 +143,4 @@ RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& inf
   return {info, records_of<FilmRadianceRecord>(chains, info, radiance_record_of)};
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -13,7 +13,7 @@
 #include "temporal/film/cache.h"
 #include "temporal/survey.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// What was found at one frame.
 struct Key {
@@ -66,4 +66,4 @@ Chain chain_of(const Made& made, const IrradianceRecord& settled, const Radiance
 Film film_of(std::span<const Chain> chains, const FilmInfo& info, const std::string& quantity);
 RadianceFilm radiance_film_of(std::span<const Chain> chains, const FilmInfo& info);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 double change_rate(std::span<const float> now, std::span<const float> next, double floor) {
   PHOS_CHECK(now.size() == next.size() && floor > 0, now.size(), " and ", next.size(), " numbers, floor ",
@@ -32,4 +32,4 @@ double time_weight(double rate, double age, double accuracy, std::int64_t max_li
   return std::max(0.0, 1 - rate * age / accuracy);
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

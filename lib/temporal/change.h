@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// docs/methods.md#f2: relative change per frame, |l1 - l0| / max(|l0|, floor), of vectors of numbers (RGB,
 /// coefficients: their basis is orthonormal, so that it is the change of radiance over the hemisphere).
@@ -21,4 +21,4 @@ std::int64_t life_of(double rate, double accuracy, std::int64_t max_life);
 /// accuracy), 0 from max_life on; 1 at age 0.
 double time_weight(double rate, double age, double accuracy, std::int64_t max_life);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

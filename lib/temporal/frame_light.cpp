@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "estimate/density.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 std::shared_ptr<const FrameScene> FrameScenes::at(std::int64_t frame) {
   const auto found =
@@ -82,4 +82,4 @@ const Estimator& FrameLight::radiance(int order, Counters& counters) {
   return *radiance_;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -17,7 +17,7 @@
 #include "temporal/film/cache.h"
 #include "temporal/film/options.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// A scene at one frame and the rays in it.
 struct FrameScene {
@@ -90,4 +90,4 @@ class FrameLight {
   int radiance_order_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline temporal

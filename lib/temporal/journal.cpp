@@ -11,7 +11,7 @@
 #include "radiance/check.h"
 #include "record/check.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 constexpr std::string_view kHeader = "phos film journal 1 ";
@@ -261,4 +261,4 @@ Made JournalEstimator::make(const RecordSite& site, Worker& worker) const {
   return made;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

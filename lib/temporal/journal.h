@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "estimate/estimator.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// A file that grows by each estimate as it is made. Entries carry checksums: one that was cut off, and all
 /// after it, are not there. The order of entries does not matter, and the film of a run that goes on from a
@@ -74,4 +74,4 @@ class JournalEstimator : public Estimator {
   std::int64_t group_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 const RecordOptions& records_of(const FilmJob& job) {
@@ -155,4 +155,4 @@ void resolve_film_places(PlacementOptions& placement, const Scene& scene, double
   resolve(placement, scene, own, accuracy);
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -9,7 +9,7 @@
 #include "radiance/gloss_tables.h"
 #include "temporal/film/maker.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// What a film is made from.
 struct FilmJob {
@@ -53,4 +53,4 @@ void resolve_film_places(PlacementOptions& placement, const Scene& scene, double
 /// What the film's file says of it.
 FilmInfo info_of(const FilmJob& job);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

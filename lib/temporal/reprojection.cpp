@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 constexpr double kMostGrowth = 4;  // of what a hit covers
@@ -264,4 +264,4 @@ ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, s
   return counts;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -9,7 +9,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// Two times of one scene, and which of its instances are elsewhere at the second (Changes::moved).
 struct Motion {
@@ -47,4 +47,4 @@ ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, s
                              const Motion& motion, const Vec3& shift_m, const Frame& frame,
                              Hemisphere& ahead);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

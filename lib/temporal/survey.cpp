@@ -7,7 +7,7 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 const FrameRange& FilmSurvey::shot_of(std::int64_t frame) const {
   for (const FrameRange& shot : shots)
@@ -56,4 +56,4 @@ FilmSurvey survey(const std::string& path, const SceneOptions& options, const Fr
   return film;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

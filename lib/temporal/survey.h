@@ -6,7 +6,7 @@
 
 #include "scene/motion/film.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 struct FilmSurvey {
   FrameRange frames;
@@ -24,4 +24,4 @@ struct FilmSurvey {
 /// Loads every frame once. Throws as load_frame(), and Error(usage) for frames that are not there.
 FilmSurvey survey(const std::string& scene, const SceneOptions& options, const FrameRange& frames);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

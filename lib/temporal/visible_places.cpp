@@ -6,7 +6,7 @@
 #include "scene/load.h"
 #include "scene/picture.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 constexpr std::size_t kTaskPixels = 1024;
@@ -145,4 +145,4 @@ VisiblePlaces::Open VisiblePlaces::look(const FrameScene& at) {
   return seen.open;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -6,7 +6,7 @@
 #include "place/placement.h"
 #include "temporal/frame_light.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// Looks at views of one or several frames, and takes what is seen back to where its surface is at the frame
 /// of `light`.
@@ -50,4 +50,4 @@ std::vector<RecordSite> holes_in_view(const FrameScene& at, const IrradianceCach
                                       const PlacementOptions& placement, const MaterialFilter& wanted,
                                       const MaterialFilter& unwanted, std::uint64_t first_item);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

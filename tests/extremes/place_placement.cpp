@@ -25,7 +25,7 @@ Placed place_in(const RayScene& rays, PlacementOptions placement, double min_rad
   placed.cache.accuracy = options.accuracy;
   Counters counters;
   placed.report =
-      place(placed.cache, test::DistanceEstimator(rays), rays, options, placement, source, counters);
+      extend_cache(placed.cache, test::DistanceEstimator(rays), rays, options, placement, source, counters);
   for (const IrradianceRecord& r : placed.cache.records) {
     EXPECT_TRUE(is_finite(r.position) && std::isfinite(r.radius_m) && r.radius_m > 0);
   }

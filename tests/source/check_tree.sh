@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks of the sources themselves: check_tree.sh ROOT
 #   one name, one type    no two headers of lib define a type of the same name (the one-definition rule)
+#   one module, one space a file of lib/x opens the namespace phos::x and no other but for forward declarations; core's types stand in phos
 #   folders of one idea   no folder of lib holds more than 40 sources
 set -euo pipefail
 cd "$1"
@@ -17,6 +18,23 @@ twice=$(find lib -name '*.h' -exec awk '
 if [[ -n $twice ]]; then
   echo "two types of one name:"
   echo "$twice"
+  failed=1
+fi
+
+# A forward declaration of another module's type stands in that module's namespace, which ends at once.
+foreign=$(find lib \( -name '*.h' -o -name '*.cpp' \) -exec awk '
+  FNR == 1 { split(FILENAME, part, "/"); module = part[2]; own = module == "core" ? "phos" : "phos::" module }
+  /^namespace [a-z_:]+( [a-z_]+)? \{/ {
+    name = $0; sub(/^namespace /, "", name); sub(/ \{.*/, "", name); sub(/inline /, "", name)
+    if (name == own || index(name, own "::") == 1) next
+    opened = name; types = 0; next
+  }
+  opened != "" && /^(struct|class|enum class) [A-Za-z0-9_ :]+;/ { next }
+  opened != "" && /^}/ { opened = ""; next }
+  opened != "" { print "  " FILENAME ": " opened; opened = "" }' {} +)
+if [[ -n $foreign ]]; then
+  echo "files that open another module's namespace:"
+  echo "$foreign"
   failed=1
 fi
 

@@ -36,7 +36,7 @@ struct Studio {
     cache.accuracy = options.accuracy;
     resolve(placement, scene, source, options.accuracy);
     counters = {};
-    report = phos::place(cache, estimator, rays, options, placement, source, counters);
+    report = extend_cache(cache, estimator, rays, options, placement, source, counters);
     return cache;
   }
 
@@ -108,7 +108,7 @@ TEST(Placement, AddsToWhatThereIsAndLeavesItAsItWas) {
   const IrradianceCache before = cache;
   PlacementOptions surface{.place = Place::surface};
   Counters counters;
-  place(cache, studio.estimator, studio.rays, studio.options, surface, {}, counters);
+  extend_cache(cache, studio.estimator, studio.rays, studio.options, surface, {}, counters);
   ASSERT_GT(cache.records.size(), before.records.size());
   cache.records.resize(before.records.size());
   EXPECT_TRUE(same_bytes(cache, before));

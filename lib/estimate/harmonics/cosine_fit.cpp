@@ -6,7 +6,7 @@
 
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 std::size_t at(int l, int m) { return static_cast<std::size_t>(harmonic_index(l, m)); }
@@ -41,4 +41,4 @@ void CosineFit::solve(std::vector<double>& moments) const {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Light L of which only the moments b_i = integral of L cos(theta) H_i dw are known, as the photons that
 /// land on a surface tell them: its coefficients c solve G c = b, G_ij = integral of H_i H_j cos(theta) dw.
@@ -25,4 +25,4 @@ class CosineFit {
   std::vector<double> before_, pivot_;  // G = U^T D U: U beside the diagonal, 1 / D
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Directions that are summed at once: the tables of order 10 fit the nearest caches.
 inline constexpr std::size_t kLightBlock = 64;
@@ -25,4 +25,4 @@ extern const LightKernel light_kernel_avx2;
 /// The fastest one that this machine can run.
 const LightKernel& best_light_kernel();
 
-}  // namespace phos
+}  // namespace phos::inline estimate

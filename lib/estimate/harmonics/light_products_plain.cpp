@@ -2,7 +2,7 @@
 #define PHOS_LIGHT_LANES 4
 #include "estimate/harmonics/light_products.inc"
 
-namespace phos {
+namespace phos::inline estimate {
 
 const LightKernel& best_light_kernel() {
 #ifdef PHOS_ESTIMATE_AVX2
@@ -13,4 +13,4 @@ const LightKernel& best_light_kernel() {
   return light_kernel_plain;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// Of the distance of what the light comes from: how far differences move the place to either side. They are
@@ -114,4 +114,4 @@ void LightSums::finish() {
                         slope[1]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -10,7 +10,7 @@
 #include "hsh/basis.h"
 #include "hsh/slopes.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Light that arrives from one direction, in the frame of a record.
 struct DirectedLight {
@@ -73,4 +73,4 @@ class LightSums {
   Block<16> sloped_;  // light, what slopes along x and y have of H, and what p and q of HshSlopes weigh
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr int kAxes = AdaptiveFootprint::kAxes;
@@ -273,4 +273,4 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
   return fitted;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

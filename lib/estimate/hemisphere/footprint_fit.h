@@ -10,7 +10,7 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "record/footprint.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Light along an axis as a parabola of s in [0, 1] times its length.
 struct AxisFit {
@@ -106,4 +106,4 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
                               std::span<const LampSample> lamps, const Vec3 (&rotation)[3],
                               const FootprintBounds& bounds);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr float kSin10Degrees = 0.17364818f;
@@ -92,6 +92,18 @@ float harmonic_distance_m(const Hemisphere& h) {
   return nearness > 0 ? static_cast<float>(weights / nearness) : kInfinity;
 }
 
+float light_distance_m(const Hemisphere& h) {
+  double light = 0, nearness = 0;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const double part =
+        static_cast<double>(h.projected_sr[i]) * static_cast<double>(luminance(h.radiance[i]));
+    const auto distance_m = static_cast<double>(h.distance_m[i]);
+    if (!(part > 0)) continue;
+    light += part, nearness += distance_m != 0 ? part / distance_m : HUGE_VAL;
+  }
+  return nearness > 0 ? static_cast<float>(light / nearness) : kInfinity;
+}
+
 float least_distance_m(const Hemisphere& h) {
   float least = kInfinity;
   for (std::size_t i = 0; i < h.size(); ++i)
@@ -99,4 +111,4 @@ float least_distance_m(const Hemisphere& h) {
   return least;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

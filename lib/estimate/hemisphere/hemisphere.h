@@ -7,7 +7,7 @@
 #include "core/vector.h"
 #include "estimate/zone/gradients.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// What the cells of a stratified hemisphere hold equal shares of.
 enum class Measure {
@@ -97,6 +97,9 @@ Rgb standard_error_of(const Hemisphere& h);
 /// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (docs/methods.md#a7), m;
 /// infinity if all miss, 0 if a ray starts on what it hits.
 float harmonic_distance_m(const Hemisphere& h);
+/// Harmonic mean distance that the light comes from: each ray counts by its part of the irradiance
+/// (luminance), misses as infinitely far (docs/methods.md#a7), m; infinity where there is no light.
+float light_distance_m(const Hemisphere& h);
 /// Least distance over rays more than 10 degrees above the horizon (Tabellion and Lamorlette 2004), m.
 float least_distance_m(const Hemisphere& h);
 
@@ -118,4 +121,4 @@ struct OcclusionGradient {
 };
 OcclusionGradient occlusion_gradient(const Hemisphere& h, float least_m);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

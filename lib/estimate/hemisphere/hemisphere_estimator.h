@@ -9,7 +9,7 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Light straight from a lamp at a diffuse hit, and what it makes of it.
 struct LampSight {
@@ -35,4 +35,4 @@ class HemisphereEstimator : public Estimator {
                            Worker& worker) const = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

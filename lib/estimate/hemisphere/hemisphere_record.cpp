@@ -7,7 +7,7 @@
 #include "estimate/hemisphere/footprint_fit.h"
 #include "estimate/next_surface.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 /// A surface of this cosine or more with the site's normal, as near as its rounding, is the site's own.
@@ -112,4 +112,4 @@ void clear_own_surface(float lift_m, Hemisphere& h) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -7,7 +7,7 @@
 #include "estimate/hit_light.h"
 #include "estimate/record_of.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Few rays that meet gloss under a coat, which is signed, can add up to less than nothing: that is dark.
 inline constexpr const char* kBelowZeroEvent = "gathered irradiance below zero";
@@ -52,4 +52,4 @@ struct HemisphereRecords {
 /// Clears what lies no higher than twice `lift_m`, the rounding of the site, and faces about the same way.
 void clear_own_surface(float lift_m, Hemisphere& h);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

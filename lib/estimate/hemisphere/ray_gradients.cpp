@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 using DVec2 = glm::dvec2;
@@ -229,4 +229,4 @@ OcclusionGradient occlusion_gradient(const Hemisphere& h, float least_m) {
   return g;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -6,7 +6,7 @@
 
 #include "estimate/hemisphere/hemisphere.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 constexpr int kRotationRings = 8;
@@ -187,4 +187,4 @@ Gradients hemisphere_gradients(const ZonePhotons& photons, std::span<const std::
                        std::numeric_limits<float>::min());
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

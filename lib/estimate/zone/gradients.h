@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// The photons of a zone, as columns. Directions and normals are world space and unit.
 struct ZonePhotons {
@@ -124,4 +124,4 @@ ComparedGradients compare_gradients(const ZonePhotons& photons, std::span<const 
 Gradients hemisphere_gradients(const ZonePhotons& photons, std::span<const std::uint8_t> used, double area_m2,
                                const Frame& frame, int rings);
 
-}  // namespace phos
+}  // namespace phos::inline estimate

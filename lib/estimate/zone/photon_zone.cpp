@@ -5,7 +5,7 @@
 
 #include "core/octahedral.h"
 
-namespace phos {
+namespace phos::inline estimate {
 void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
                           const NearPhotons& near_photons, GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
@@ -79,4 +79,4 @@ void ZoneGatherer::drop_hidden(const ZonePlace& place, GatheredPhotons& gathered
   zone.resize(kept), gathered.height_m.resize(kept);
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -11,7 +11,7 @@
 #include "photon/photon_map.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// Photons that records count.
 struct Counted {
@@ -85,4 +85,4 @@ class ZoneGatherer : public TangentSurface {
   float nearest_m_;  // photons from nearer count as from there
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

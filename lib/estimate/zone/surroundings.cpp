@@ -7,7 +7,7 @@
 #include "photon/density.h"
 #include "scene/material/passage.h"
 
-namespace phos {
+namespace phos::inline estimate {
 namespace {
 
 // A zone short of photons grows to at most this many times a R: beyond, other light is mixed in.
@@ -112,4 +112,4 @@ ZoneRadius Surroundings::zone_radius(const ZonePlace& place, const NearPhotons& 
   return {std::max(bounded, 64 * place.rounding_m), bounded < radius ? kNoPhoton : decided_by};
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

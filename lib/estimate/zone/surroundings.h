@@ -6,7 +6,7 @@
 
 #include "estimate/zone/photon_zone.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 struct ZoneRadius {
   float radius_m;
@@ -42,4 +42,4 @@ class Surroundings {
   std::uint64_t seed_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

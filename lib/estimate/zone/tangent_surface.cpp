@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline estimate {
 
 float slab_m(const ZonePlace& place, float radius_m) {
   return std::max(kSlab * radius_m, 4 * place.rounding_m);
@@ -37,4 +37,4 @@ bool TangentSurface::on_surface(ZonePlace& place, const Vec2& offset_m) const {
   return false;
 }
 
-}  // namespace phos
+}  // namespace phos::inline estimate

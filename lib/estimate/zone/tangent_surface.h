@@ -4,7 +4,7 @@
 #include "core/vector.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline estimate {
 
 /// The tangent plane at a place, and the slab about it that holds the photons of its zone.
 struct ZonePlace {
@@ -41,4 +41,4 @@ class TangentSurface {
   const RayScene& rays_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline estimate

@@ -8,7 +8,7 @@
 #include "hsh/quadrature.h"
 #include "hsh/turn/turn.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 using std::numbers::pi;
@@ -249,4 +249,4 @@ Turn hsh_turn(int order, HshRotation method, double beta) {
   return turn;
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -1,6 +1,6 @@
 #include "hsh/turn/kernel.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 std::vector<PackedTurn::Column> pack_block(const std::vector<double>& block, std::size_t n) {
@@ -30,4 +30,4 @@ TurnKernel* best_turn_kernel() {
   return turn_plain;
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

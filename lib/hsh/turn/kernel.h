@@ -5,7 +5,7 @@
 
 #include "hsh/turn/turn.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// The blocks of a Turn in float: panels of kPanel rows (the last filled up with zeros), column after column.
 struct PackedTurn {
@@ -30,4 +30,4 @@ TurnKernel turn_avx2;
 /// The fastest that this machine has; all give the same bits.
 TurnKernel* best_turn_kernel();
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -5,7 +5,7 @@
 #include "hsh/basis.h"
 #include "hsh/turn/turn.h"
 
-namespace phos {
+namespace phos::inline hsh {
 namespace {
 
 /// d^l_{j,k} for l = j, j + 1, ...: one step of
@@ -64,4 +64,4 @@ ShTurn::ShTurn(int order, double beta) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline hsh

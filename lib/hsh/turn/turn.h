@@ -8,7 +8,7 @@
 
 #include "hsh/rotation.h"
 
-namespace phos {
+namespace phos::inline hsh {
 
 /// HSH: coefficients of a turned function = matrix times the coefficients, for the cosines and for the sines
 /// of all bands, row after row.
@@ -49,4 +49,4 @@ class ShTurn {
   std::vector<double> values_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline hsh

@@ -20,7 +20,7 @@
 #include "image/formats.h"
 #include "image/primaries.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -192,4 +192,4 @@ Image decode_exr(std::string_view bytes, const std::string& where) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

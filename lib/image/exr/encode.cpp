@@ -14,7 +14,7 @@
 #include "image/formats.h"
 #include "image/primaries.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 Imf::Header header_of(const Image& image, ExrCompression compression) {
@@ -67,4 +67,4 @@ std::string encode_exr(const Image& image, ExrCompression compression) {
                                             : encode_by_openexr(header, image);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

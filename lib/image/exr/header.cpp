@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 constexpr std::uint32_t kManyParts = 0x1000;  // of the version's flags
@@ -127,4 +127,4 @@ void check_exr_header(std::string_view file, const std::string& where) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace phos {
+namespace phos::inline image {
 
 /// Passes if every attribute of every header lies within the file, and its value fills it: the library takes
 /// the memory that an attribute asks for before it looks how much there is. Throws std::runtime_error; and
@@ -12,4 +12,4 @@ namespace phos {
 /// with a header, the library finds.
 void check_exr_header(std::string_view file, const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -12,7 +12,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline image {
 
 class MemoryExrIn : public Imf::IStream {
  public:
@@ -61,4 +61,4 @@ inline void use_our_exr_threads() {
   if (Imf::globalThreadCount() != workers) Imf::setGlobalThreadCount(workers);
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "image/exr/memory.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 /// Layers of floats hardly shrink by more effort (a Cornell box: 0.2 to 0.5 % by half again the time).
@@ -117,4 +117,4 @@ std::string encode_zip_exr(const Imf::Header& header, const Image& image) {
   return file;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

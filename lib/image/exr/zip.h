@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// The bytes of a file of scanlines: `header`, whose channels are those of the image, all floats, and whose
 /// compression is ZIP, and the image in blocks of 16 lines ("OpenEXR File Layout": of each block the even
@@ -15,4 +15,4 @@ namespace phos {
 /// any number of threads. Throws std::bad_alloc.
 std::string encode_zip_exr(const Imf::Header& header, const Image& image);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -107,4 +107,4 @@ Plot plot_of(const CsvTable& table, const CsvPlotOptions& o) {
   return plot;
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

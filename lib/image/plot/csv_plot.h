@@ -9,7 +9,7 @@
 #include "file/csv.h"
 #include "image/plot/plot.h"
 
-namespace phos {
+namespace phos::inline image {
 
 struct CsvPlotOptions {
   std::string x, series;
@@ -28,4 +28,4 @@ std::string given_plot_option(const Options& options);
 /// that the table lacks, Error(bad_input) for a cell that is no number, or where no row is left.
 Plot plot_of(const CsvTable& table, const CsvPlotOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "image/plot/style.h"
 
-namespace phos {
+namespace phos::inline image {
 
 namespace {
 
@@ -263,4 +263,4 @@ Picture plot_picture(const Plot& plot, int scale) {
   return canvas.finish_picture();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -8,7 +8,7 @@
 #include "image/canvas.h"
 #include "image/false_colour.h"
 
-namespace phos {
+namespace phos::inline image {
 
 /// Points joined in the order given. One that is not finite, or not above 0 on a logarithmic axis, is left
 /// out, and the line is broken there.
@@ -47,4 +47,4 @@ std::string plot_svg(const Plot& plot);
 /// The same drawing, `scale` times as many pixels each way.
 Picture plot_picture(const Plot& plot, int scale = 1);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -9,7 +9,7 @@
 #include "image/false_colour.h"
 #include "image/plot/style.h"
 
-namespace phos {
+namespace phos::inline image {
 namespace {
 
 constexpr Colour8 kGrid{205, 205, 205};
@@ -141,4 +141,4 @@ Picture polar_plot_picture(const PolarPlot& plot, int scale) {
   return canvas.finish_picture();
 }
 
-}  // namespace phos
+}  // namespace phos::inline image

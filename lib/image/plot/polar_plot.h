@@ -6,7 +6,7 @@
 
 #include "image/plot/plot.h"
 
-namespace phos {
+namespace phos::inline image {
 
 struct PolarCurve {
   std::string name;  ///< in the legend
@@ -28,4 +28,4 @@ struct PolarPlot {
 std::string polar_plot_svg(const PolarPlot& plot);
 Picture polar_plot_picture(const PolarPlot& plot, int scale = 1);
 
-}  // namespace phos
+}  // namespace phos::inline image

@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "photon/tree/split.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 15;   // nodes of fewer points are built by one thread each
@@ -166,4 +166,4 @@ Column<std::byte> build_tree(std::span<const Vec3> points, int leaf_size) {
   return saved;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -8,7 +8,7 @@
 #include "core/column.h"
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Where things stand in what FLANN saves of a KDTreeSingleIndex over n points, behind its header: members
 /// and box, the order of the points (4 bytes each), the nodes depth first (five values of 4 bytes and one of
@@ -21,4 +21,4 @@ inline constexpr std::size_t kTreeOrder = 95, kTreeNode = 21, kTreeBox = 63;
 /// must be finite and so near 0 that squares of distances are finite.
 Column<std::byte> build_tree(std::span<const Vec3> points, int leaf_size);
 
-}  // namespace phos
+}  // namespace phos::inline photon

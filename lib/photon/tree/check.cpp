@@ -6,7 +6,7 @@
 #include "core/float_traps.h"
 #include "photon/tree/flann_stream.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 using Damaged = FlannStream::Damaged;
@@ -126,4 +126,4 @@ class Checker {
 
 void check_tree(std::span<const Vec3> points, const TreeStream& stream) { Checker(points, stream).check(); }
 
-}  // namespace phos
+}  // namespace phos::inline photon

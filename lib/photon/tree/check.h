@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// What FLANN's header says of the stream behind it.
 struct TreeStream {
@@ -26,4 +26,4 @@ inline constexpr std::size_t kDeepestTree = 1024;
 /// FlannStream::Damaged, whose text goes on from "the kd-tree ". `points` must be finite, at most 2^31-1.
 void check_tree(std::span<const Vec3> points, const TreeStream& stream);
 
-}  // namespace phos
+}  // namespace phos::inline photon

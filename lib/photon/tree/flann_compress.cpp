@@ -14,7 +14,7 @@
 #include "core/parallel.h"
 #include "photon/tree/build.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kBlock = 64 * 1024;
@@ -133,4 +133,4 @@ std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::spa
   return stream;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

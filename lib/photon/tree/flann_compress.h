@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline photon {
 
 /// The stream that FLANN's SaveArchive writes, byte for byte with the same LZ4: its header, whose last 8
 /// bytes become the length of the first block, then `contents` in blocks (flann_stream.h), each compressed as
@@ -13,4 +13,4 @@ namespace phos {
 /// std::bad_alloc.
 std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents);
 
-}  // namespace phos
+}  // namespace phos::inline photon

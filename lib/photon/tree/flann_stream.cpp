@@ -4,7 +4,7 @@
 
 #include <new>
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kBlockBytes = 64 * 1024;
@@ -68,4 +68,4 @@ void FlannStream::require_end() {
   if (at_ != end_ || next_length() != 0 || !rest_.empty()) throw Damaged("goes on after its end");
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

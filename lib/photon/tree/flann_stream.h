@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace phos {
+namespace phos::inline photon {
 
 /// LZ4 blocks of at most 64 KiB, of which each may refer to the one before it; a length before all but the
 /// first, and a length of 0 after the last. FLANN's own reader takes lengths, and ends, as they come.
@@ -48,4 +48,4 @@ class FlannStream {
   void* lz4_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

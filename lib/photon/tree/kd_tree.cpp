@@ -15,7 +15,7 @@
 #include "photon/tree/flann_compress.h"
 #include "photon/tree/flann_stream.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 using Tree = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
@@ -272,4 +272,4 @@ void KdTree::nearest(const Vec3& p, std::size_t k, std::vector<std::uint32_t>& r
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -11,7 +11,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 /// Exact neighbour search over points that stay where they are: the tree refers to the span it was made with.
 /// Queries are const and thread-safe. A tree of no points answers every query with nothing.
@@ -56,4 +56,4 @@ class KdTree {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline photon

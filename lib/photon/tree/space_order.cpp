@@ -4,7 +4,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
@@ -56,4 +56,4 @@ Column<std::uint32_t> space_order(std::span<const Vec3> points) {
   return order;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 14;
@@ -142,4 +142,4 @@ Bounds box_of_both(const Bounds& first, const Bounds& second) {
   return box;
 }
 
-}  // namespace phos
+}  // namespace phos::inline photon

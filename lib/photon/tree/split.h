@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline photon {
 
 struct TreePoint {
   Vec3 position;
@@ -33,4 +33,4 @@ Bounds tight_box(std::span<const TreePoint> points);
 Bounds tight_box_in_parallel(std::span<const TreePoint> points);
 Bounds box_of_both(const Bounds& first, const Bounds& second);
 
-}  // namespace phos
+}  // namespace phos::inline photon

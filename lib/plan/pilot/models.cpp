@@ -6,7 +6,7 @@
 #include "plan/pilot/pilot.h"
 #include "record/irradiance_cache.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 using K = Knob;
@@ -175,4 +175,4 @@ std::string thinned_rows(const std::string& csv, const std::string& where,
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 struct Pair {
@@ -63,4 +63,4 @@ double differs_within_pixels(const Image& few, const Image& more, const std::str
   return mean > 0 ? differ2 * n / (mean * mean) : 0;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

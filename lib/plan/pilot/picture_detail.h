@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// Power h of the mean square of what differs within pixels, as N^-h of the number N of pixels: 1 for smooth
 /// light, 1/2 for lone edges, of which each pixel row shows as many whatever its height, next to nothing for
@@ -20,4 +20,4 @@ inline constexpr double kLeastDetailPower = 0.125;
 /// with more samples in each pixel, what the few miss of what lies within pixels. 0 where it is dark.
 double differs_within_pixels(const Image& few, const Image& more, const std::string& layer);
 
-}  // namespace phos
+}  // namespace phos::inline plan

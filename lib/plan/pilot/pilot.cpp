@@ -9,7 +9,7 @@
 #include "file/atomic_file.h"
 #include "plan/pilot/runs.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 // Settings of the small runs: cheap, and far enough apart to tell the terms from each other.
@@ -197,4 +197,4 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   return pilot;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

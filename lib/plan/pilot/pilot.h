@@ -10,7 +10,7 @@
 #include "plan/model.h"
 #include "plan/task.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 /// How many records lie where they are wanted, by their accuracy a: odds n / (most - n) of a place to be one
 /// that follow a power of a, for a record may serve no less than a pixel or a sensor.
@@ -105,4 +105,4 @@ std::string thinned_rows(const std::string& csv, const std::string& where,
 inline const std::vector<std::string> kSensorColumns{"x", "y", "z", "nx", "ny", "nz"};
 inline const std::vector<std::string> kLuxColumns{"x", "y", "z", "E_lx", "stderr_lx"};
 
-}  // namespace phos
+}  // namespace phos::inline plan

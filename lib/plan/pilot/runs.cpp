@@ -9,7 +9,7 @@
 #include "file/write_text.h"
 #include "plan/plan.h"
 
-namespace phos {
+namespace phos::inline plan {
 namespace {
 
 constexpr std::uint64_t kPipelineSeed = 1, kReferenceSeed = 101, kCountSeed = 11;
@@ -255,4 +255,4 @@ std::vector<double> PilotRuns::count_records(double photons_count, const std::ve
   return counts;
 }
 
-}  // namespace phos
+}  // namespace phos::inline plan

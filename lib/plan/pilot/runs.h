@@ -13,7 +13,7 @@
 #include "study/command.h"
 #include "study/scratch_folder.h"
 
-namespace phos {
+namespace phos::inline plan {
 
 struct ReferenceRun {
   double seconds = 0;   ///< of one of the pair
@@ -82,4 +82,4 @@ class PilotRuns {
   std::size_t sensors_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline plan

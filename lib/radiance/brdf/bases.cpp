@@ -8,7 +8,7 @@
 #include "hsh/comparison_bases.h"
 #include "scene/material/bsdf.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::string basis_accuracy_csv(const Scene& scene, std::span<const std::uint32_t
   return csv;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

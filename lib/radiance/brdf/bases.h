@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// A table, CSV: material, weight, basis, coefficients, accuracy. Accuracy is the share of the energy
 /// (integral of the square over the hemisphere) of the luminance of a material's glossy lobe that so many
@@ -17,4 +17,4 @@ namespace phos {
 /// number of threads.
 std::string basis_accuracy_csv(const Scene& scene, std::span<const std::uint32_t> materials);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -7,7 +7,7 @@
 #include "radiance/brdf/report.h"
 #include "radiance/brdf/table.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::vector<BrdfTable> read_brdf(const Container& file) {
   return tables;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "hsh/quadrature.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -230,4 +230,4 @@ LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, std::span<co
   return Builder(f, scouts).build(order);
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

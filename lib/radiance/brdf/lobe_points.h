@@ -9,7 +9,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// Directions wi, and (f cos)(wi) times the solid angle that each stands for.
 struct LobePoints {
@@ -34,4 +34,4 @@ struct LobePoints {
 /// nothing of what a scout sees there.
 LobePoints lobe_points(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts, int order);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -70,4 +70,4 @@ int LobeProjection::lowest_order(double tolerance, float& error) const {
   return 0;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -4,7 +4,7 @@
 #include "hsh/basis.h"
 #include "radiance/brdf/lobe_points.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 struct LobeProjection {
   std::vector<float> coefficients;  ///< [order^2][3] of f cos, 1/sqrt(sr)
@@ -24,4 +24,4 @@ struct LobeProjection {
 LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts,
                             const HarmonicBasis<float>& basis);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -11,7 +11,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/report/describe.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::vector<std::uint32_t> glossy_materials(const Scene& scene) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

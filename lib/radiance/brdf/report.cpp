@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/text/quantity.h"
 
-namespace phos {
+namespace phos::inline radiance {
 namespace {
 
 std::string title(const BrdfTable& table) {
@@ -69,4 +69,4 @@ std::vector<std::string> warnings_of(const BrdfTable& table, const Counters& cou
   return warnings;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

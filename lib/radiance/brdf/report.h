@@ -8,7 +8,7 @@
 #include "core/json.h"
 #include "radiance/brdf/table.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// Name and shape of a table (material, index, isotropic, resolution, order, albedo, note): its header in the
 /// `.brdf` file.
@@ -23,4 +23,4 @@ std::string sentence_of(const BrdfTable& table, const std::string& model);
 /// What the user should know of events that project_brdf() counted; nothing if all went well.
 std::vector<std::string> warnings_of(const BrdfTable& table, const Counters& counters);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -7,7 +7,7 @@
 #include "hsh/basis.h"
 #include "radiance/lobe_dot.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 namespace {
 
@@ -227,4 +227,4 @@ int BrdfLookup::coefficients(const Vec3& wo, std::vector<float>& out) const {
   return n;
 }
 
-}  // namespace phos
+}  // namespace phos::inline radiance

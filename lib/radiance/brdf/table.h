@@ -13,7 +13,7 @@
 #include "file/container.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline radiance {
 
 /// What becomes of a direction whose lobe needs more bands than there may be.
 enum class TooSharp : unsigned char {
@@ -109,4 +109,4 @@ void write_brdf(const std::string& path, std::span<const BrdfTable> tables, Prov
 /// Throws Error(bad_input) for a damaged file (checksums verified) or one of another kind.
 std::vector<BrdfTable> read_brdf(const Container& file);
 
-}  // namespace phos
+}  // namespace phos::inline radiance

@@ -7,7 +7,7 @@
 #include "scene/load_mesh.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 [[noreturn]] void fail(const Scene& scene, const std::string& message) {
@@ -181,4 +181,4 @@ void finalize(Scene& scene) {
   fill_hash(scene);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// What scene.warnings say of a light too faint for floats beside others; where the brightest is, the scene
 /// is refused.
@@ -17,4 +17,4 @@ void fill_hash(Scene& scene);
 /// Mean luminance over a triangle, the emissive texture included, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -12,7 +12,7 @@
 #include "scene/material/pane.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// More names than this and the parts would outgrow the header of a small cache.
@@ -222,4 +222,4 @@ void fill_hash(Scene& scene) {
   scene.hash = hash_text(geometry + materials + lights + environment + bands).hex();
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/sky/environment.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Points per side of the grid over a triangle on which an emissive texture is averaged; texels beyond it are
@@ -196,4 +196,4 @@ void fill_lights(Scene& scene) {
   require_power(scene);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

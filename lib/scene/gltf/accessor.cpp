@@ -5,7 +5,7 @@
 #include <cstring>
 #include <functional>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// An accessor without bytes of its own is all zeros. It belongs to others that have some (a vertex that a
@@ -182,4 +182,4 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, int access
   return values;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/gltf/document.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The accessor's values as floats, `components` each, in order. Normalised integers are mapped to [0,1] or
 /// [-1,1]. Throws Error(bad_input) if it has another number of components or reaches outside its buffer.
@@ -16,4 +16,4 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, int access
 /// Numbers per element of the accessor (3 for VEC3).
 int accessor_components(const GltfDocument& document, int accessor);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/gltf/document.h"
 #include "scene/gltf/luminaires.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 enum class Kind { index, indices, count, small_count, number, numbers, text, boolean };
@@ -307,4 +307,4 @@ void check_gltf(const Json& document, const std::string& path) {
   check_gltf_luminaires(document, path);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

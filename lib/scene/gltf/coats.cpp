@@ -7,7 +7,7 @@
 #include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kClearcoat = "extensions/KHR_materials_clearcoat";
@@ -126,4 +126,4 @@ void lay_coats(const GltfDocument& document, Scene& scene) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -4,7 +4,7 @@
 #include "scene/gltf/document.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Puts clear coats and sheen into the metallic-roughness materials of the document, scene.material[i] being
 /// materials[i], textures decoded: right in what is reflected in the mean over all directions.
@@ -19,4 +19,4 @@ void lay_coats(const GltfDocument& document, Scene& scene);
 /// Mean over the hemisphere of the albedo of glTF's sheen (Charlie) of colour 1.
 double mean_sheen_albedo(double roughness);
 
-}  // namespace phos
+}  // namespace phos::inline scene

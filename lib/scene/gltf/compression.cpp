@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "scene/gltf/document.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
@@ -63,4 +63,4 @@ void require_uncompressed(const Json& document, const std::string& path) {
   check_buffers(document, path);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,10 +3,10 @@
 
 #include "core/json.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Throws Error(bad_input) with `path` for a mesh or buffer whose data an extension compresses, unless the
 /// file holds them uncompressed beside it; names mesh and extension. `document` has passed check_gltf().
 void require_uncompressed(const Json& document, const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "scene/gltf/accessor.h"
 #include "scene/motion/animation.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 bool all_finite(const std::vector<float>& values) {
@@ -59,4 +59,4 @@ glm::dmat4 GltfCopies::at(std::size_t k) const {
   return pose.local();
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "scene/gltf/document.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Where the copies stand, in the coordinates of their node. 40 bytes a copy.
 class GltfCopies {
@@ -25,4 +25,4 @@ class GltfCopies {
   std::size_t count_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -15,7 +15,7 @@
 #include "scene/gltf/uri.h"
 #include "scene/report/features.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kVersion1 = "glTF 1.0 is not supported; convert it to 2.0";
@@ -269,4 +269,4 @@ const Json& element(const Json& json, const std::string& key, std::size_t i) {
   return list && list->is_array() && i < list->as_array().size() ? list->as_array()[i] : kNull;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

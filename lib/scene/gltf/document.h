@@ -16,7 +16,7 @@ namespace tinygltf {
 class Model;
 }
 
-namespace phos {
+namespace phos::inline scene {
 
 struct GltfDocument {
   std::string path;
@@ -61,4 +61,4 @@ std::size_t count_at(const Json& json, std::string_view path);
 /// Element i of the top-level array `key`; null where it is missing.
 const Json& element(const Json& json, const std::string& key, std::size_t i);
 
-}  // namespace phos
+}  // namespace phos::inline scene

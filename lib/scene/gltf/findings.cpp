@@ -10,7 +10,7 @@
 #include "scene/gltf/document.h"
 #include "scene/report/features.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 struct List {
@@ -227,4 +227,4 @@ std::vector<Note> metals_by_default(const Json& document) {
   return notes;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "core/json.h"
 #include "scene/note.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Notes on extensions, listed or used, and on properties that are not modelled or modelled in part
 /// (scene/report/features.h), with the material, node or other object that each is of. Of the checked
@@ -18,4 +18,4 @@ std::vector<Note> gltf_findings(const Json& document);
 /// or mirrors, and the file is not of an exporter that leaves the value out where it is 1.
 std::vector<Note> metals_by_default(const Json& document);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -22,7 +22,7 @@
 #include "scene/node_extent.h"
 #include "scene/texture/load_textures.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 class SceneReader {
@@ -426,4 +426,4 @@ Scene load_gltf(const std::string& path, std::string_view bytes, const SceneOpti
   return scene;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

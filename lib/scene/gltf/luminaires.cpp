@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "scene/gltf/uri.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kProfiles = "extensions/EXT_lights_ies/lights";
@@ -101,4 +101,4 @@ std::shared_ptr<const PhotometricFile> GltfProfiles::read(std::size_t i) {
   return known;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

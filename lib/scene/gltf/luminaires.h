@@ -10,7 +10,7 @@
 #include "scene/gltf/document.h"
 #include "scene/luminaire/photometric_file.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Throws Error(bad_input) for members of the wrong kind or out of range. (A step of check_gltf.)
 void check_gltf_luminaires(const Json& document, const std::string& path);
@@ -34,4 +34,4 @@ class GltfProfiles {
   std::map<std::size_t, std::shared_ptr<const PhotometricFile>> file_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

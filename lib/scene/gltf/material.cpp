@@ -12,7 +12,7 @@
 #include "scene/material/merl.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// GGX roughness below which transmission counts as smooth glass.
@@ -377,4 +377,4 @@ void read_gltf_materials(const GltfDocument& document, TexturePool& textures, Sc
   for (std::size_t i = 0; i < document.model->materials.size(); ++i) reader.read(i);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/gltf/accessor.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 template <class V>
@@ -146,4 +146,4 @@ bool apply_skin(const GltfDocument& document, std::size_t mesh, std::size_t prim
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

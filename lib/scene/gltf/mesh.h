@@ -6,7 +6,7 @@
 #include "scene/gltf/document.h"
 #include "scene/load_mesh.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Triangles of meshes[mesh].primitives[primitive], with its morph targets blended by `weights` (missing ones
 /// are 0). Nothing for points and lines. Throws Error(bad_input).
@@ -18,4 +18,4 @@ std::optional<MeshData> read_primitive(const GltfDocument& document, std::size_t
 bool apply_skin(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
                 const std::vector<glm::dmat4>& joint, MeshData& data);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/gltf/document.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void check_colour(const Rgb& c, const std::string& what, const Fail& fail) {
   if (!is_finite(c) || c.x < 0 || c.y < 0 || c.z < 0) fail(what + " must be numbers that are not negative");
@@ -53,4 +53,4 @@ void StatedBrdf::read_alpha(Material& material) const {
   material.alpha_y = number("ay", both);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

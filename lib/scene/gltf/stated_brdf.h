@@ -8,7 +8,7 @@
 #include "core/json.h"
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct Material;
 
@@ -44,4 +44,4 @@ class StatedBrdf {
   const Owner& owner_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "scene/material/pane.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 std::shared_ptr<const TransmittanceCurve> read_curve(const StatedBrdf& stated, const Json& table) {
@@ -59,4 +59,4 @@ void read_pane(const StatedBrdf& stated, Material& material) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -4,7 +4,7 @@
 #include "scene/gltf/stated_brdf.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// "tint".
 void read_glass(const StatedBrdf& stated, Material& material);
@@ -12,4 +12,4 @@ void read_glass(const StatedBrdf& stated, Material& material);
 /// state them.
 void read_pane(const StatedBrdf& stated, Material& material);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "file/atomic_file.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 int base64_digit(char c) {
@@ -89,4 +89,4 @@ std::optional<std::string> file_below(const std::string& scene_path, const std::
   return uri_file(scene_path, uri);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

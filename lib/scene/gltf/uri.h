@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Is it "data:..."?
 bool is_data_uri(const std::string& uri);
@@ -21,4 +21,4 @@ std::string read_referred(const std::string& path);
 /// Path of `name` in the folder of `scene_path`.
 std::string beside(const std::string& scene_path, const std::string& name);
 
-}  // namespace phos
+}  // namespace phos::inline scene

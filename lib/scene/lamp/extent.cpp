@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr float kSameDirection = 0.999f;
@@ -32,4 +32,4 @@ LampExtent extent_of(const Scene& scene, const Light& light) {
   return lamp;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -4,7 +4,7 @@
 #include "core/vector.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A ball that holds the lamp, and the way it faces.
 struct LampExtent {
@@ -15,4 +15,4 @@ struct LampExtent {
 /// Of a lamp of kind area.
 LampExtent extent_of(const Scene& scene, const Light& light);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kMostPatches = 32;
@@ -87,4 +87,4 @@ float LampForm::projected_solid_angle(const Vec3& p, const Vec3& n) const {
   return static_cast<float>(sum);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

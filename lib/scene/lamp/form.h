@@ -7,7 +7,7 @@
 #include "core/vector.h"
 #include "scene/lamp/panel.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Projected solid angle of a plane polygon seen from the origin by a surface that faces n (unit), sr:
 /// pi times the form factor (Lambert 1760; Arvo 1995, eq. 2.10), the part below the horizon of n cut off.
@@ -38,4 +38,4 @@ class LampForm {
   bool double_sided_ = false;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -11,7 +11,7 @@
 #include "scene/texture/texture.h"
 #include "scene/texture/visible_share.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point, const Vec3& towards) {
   const Material& material = scene.material[point.material];
@@ -384,4 +384,4 @@ std::vector<double> Luminaires::power_shares(double minimum_share, double enviro
   return shares;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

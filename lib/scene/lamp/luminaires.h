@@ -12,7 +12,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Luminance leaving a surface point on the side it is seen from, towards a unit direction, cd/m2 (0 behind a
 /// one-sided emitter).
@@ -183,4 +183,4 @@ class Luminaires {
   std::vector<std::int32_t> instance_light_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

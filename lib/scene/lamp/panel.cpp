@@ -8,7 +8,7 @@
 #include "scene/lamp/near.h"
 #include "scene/offset.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Makes one of two triangles that are the halves of a parallelogram.
 bool LampPanel::join(Patch& first, const Patch& second) {
@@ -92,4 +92,4 @@ LampPanel::Way LampPanel::way(const SurfacePoint& point, float u_patch, const Ve
   return result;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 class LampPanel {
  public:
@@ -52,4 +52,4 @@ class LampPanel {
   std::vector<Patch> patch_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

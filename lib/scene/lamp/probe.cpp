@@ -5,7 +5,7 @@
 #include "core/sampling.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Rays from infinitely far away start this part of the bounding radius before its sphere, so that what
@@ -152,4 +152,4 @@ ProbeRay LampProbe::from_portal(const Vec3& direction, double lux, RandomStream&
   return ray;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "scene/lamp/luminaires.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A lamp as people name it: a light of the scene; of an environment, its sun and the rest of it, each apart.
 struct Lamp {
@@ -51,4 +51,4 @@ class LampProbe {
   const Luminaires* luminaires_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

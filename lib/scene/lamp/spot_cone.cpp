@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kRounding_rad = 1e-3;
@@ -32,4 +32,4 @@ bool has_hard_edge(const Light& light) {
   return light.kind == Light::Kind::spot && light.cos_inner <= light.cos_outer;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "scene/luminaire/photometric_lines.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// The table and what the file says of it may differ by so much before it is told: efficiency and downward
@@ -245,4 +245,4 @@ PhotometricFile parse_eulumdat(std::string_view bytes, const std::string& where)
   return Reader(bytes, where).read();
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

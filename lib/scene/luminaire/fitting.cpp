@@ -7,7 +7,7 @@
 #include "file/hash.h"
 #include "scene/luminaire/photometric_file.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kDirections = 512;  // by which the light of facets is shared out
@@ -103,4 +103,4 @@ void Fitting::add_to(Hasher& hasher) const {
   for (int c = 0; c < 3; ++c) hasher.add(colour_[c]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,9 +6,12 @@
 
 #include "core/vector.h"
 
-namespace phos {
-
+namespace phos::inline file {
 class Hasher;
+}
+
+namespace phos::inline scene {
+
 class Photometry;
 struct PhotometricFile;
 
@@ -69,4 +72,4 @@ class Fitting {
   std::vector<Vec4> plane_;  // facets of one normal together: normal, area
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

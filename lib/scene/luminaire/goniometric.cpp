@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 PolarCurve curve(const Photometry& photometry, int c_deg) {
@@ -42,4 +42,4 @@ PolarPlot goniometric_plot(const PhotometricFile& file, const std::string& absen
   return plot;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/text/named_files.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 glm::dmat4 matrix(const DVec3& x, const DVec3& y, const DVec3& z, const DVec3& position) {
@@ -112,4 +112,4 @@ void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, c
   scene.light.push_back(light);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -11,7 +11,7 @@
 #include "scene/luminaire/photometric_file.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The distributions that options give to lights. Reads each file once; its warnings go to the first scene.
 class GivenLuminaires {
@@ -48,4 +48,4 @@ glm::dmat4 aimed(const DVec3& position, const DVec3& direction, const DVec3& acr
 void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, const LuminairePlace& place,
                     LuminairesAs as);
 
-}  // namespace phos
+}  // namespace phos::inline scene

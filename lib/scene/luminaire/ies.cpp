@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scene/luminaire/photometric_lines.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kFoot_m = 0.3048;
@@ -443,4 +443,4 @@ std::string ies_tilt_file(std::string_view bytes) {
   return value == "NONE" || value == "INCLUDE" ? "" : value;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

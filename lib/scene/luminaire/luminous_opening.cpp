@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kSides = 48;  // of a round opening
@@ -197,4 +197,4 @@ MeshData opening_mesh(const LuminousOpening& opening, const Photometry& photomet
   return prism(opening.form, axis, h);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/load_mesh.h"
 #include "scene/luminaire/photometry.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Centred at the photometric centre, in the luminaire's axes (photometry.h). One size may be 0: a flat one.
 struct LuminousOpening {
@@ -31,4 +31,4 @@ LuminousOpening eulumdat_opening(double length_m, double width_m, double height_
 /// `both_sides`: a flat one that shines on both. Not for a point.
 MeshData opening_mesh(const LuminousOpening& opening, const Photometry& photometry, bool& both_sides);
 
-}  // namespace phos
+}  // namespace phos::inline scene

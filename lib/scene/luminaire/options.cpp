@@ -3,7 +3,7 @@
 #include "core/text/named_files.h"
 #include "scene/luminaire/photometric_file.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void declare_options(Options& options, LuminaireOptions& luminaires) {
   options.named_files(
@@ -34,4 +34,4 @@ std::vector<std::string> luminaire_words(const LuminaireOptions& options) {
   return words;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/options.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// What shines: the luminous opening that the file states, or a point always.
 enum class LuminairesAs { openings, points };
@@ -21,4 +21,4 @@ std::vector<std::string> luminaire_files(const LuminaireOptions& options);
 /// The words of a command line that mean the same.
 std::vector<std::string> luminaire_words(const LuminaireOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -12,7 +12,7 @@
 #include "scene/gltf/uri.h"
 #include "scene/luminaire/photometric_lines.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Of relative photometry, the share of the lamps' light that leaves the luminaire cannot be above 1 (by more
@@ -201,4 +201,4 @@ std::string photometry_text(const Json& j) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -11,7 +11,7 @@
 #include "scene/luminaire/luminous_opening.h"
 #include "scene/luminaire/photometry.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Factor on the light of a luminaire that is tilted out of the position it was measured in; linear between
 /// its angles, constant beyond them. Empty: 1 always.
@@ -59,4 +59,4 @@ bool is_photometry(const std::string& path);
 Json describe_photometry(const PhotometricFile& file);
 std::string photometry_text(const Json& description);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kNoise = 0.01;  // of the greatest value
@@ -110,4 +110,4 @@ void Planes::mirror_at_end() {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "scene/luminaire/photometric_file.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A line without its end (LF, CR LF or CR) and the blanks about it; its number counts from 1.
 struct PhotometricLine {
@@ -55,4 +55,4 @@ struct Planes {
   void mirror_at_end();
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "core/sampling.h"
 #include "file/hash.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -295,4 +295,4 @@ BeamAngles beam_angles(const Photometry& photometry, double c_deg) {
   return {whole(0.5 * most), whole(0.1 * most)};
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Intensities at the nodes of a grid over the sphere. The luminaire's own axes: x is horizontal angle 0
 /// (C0), y is C90, z is up; it points down. With the poles' axes a0, a1 and p, a direction is cos(polar) p +
@@ -86,4 +86,4 @@ BeamAngles beam_angles(const Photometry& photometry, double c_deg);
 /// Unit direction of C-plane `c_deg` at `gamma_deg` from straight down, in the luminaire's axes.
 Vec3 c_gamma_direction(double c_deg, double gamma_deg);
 
-}  // namespace phos
+}  // namespace phos::inline scene

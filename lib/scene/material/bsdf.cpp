@@ -9,7 +9,7 @@
 #include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -482,4 +482,4 @@ bool Bsdf::sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

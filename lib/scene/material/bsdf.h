@@ -7,7 +7,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct BsdfSample {
   Vec3 direction{0};  ///< world, unit, leaving the surface
@@ -196,4 +196,4 @@ class Bsdf {
   bool coated_ = false, front_ = true;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

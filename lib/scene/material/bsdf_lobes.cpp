@@ -6,7 +6,7 @@
 #include "scene/material/merl.h"
 #include "scene/material/microfacet.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -138,4 +138,4 @@ bool Bsdf::sample_lobe(const Vec3& o, const Vec2& u, Vec3& i) const {
   return cosine > 0 && i.z > 0;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

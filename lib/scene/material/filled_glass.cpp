@@ -6,7 +6,7 @@
 #include "scene/instance_bounds.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Thickness (twice volume over area) of a block over the side of its faces (a square of half its area): .19
@@ -79,4 +79,4 @@ std::vector<std::uint8_t> find_filled_glass(const Scene& scene) {
   return filled;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

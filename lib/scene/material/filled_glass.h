@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Of each triangle: is it of a block of solid glass, as thick as it is wide or nearly so, that holds other
 /// surfaces? Light is not taken to pass straight through such a block by its parallel faces, as it does
@@ -16,4 +16,4 @@ namespace phos {
 /// there is none.
 std::vector<std::uint8_t> find_filled_glass(const Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Of points in a plane, those off it by no more than this part of the length of their box are in it.
@@ -109,4 +109,4 @@ void make_sheets_thin(Scene& scene) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,11 +3,11 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Parts of instances of KHR_materials_volume that enclose nothing, as they lie in one plane: panes that
 /// exporters draw as one sheet with a thickness. Their instances get a material of their own, a thin pane of
 /// that thickness: attenuation along the slanted way through it. Said in scene.warnings.
 void make_sheets_thin(Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

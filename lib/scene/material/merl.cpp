@@ -11,7 +11,7 @@
 #include "file/hash.h"
 #include "file/lfs_pointer.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kCells = std::size_t{MerlBrdf::kThetaH} * MerlBrdf::kThetaD * MerlBrdf::kPhiD;
@@ -191,4 +191,4 @@ MerlBrdf read_merl(const std::string& path) {
   return MerlBrdf(read_text(path), path);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// One material's table, over the half vector's angle from the normal (denser towards it: theta_h grows with
 /// the square of its index), and the angles of the incident direction about the half vector (Rusinkiewicz
@@ -95,4 +95,4 @@ class MerlBrdf {
 /// Reads a file. Throws Error(bad_input), also for one that is no regular file.
 MerlBrdf read_merl(const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/material/merl.h"
 #include "scene/material/microfacet.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Gloss that moves less than this share of the reflected light is rounding.
@@ -186,4 +186,4 @@ std::string MerlBrdf::energy_gain() const {
               kAngles, " angles are above 1)");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace phos {
+namespace phos::inline scene {
 
 float Ggx::distribution(const Vec3& h) const {
   if (h.z <= 0) return 0;
@@ -166,4 +166,4 @@ float ggx_mean_albedo(float alpha, float f0, float f90) {
   return f0 * e.a + f90 * e.b;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Trowbridge-Reitz (GGX) with roughness alpha along x and y (Walter et al. 2007; anisotropic: Burley 2012).
 struct Ggx {
@@ -35,4 +35,4 @@ float ggx_albedo(float cos_theta, float alpha, float f0, float f90);
 /// Its cosine-weighted mean over the hemisphere.
 float ggx_mean_albedo(float alpha, float f0, float f90);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "scene/material/merl.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A dielectric's own highlight (4 %) counts as gloss below this roughness; above it, it is as good as
@@ -60,4 +60,4 @@ ReflectionSummary summarise_measured(const SummaryInput& in) {
   return {luminance(measured.mean_albedo()), max_component(measured.lambert()) > 0, measured.glossy()};
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 ReflectionSummary summarise_core(const SummaryInput&);
 ReflectionSummary summarise_lambert(const SummaryInput&);
@@ -14,4 +14,4 @@ ReflectionSummary summarise_mirror(const SummaryInput&);
 ReflectionSummary summarise_glass(const SummaryInput&);
 ReflectionSummary summarise_measured(const SummaryInput&);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/material/merl.h"
 #include "scene/material/model_summaries.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 bool has_ks(const Material& m) { return max_component(m.ks) > 0; }
@@ -175,4 +175,4 @@ bool Material::anisotropic() const {
   return row.gltf_core ? anisotropy > 0 : row.alpha_lobe && alpha_x != alpha_y;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "scene/material/bsdf.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 class StatedBrdf;
 
@@ -87,4 +87,4 @@ const Model* model_named(const std::string& name);
 inline bool is_solid_glass(const Material& m) { return row_of(m).passage == Passage::solid; }
 GlossWidth gloss_width(const Material& material);
 
-}  // namespace phos
+}  // namespace phos::inline scene

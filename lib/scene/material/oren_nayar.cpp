@@ -5,7 +5,7 @@
 
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr float kLeastCosine = 1e-6f;
@@ -62,4 +62,4 @@ ReflectionSummary summarise_oren_nayar(const SummaryInput& in) {
   return {luminance(surface.mean_albedo()), in.kd > 0, in.kd > 0 && surface.rough()};
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

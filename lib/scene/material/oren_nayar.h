@@ -3,7 +3,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The energy-preserving Oren-Nayar model (Portsmouth, Kutz and Hill 2025, "EON", docs/methods.md#m1):
 /// single reflection by Fujii's form of Oren and Nayar's qualitative model (1994), multiple reflection in
@@ -33,4 +33,4 @@ struct ReflectionSummary;
 struct SummaryInput;
 ReflectionSummary summarise_oren_nayar(const SummaryInput&);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 Rgb power(const Rgb& base, float exponent) {
@@ -114,4 +114,4 @@ float TransmittanceCurve::at(float cosine) const {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

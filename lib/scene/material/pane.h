@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Share of unpolarised light, by channel, that a pane or a pack of panes lets through and sends back, for
 /// light across (0) and in (1) the plane of incidence. Light goes straight on: `pass` is the same from both
@@ -63,4 +63,4 @@ class TransmittanceCurve {
   std::vector<double> slope_;  // at each point, per degree
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

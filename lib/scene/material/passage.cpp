@@ -5,7 +5,7 @@
 
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Faces are parallel up to 2 mrad: wedges of less bend light by less than that.
@@ -216,4 +216,4 @@ Bsdf Way::bsdf(const SurfacePoint& point) const {
   return bsdf;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

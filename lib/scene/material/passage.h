@@ -8,7 +8,7 @@
 #include "scene/material/pane.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Does light pass straight through a material, at some of its texels at least? Solid glass does only where
 /// its faces are plane and parallel; that is not told by the material.
@@ -89,4 +89,4 @@ class Way {
   std::size_t at_ = 0;  // crossings met
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

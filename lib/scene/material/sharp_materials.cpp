@@ -7,7 +7,7 @@
 #include "scene/material/models.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 // Of this roughness, half of the lobe lies within 6 degrees about the mirror direction.
@@ -86,4 +86,4 @@ bool has_caustic_ways(const Scene& scene) {
                      [&](const Instance& i) { return reflects_sharply(scene.material[i.material]); });
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

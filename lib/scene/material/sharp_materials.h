@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Does a material reflect light within a few degrees about one direction, or in that direction alone: a
 /// mirror, smooth glass (a pane reflects too), gloss of a GGX or Ward roughness below 0.1, or of a Phong
@@ -37,4 +37,4 @@ bool gathers_light(const Scene& scene);
 /// point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().
 bool has_caustic_ways(const Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

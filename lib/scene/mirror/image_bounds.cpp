@@ -8,7 +8,7 @@
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Images of so many are kept.
@@ -119,4 +119,4 @@ float ImageBounds::promise_lx(const MirrorPlanes& mirrors, std::size_t chain, st
   return std::max(lx * part * part, 1e-30f);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/mirror/planes.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Compares balls about lamps with balls about mirrors, so that no image has to be looked for where it cannot
 /// be. Const, usable from any thread.
@@ -47,4 +47,4 @@ class ImageBounds {
   std::vector<Vec3> image_;  // of the centres, chain by chain; empty where there are too many
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "scene/material/passage.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A ray on its way from the receiver, back over the mirrors.
@@ -110,4 +110,4 @@ bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, std::
   return true;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "scene/mirror/planes.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Has a light images? Of the environment its sun has; the rest of it is found in mirrors by rays and
 /// photons.
@@ -23,4 +23,4 @@ bool illuminate_by_mirrors(const RayScene& rays, const Luminaires& lights, std::
                            std::size_t light, const SurfacePoint& from, float u_triangle, const Vec2& u,
                            Illumination& result);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 #include "scene/mirror/sight.h"
 #include "scene/offset.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kMostPlanes = 32, kMostChains = 256;
@@ -202,4 +202,4 @@ Vec3 MirrorPlanes::image_of_direction(std::int32_t chain, const Vec3& towards) c
                                                              : image_of_direction(c.before, towards));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "core/vector.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Surfaces that lie in one plane and reflect as mirrors do: mirrors, polished metal, panes, glossy coats
 /// without roughness. Light of a lamp over a chain of them comes as if from an image of the lamp, so that
@@ -69,4 +69,4 @@ class MirrorPlanes {
   std::vector<std::int32_t> first_;  // chains of one reflection
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/offset.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kPlaces = 64;  // of a mirror
@@ -124,4 +124,4 @@ float MirrorSight::seen_share(const Side& a, const Side& b) const {
   return static_cast<float>(seen) / static_cast<float>(kPairs);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Looks at lamps from a fixed set of places on mirrors, and from mirror to mirror, through nothing but
 /// panes. Where it finds nothing there may still be a little light. Backs of mirrors that hang at a wall and
@@ -49,4 +49,4 @@ class MirrorSight {
   std::vector<Vec3> far_lamp_;             // unit, to them
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// As far as the offset of any triangle of the scene (scene/offset.h) can be from its plane.
@@ -61,4 +61,4 @@ Anchor anchor_at(const RayScene& rays, const Vec3& p, const Vec3& n) {
   return best;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "scene/rays.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 inline constexpr std::uint32_t kNoTriangle = ~0u;
 
@@ -37,4 +37,4 @@ inline Vec3 turned(const Pose& from, const Pose& to, const Vec3& v) {
   return to.turn * (glm::conjugate(from.turn) * v);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "core/float_traps.h"
 #include "scene/gltf/accessor.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 glm::dquat quaternion(const float* v) { return {v[3], v[0], v[1], v[2]}; }
@@ -245,4 +245,4 @@ void apply_animations(GltfDocument& document, Scene& scene, std::vector<NodePose
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/gltf/document.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 enum class Interpolation { step, linear, cubic_spline };
 
@@ -45,4 +45,4 @@ std::vector<NodePose> rest_poses(const GltfDocument& document);
 /// warnings. Throws Error(bad_input) for keys that are not increasing or too few values.
 void apply_animations(GltfDocument& document, Scene& scene, std::vector<NodePose>& poses);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 #include "scene/instance_bounds.h"
 #include "scene/luminaire/photometry.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A triangle whose winding a mirroring transform turned is the same.
@@ -226,4 +226,4 @@ bool jumps(const Scene& a, const Scene& b, const Scene& c, const Scene& d) {
   return false;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Throws Error(usage), saying which frames there are, for a range that goes beyond an animation's. A scene
 /// that is not animated has any frame.
@@ -50,4 +50,4 @@ Changes changes(const Scene& a, const Scene& b);
 /// movement is one. An object that comes to be mirrored always jumps: its triangles have other corners.
 bool jumps(const Scene& a, const Scene& b, const Scene& c, const Scene& d);
 
-}  // namespace phos
+}  // namespace phos::inline scene

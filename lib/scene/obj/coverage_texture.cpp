@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A band of one texel across one along would take the memory of a square.
@@ -89,4 +89,4 @@ Texture without_alpha(const Texture& colour) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

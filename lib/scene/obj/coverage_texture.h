@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Which value of an image is a coverage: its alpha where any texel is not opaque, else its luminance; or one
 /// channel.
@@ -18,4 +18,4 @@ Texture without_alpha(const Texture& colour);
 /// Is any texel not opaque?
 bool has_alpha(const Texture& texture);
 
-}  // namespace phos
+}  // namespace phos::inline scene

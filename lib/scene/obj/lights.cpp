@@ -10,7 +10,7 @@
 #include "scene/gltf/document.h"
 #include "scene/lamp/spot_cone.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 class Reader {
@@ -146,4 +146,4 @@ void read_obj_lights(const std::string& obj_path, GivenLuminaires& given, Lumina
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

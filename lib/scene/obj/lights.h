@@ -6,7 +6,7 @@
 #include "scene/luminaire/hang.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// "room.obj" -> "room.lights.json".
 std::string obj_lights_path(const std::string& obj_path);
@@ -20,4 +20,4 @@ std::string obj_lights_path(const std::string& obj_path);
 /// Throws Error(bad_input) naming the entry.
 void read_obj_lights(const std::string& obj_path, GivenLuminaires& given, LuminairesAs as, Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -23,7 +23,7 @@
 #include "scene/obj/material.h"
 #include "scene/obj/solid_parts.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// What tinyobjloader does not tell of a file.
@@ -366,4 +366,4 @@ std::vector<std::string> obj_external_files(const std::string& path, std::string
   return files;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

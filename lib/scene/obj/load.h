@@ -7,7 +7,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Reads a Wavefront .obj with its .mtl, and lights and cameras from <name>.lights.json beside it
 /// (scene/obj/lights.h). Not finalized. Throws Error(bad_input).
@@ -17,4 +17,4 @@ Scene load_obj(const std::string& path, std::string_view bytes, const SceneOptio
 /// <name>.lights.json.
 std::vector<std::string> obj_external_files(const std::string& path, std::string_view bytes);
 
-}  // namespace phos
+}  // namespace phos::inline scene

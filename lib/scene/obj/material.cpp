@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scene/gltf/uri.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// From this exponent on a highlight is a mirror: exporters write 1000 for a roughness of 0, 900 for 0.05.
@@ -278,4 +278,4 @@ void ObjMaterials::finish() {
     scene_.warnings.emplace_back(text(what, " (material ", list_of(materials), ")"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -18,7 +18,7 @@ struct material_t;
 struct texture_option_t;
 }  // namespace tinyobj
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Path of a file that an .obj or its .mtl names; names may hold backslashes from other systems.
 std::string obj_file(const std::string& obj_path, std::string name);
@@ -78,4 +78,4 @@ class ObjMaterials {
       unread_;  ///< what is wrong with it, by statement: materials
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -103,4 +103,4 @@ MtlUse mtl_use(const std::string& keyword) {
   return kNotRead.contains(keyword) ? MtlUse::not_read : MtlUse::not_known;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The statements of one newmtl: keyword to the rest of its line. The last of several counts.
 struct MtlStatements {
@@ -42,4 +42,4 @@ enum class MtlUse {
 };
 MtlUse mtl_use(const std::string& keyword);
 
-}  // namespace phos
+}  // namespace phos::inline scene

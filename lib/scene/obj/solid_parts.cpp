@@ -7,7 +7,7 @@
 
 #include "scene/connected_parts.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A part of less volume than this share of the cube of its size is a folded sheet.
@@ -59,4 +59,4 @@ SolidParts find_solid_parts(const std::vector<Vec3>& corner) {
   return result;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

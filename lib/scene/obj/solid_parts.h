@@ -5,7 +5,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Of a soup of triangles, three corners each: is this triangle a part of a closed surface, and is it wound
 /// so that its front faces outwards? Parts are what hangs together by the places of its corners, however the
@@ -17,4 +17,4 @@ struct SolidParts {
 };
 SolidParts find_solid_parts(const std::vector<Vec3>& corner);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kLeastHeight = 1e-3;  // of a place before the slats, of their length
@@ -90,4 +90,4 @@ bool Blind::is_before(const Vec3& place, const Vec3& direction) const {
   return x >= slats_.from_m && x <= slats_.to_m && y >= lo_m_[0] && y <= hi_m_[0];
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Slats are prisms along x of the frame; they follow each other along y. Const, usable from any thread.
 class Blind {
@@ -53,4 +53,4 @@ class Blind {
   double lo_m_[2], hi_m_[2];  // of all corners: y, z
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr float kLeastCosine = 0.05f;
@@ -99,4 +99,4 @@ std::vector<Portal> CellGrid::open_rectangles(double least_saved) const {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/opening/portal.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 class CellGrid {
  public:
@@ -51,4 +51,4 @@ class CellGrid {
   std::vector<std::uint8_t> open_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

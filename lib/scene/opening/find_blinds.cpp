@@ -8,7 +8,7 @@
 #include "scene/material/passage.h"
 #include "scene/sky/access.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kFewestSlats = 3;
@@ -224,4 +224,4 @@ std::vector<Blind> find_blinds(const RayScene& rays) {
   return found;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

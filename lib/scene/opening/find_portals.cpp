@@ -8,7 +8,7 @@
 #include "core/text/comma_list.h"
 #include "scene/sky/access.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kLooks = 64;  // from each side of a piece
@@ -69,4 +69,4 @@ std::vector<Portal> find_portals(const RayScene& rays, const std::string& which)
   return pieces;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 #include "scene/opening/portal.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// "auto": portals_about_rooms(). Otherwise named_portals(), each inwards on the side from which less of the
 /// sky is seen.
@@ -24,4 +24,4 @@ std::vector<Portal> named_portals(const Scene& scene, const std::string& names);
 /// Same for any number of threads.
 std::vector<Portal> portals_about_rooms(const RayScene& rays);
 
-}  // namespace phos
+}  // namespace phos::inline scene

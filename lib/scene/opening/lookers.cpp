@@ -8,7 +8,7 @@
 #include "scene/offset.h"
 #include "scene/sky/access.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kPlaces = 8192;  // all over the scene
@@ -105,4 +105,4 @@ std::vector<Looker> look_about(const RayScene& rays) {
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A place on a surface, lifted off it, with the unit normal of its side.
 struct Looker {
@@ -21,4 +21,4 @@ struct Looker {
 /// of threads.
 std::vector<Looker> look_about(const RayScene& rays);
 
-}  // namespace phos
+}  // namespace phos::inline scene

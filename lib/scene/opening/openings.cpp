@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "scene/sky/access.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::uint32_t kLooks = 16;       // at each cell
@@ -112,4 +112,4 @@ std::vector<std::uint32_t> Openings::witnesses(const Portal& part) const {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

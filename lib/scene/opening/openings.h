@@ -9,7 +9,7 @@
 #include "scene/opening/lookers.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Parts a rectangle into cells and finds those through which lookers see the sky: they look at places of the
 /// cells. A cell that is found has all closed neighbours looked at more often, by those who have seen the sky
@@ -48,4 +48,4 @@ class Openings {
   std::uint32_t round_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -1,6 +1,6 @@
 #include "scene/opening/portal.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 bool crosses(const Portal& portal, const DVec3& point, const DVec3& direction) {
   // Moller and Trumbore 1997, for the whole line.
@@ -13,4 +13,4 @@ bool crosses(const Portal& portal, const DVec3& point, const DVec3& direction) {
   return v >= 0 && (portal.triangle ? u + v : v) <= 1;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A plane piece of an opening: a parallelogram, or half of one.
 struct Portal {
@@ -21,4 +21,4 @@ struct Portal {
 /// Does the whole line through a point in a direction (unit) cross the piece? Lines within its plane do not.
 bool crosses(const Portal& portal, const DVec3& point, const DVec3& direction);
 
-}  // namespace phos
+}  // namespace phos::inline scene

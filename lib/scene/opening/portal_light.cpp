@@ -5,7 +5,7 @@
 
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr float kStray = 0.1f, kStrayOfSpots = 0.5f;
@@ -178,4 +178,4 @@ float PortalLight::promise_lx(const Vec3& from) const {
   return c.sum + sun_lx;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 #include "scene/opening/portal_sight.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Directions for a point that sees little of the environment: uniform over the solid angle of a portal, or
 /// of a gap of a blind, chosen by about the light that comes through it to that place (through portals behind
@@ -66,4 +66,4 @@ class PortalLight {
   float stray_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

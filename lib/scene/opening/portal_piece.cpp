@@ -5,7 +5,7 @@
 
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 Vec3 corner_of(const Portal& p, int k) { return p.at(Vec2(k == 1 || k == 3, k >= 2)); }
@@ -65,4 +65,4 @@ double PortalPiece::density(const Vec3& from, const Vec3& direction) const {
   return distance_m * distance_m / (cosine * static_cast<double>(area_m2));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

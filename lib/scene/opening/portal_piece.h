@@ -5,7 +5,7 @@
 #include "scene/lamp/near.h"
 #include "scene/opening/portal.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct PortalPiece {
   Portal portal;
@@ -32,4 +32,4 @@ struct PortalPiece {
   SphericalPatch seen(const Vec3& from) const;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kCells = 8;  // along each side of the box
@@ -51,4 +51,4 @@ std::span<const float> PortalSight::from(const Vec3& place) const {
   return std::span(free_).subspan(cell * portals_, portals_);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

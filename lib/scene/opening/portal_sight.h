@@ -7,7 +7,7 @@
 #include "scene/opening/portal.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The box about the portals, parted into cells; of lines from places in a cell through places of a portal,
 /// the part that nothing is in the way of. Only roughly, to choose by.
@@ -24,4 +24,4 @@ class PortalSight {
   std::vector<float> free_;  // cell by cell, of each portal
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 #include "scene/opening/room_box.h"
 #include "scene/opening/waist.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kCells = 64;      // along each side of a face of the box
@@ -47,4 +47,4 @@ std::vector<Portal> portals_about_rooms(const RayScene& rays) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

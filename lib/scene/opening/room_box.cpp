@@ -1,6 +1,6 @@
 #include "scene/opening/room_box.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Beyond the box of the lookers, of its diagonal: what is flat still has sides, and an opening in a
@@ -40,4 +40,4 @@ std::pair<int, Vec3> way_out(const Bounds& box, const Vec3& from, const Vec3& di
   return {face, from + nearest * direction};
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

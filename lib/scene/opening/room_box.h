@@ -7,7 +7,7 @@
 #include "scene/opening/lookers.h"
 #include "scene/opening/portal.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// About the lookers, a little wider; there must be some.
 Bounds box_about(std::span<const Looker> lookers);
@@ -16,4 +16,4 @@ Portal face_of(const Bounds& box, int face);
 /// The face and the place of it at which a ray from within leaves the box.
 std::pair<int, Vec3> way_out(const Bounds& box, const Vec3& from, const Vec3& direction);
 
-}  // namespace phos
+}  // namespace phos::inline scene

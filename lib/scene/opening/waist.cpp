@@ -8,7 +8,7 @@
 #include "scene/opening/cell_grid.h"
 #include "scene/opening/room_box.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A waist saves so much of the area before it at least.
@@ -71,4 +71,4 @@ void draw_to_waists(std::vector<Looker>& lookers) {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

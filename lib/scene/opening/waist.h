@@ -5,7 +5,7 @@
 
 #include "scene/opening/lookers.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Leaves out few lookers that lie outermost on a side, where the others see the sky through far less of a
 /// box about themselves alone: through a waist. Under eaves, say, some places are within, and portals about
@@ -13,4 +13,4 @@ namespace phos {
 /// portal.
 void draw_to_waists(std::vector<Looker>& lookers);
 
-}  // namespace phos
+}  // namespace phos::inline scene

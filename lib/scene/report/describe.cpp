@@ -16,7 +16,7 @@
 #include "scene/spectral/bands.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// `colour`: mean luminance of the vertex colours.
@@ -304,4 +304,4 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings) {
   return j;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

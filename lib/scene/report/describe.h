@@ -9,7 +9,7 @@
 #include "scene/report/lint.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A material and what it does to light. Textures and vertex colours count by their mean
 /// (over the area that has the material).
@@ -37,4 +37,4 @@ Json describe_scene(const Scene& scene, const std::vector<Finding>& findings);
 /// The same for people, from describe_scene's answer.
 std::string describe_text(const Json& description);
 
-}  // namespace phos
+}  // namespace phos::inline scene

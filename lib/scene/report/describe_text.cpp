@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "scene/report/describe.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// Four significant digits: for people.
@@ -168,4 +168,4 @@ std::string describe_text(const Json& d) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 using enum Feature::Group;
@@ -210,4 +210,4 @@ std::string feature_tables() {
          table(obj, "OBJ", "statement") + table(mtl, "MTL", "statement");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "scene/note.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct Feature {
   enum class Group : std::uint8_t { property, extension, obj, mtl };
@@ -41,4 +41,4 @@ std::string told(const Feature& feature);
 /// The tables of docs/scenes.md, in Markdown.
 std::string feature_tables();
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -14,7 +14,7 @@
 #include "scene/material/sharp_materials.h"
 #include "scene/mirror/images.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kChunk = 64;
@@ -347,4 +347,4 @@ std::vector<LightWay> light_ways_from(const Json& json) {
   return ways;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Light of a lamp that reaches surfaces by way of such materials alone (paths L S+ D of Heckbert 1990, and
 /// L G S* D where the lobe G is sharp). Straight ways, through panes too, are none of these, nor are those
@@ -55,4 +55,4 @@ Json to_json(const std::vector<LightWay>& ways);
 /// The inverse; what is no such thing is passed over.
 std::vector<LightWay> light_ways_from(const Json& json);
 
-}  // namespace phos
+}  // namespace phos::inline scene

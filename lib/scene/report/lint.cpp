@@ -17,7 +17,7 @@
 #include "scene/sky/daylight.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kLargestDiagonal_m = 300, kSmallestDiagonal_m = 0.01;
@@ -361,4 +361,4 @@ const char* level_name(Finding::Level level) {
 
 std::vector<Finding> lint_scene(const Scene& scene) { return Linter(scene).run(); }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct Finding {
   enum class Level { info, warning, error };
@@ -28,4 +28,4 @@ const char* level_name(Finding::Level level);
 ///   normals: more than 1 % of triangles whose vertex normals point to their back.
 std::vector<Finding> lint_scene(const Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline scene

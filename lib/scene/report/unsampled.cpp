@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kUnsampled = "unsampled";
@@ -135,4 +135,4 @@ std::vector<LightWay> tell_unsampled_in(Tool& tool, const std::vector<Container>
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "file/tool.h"
 #include "scene/report/light_ways.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// How light is looked for.
 enum class Sampler : std::uint8_t {
@@ -53,4 +53,4 @@ std::vector<LightWay> unsampled_in(const Provenance& provenance);
 /// Warns as above of the files that say so. All their ways.
 std::vector<LightWay> tell_unsampled_in(Tool& tool, const std::vector<Container>& files);
 
-}  // namespace phos
+}  // namespace phos::inline scene

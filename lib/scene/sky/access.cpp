@@ -7,7 +7,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/material/bsdf.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kPaths = 4096;
@@ -56,4 +56,4 @@ std::optional<std::string> closed_to_the_sky(const RayScene& rays) {
   return text("no light of the sky gets in: of ", kPaths, " paths from each camera none finds it");
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

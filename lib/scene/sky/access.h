@@ -6,7 +6,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Does a ray leave the scene, straight through glass, to where there is light?
 bool sees_sky(const RayScene& rays, const Ray& ray);
@@ -17,4 +17,4 @@ bool sees_sky(const RayScene& rays, const Ray& ray);
 /// missed.
 std::optional<std::string> closed_to_the_sky(const RayScene& rays);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -12,7 +12,7 @@
 #include "scene/sky/perez.h"
 #include "scene/sky/sun_position.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -268,4 +268,4 @@ Environment make_environment(const Daylight& d) {
   return light;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

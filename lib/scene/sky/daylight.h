@@ -10,7 +10,7 @@
 #include "scene/sky/environment.h"
 #include "scene/sky/shape.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// What the options mean. Directions are the scene's: +Y up.
 struct Daylight {
@@ -41,4 +41,4 @@ bool is_overcast(const DaylightOptions& options);
 /// (tests/unit/scene_daylight.cpp).
 Environment make_environment(const Daylight& daylight);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 struct TextOption {
@@ -90,4 +90,4 @@ void read_daylight_word(const std::string& word, const std::string& value, Dayli
     if (word == std::string("--") + o.name) options.*o.value = std::strtod(value.c_str(), nullptr);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

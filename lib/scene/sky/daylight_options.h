@@ -7,7 +7,7 @@
 
 #include "core/options.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct DaylightOptions {
   std::string sky;       ///< overcast, clear, cie:1 .. cie:16, perez; "": none
@@ -26,4 +26,4 @@ std::vector<std::string> daylight_words(const DaylightOptions& options);
 /// been read by declare_options() before.
 void read_daylight_word(const std::string& word, const std::string& value, DaylightOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "image/primaries.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -280,4 +280,4 @@ EnvironmentFile read_environment(const std::string& path, double scale, double r
   return {{image.width(), image.height(), std::move(texels), rotation_rad}, outside};
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 
 #include "core/vector.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Luminance over the sphere, constant over each texel of an equirectangular map: every sum over it is exact,
 /// and a sun of one texel is a sun of one texel. +Y is up: row 0 is the topmost. As in OpenEXR and Mitsuba,
@@ -127,4 +127,4 @@ struct EnvironmentFile {
 /// X, Y or Z) or not finite.
 EnvironmentFile read_environment(const std::string& path, double scale = 1, double rotation_rad = 0);
 
-}  // namespace phos
+}  // namespace phos::inline scene

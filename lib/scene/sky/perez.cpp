@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/json.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kSolarConstant_w_m2 = 1367;
@@ -120,4 +120,4 @@ PerezSky perez_sky(const Irradiances& measured) {
   return sky;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "scene/sky/shape.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// What a weather station measures, and where the sun stands.
 struct Irradiances {
@@ -31,4 +31,4 @@ struct PerezSky {
 /// have no finite horizon (b above 0) is taken as none.
 PerezSky perez_sky(const Irradiances& measured);
 
-}  // namespace phos
+}  // namespace phos::inline scene

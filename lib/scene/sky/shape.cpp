@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// a b c d e of types 1 to 15.
@@ -48,4 +48,4 @@ SkyShape cie_sky(int type) {
   return shape;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -1,7 +1,7 @@
 // How the luminance of a sky is spread over it, up to a factor.
 #pragma once
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Luminance over the hemisphere up to a factor that horizontal illuminance decides. CIE S 011:2003 (ISO
 /// 15469:2004) and Perez et al. 1993 share the form gradation x indicatrix,
@@ -22,4 +22,4 @@ struct SkyShape {
 /// CIE standard general sky of type 1 .. 15, and the traditional overcast sky, 16. Table 1 of CIE S 011.
 SkyShape cie_sky(int type);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -121,4 +121,4 @@ SunPosition sun_position(double latitude_rad, double longitude_rad, double unix_
   return sun;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

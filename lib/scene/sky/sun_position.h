@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace phos {
+namespace phos::inline scene {
 
 struct SunPosition {
   double azimuth_rad = 0;    ///< clockwise from north, 0 .. 2 pi
@@ -22,4 +22,4 @@ double parse_instant(const std::string& option, const std::string& text);
 /// difference of ephemeris and civil time, 70 s, is taken as none: 0.001 degrees.
 SunPosition sun_position(double latitude_rad, double longitude_rad, double unix_s);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "scene/spectral/bands.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 void declare_options(Options& options, BandOptions& bands) {
   options.integer(
@@ -60,4 +60,4 @@ void check(const BandOptions& o) {
                 text(o.triplet, " is not there: ", o.number, " bands are ", triplets, " triplets"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/options.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 struct BandOptions {
   std::int64_t number = 0;           ///< of bands; 0: RGB
@@ -25,4 +25,4 @@ void read_band_word(const std::string& word, const std::string& value, BandOptio
 /// Throws Error(usage) where options are missing, contradict each other, or there is no such triplet.
 void check(const BandOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline scene

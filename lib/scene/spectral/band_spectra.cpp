@@ -6,7 +6,7 @@
 #include "core/text/named_files.h"
 #include "scene/material/models.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kEnvironment = "environment";
@@ -123,4 +123,4 @@ void BandSpectra::require_overlap() const {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

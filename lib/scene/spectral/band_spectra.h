@@ -11,7 +11,7 @@
 #include "scene/spectral/band_options.h"
 #include "scene/spectral/spectrum.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// As options (--spectrum) and the scene itself (extras.phos.spectrum) say; options come first. Each file is
 /// read once. Throws as to_bands().
@@ -41,4 +41,4 @@ class BandSpectra {
   const Spectrum* environment_ = nullptr;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "image/primaries.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// rgb_to_xyz() with the rounded weights that luminance() has.
@@ -91,4 +91,4 @@ DVec3 rgb_of_xyz(const DVec3& xyz) {
   return m * xyz;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -16,7 +16,7 @@
 #include "core/vector.h"
 #include "scene/spectral/spectrum.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// N equal bands of 380 to 780 nm, counted from 0, in triplets, counted from 1. Of a last triplet that N does
 /// not fill the rest is empty: no light, no reflectance.
@@ -67,4 +67,4 @@ inline DVec3 light_of_shares(const DVec3& shares) {
 DVec3 xyz_of_rgb(const DVec3& rgb);
 DVec3 rgb_of_xyz(const DVec3& xyz);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -1,6 +1,6 @@
 #include "scene/spectral/cie_tables.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 // CIE 15 (the standards' data in steps of 5 nm, from 380 to 780 nm) and CIE 13.3-1995.
 
@@ -125,4 +125,4 @@ const std::array<CieTable, 8> kCieTestColours = {{
      0.729, 0.73,  0.73,  0.73,  0.73,  0.73,  0.73,  0.73,  0.73,  0.73,  0.73},
 }};
 
-}  // namespace phos
+}  // namespace phos::inline scene

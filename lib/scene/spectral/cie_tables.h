@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace phos {
+namespace phos::inline scene {
 
 inline constexpr double kCieFirst_nm = 380, kCieLast_nm = 780, kCieStep_nm = 5;
 using CieTable = std::array<double, 81>;
@@ -17,4 +17,4 @@ extern const CieTable kCieS0, kCieS1, kCieS2;
 /// Reflectances of the test colour samples 1 to 8 of CIE 13.3-1995.
 extern const std::array<CieTable, 8> kCieTestColours;
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr double kFurthest_uv = 0.05;  // CIE 15: beyond, a correlated colour temperature means nothing
@@ -149,4 +149,4 @@ Spectrum daylight_spectrum(double t) {
   return Spectrum(power);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "core/vector.h"
 #include "scene/spectral/bands.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// A light as its power in steps of wavelength: colour matching functions, test colours and reference lights
 /// are taken in the same steps, so that what steps are too coarse for mostly cancels.
@@ -51,4 +51,4 @@ std::optional<ColourRendering> colour_rendering(const WavelengthSteps& steps,
 Spectrum planck_spectrum(double temperature_K);
 Spectrum daylight_spectrum(double cct_K);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The parts of one N, and the triplets of it that are dark: no lamp shines in them, so that there is no
 /// part.
@@ -41,4 +41,4 @@ std::string join_readings(const BandParts& parts);
 /// The triplet of such a table by its columns; nothing where it has no bands.
 std::optional<BandTriplet> triplet_of(const CsvTable& table);
 
-}  // namespace phos
+}  // namespace phos::inline scene

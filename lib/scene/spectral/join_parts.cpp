@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 [[noreturn]] void mismatch(const std::string& path, const std::string& message) {
@@ -59,4 +59,4 @@ std::vector<int> order_of(const BandParts& parts, const std::function<BandTriple
   return order;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -9,7 +9,7 @@
 #include "scene/spectral/join_bands.h"
 #include "scene/spectral/join_parts.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 14;
@@ -162,4 +162,4 @@ JoinedPicture join_pictures(const BandParts& parts) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -11,7 +11,7 @@
 #include "scene/spectral/join_bands.h"
 #include "scene/spectral/join_parts.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr const char* kPlace[] = {"id", "x", "y", "z", "nx", "ny", "nz"};
@@ -169,4 +169,4 @@ std::string join_readings(const BandParts& parts) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

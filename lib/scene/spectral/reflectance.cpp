@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr int kMaxSteps = 60;
@@ -161,4 +161,4 @@ Rgb BandColourTable::light(const Rgb& rgb) const {
   return largest * exact_->white_light() * relative(half, max_component(half));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

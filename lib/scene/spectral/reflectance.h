@@ -7,7 +7,7 @@
 #include "core/vector.h"
 #include "scene/spectral/bands.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// The smooth reflectances of Jakob and Hanika, "A low-dimensional function space for efficient spectral
 /// upsampling" (2019): a sigmoid of a quadratic of wavelength, always between 0 and 1, that under D65 has the
@@ -67,4 +67,4 @@ class BandColourTable {
   std::vector<Rgb> node_;  // reflectance over the largest component: [which][its size][one other][the next]
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -8,7 +8,7 @@
 #include "file/csv.h"
 #include "scene/gltf/uri.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 [[noreturn]] void fail(const std::string& where, const std::string& message) {
@@ -115,4 +115,4 @@ Spectrum read_spectrum(const std::string& path, SpectrumKind kind) {
   return parse_spectrum(read_referred(path), path, kind);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -7,7 +7,7 @@
 
 #include "scene/spectral/cie_tables.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Linear between its points. Wavelengths in nm.
 class Spectrum {
@@ -51,4 +51,4 @@ Spectrum read_spectrum(const std::string& path, SpectrumKind kind);
 /// The same from text; `where` is its name in messages.
 Spectrum parse_spectrum(std::string_view text, const std::string& where, SpectrumKind kind);
 
-}  // namespace phos
+}  // namespace phos::inline scene

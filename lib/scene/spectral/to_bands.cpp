@@ -12,7 +12,7 @@
 #include "scene/spectral/bands.h"
 #include "scene/spectral/reflectance.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
@@ -165,4 +165,4 @@ class ToBands {
 
 void to_bands(Scene& scene, const BandOptions& options) { ToBands(scene, options).convert(); }
 
-}  // namespace phos
+}  // namespace phos::inline scene

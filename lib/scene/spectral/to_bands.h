@@ -4,7 +4,7 @@
 #include "scene/scene.h"
 #include "scene/spectral/band_options.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Before finalize(): every colour of the scene becomes its three values in the triplet's bands (bands.h).
 ///   - A reflectance with a spectrum: kd of lambert, phong, ward, plastic and metallic-roughness, ks of
@@ -18,4 +18,4 @@ namespace phos {
 /// that cannot be read, or a reflectance whose data hold nothing of a lamp's light.
 void to_bands(Scene& scene, const BandOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline scene

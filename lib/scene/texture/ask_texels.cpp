@@ -4,7 +4,7 @@
 
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 constexpr std::size_t kLarge = std::size_t{1} << 14;  // texels
@@ -40,4 +40,4 @@ void ask_texels(const Scene& scene, const SurfacePoint& point) {
   ask(scene, material.metallic_roughness, point);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

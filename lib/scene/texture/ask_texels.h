@@ -3,10 +3,10 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Texels of large textures lie about in memory: this asks for those that the material at a point will read,
 /// some points before Bsdf reads them. Changes no result.
 void ask_texels(const Scene& scene, const SurfacePoint& point);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -10,7 +10,7 @@
 #include "file/lfs_pointer.h"
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 namespace {
 
 /// A side longer than this, or more pixels (1 GiB of texels), is a damaged header or a mistake.
@@ -169,4 +169,4 @@ std::vector<std::int32_t> TexturePool::decode(Scene& scene) {
   return place;
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

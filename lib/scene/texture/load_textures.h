@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Collects the textures that materials ask for, then decodes them all.
 class TexturePool {
@@ -36,4 +36,4 @@ class TexturePool {
   std::map<std::string, std::int32_t> known_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -6,7 +6,7 @@
 
 #include "scene/texture/visible_share.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 namespace {
 
@@ -118,4 +118,4 @@ Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
   return share * material.emission * Rgb(look_up(scene, material.emissive, uv, uv));
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Linear value, 0..1, of a channel's code out of 0..largest.
 float decode_channel(int code, int largest, bool srgb);
@@ -25,4 +25,4 @@ Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, fl
 /// visible_share() included.
 Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
-}  // namespace phos
+}  // namespace phos::inline scene

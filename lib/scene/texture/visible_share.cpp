@@ -4,7 +4,7 @@
 
 #include "scene/texture/texture.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 float alpha_at(const Scene& scene, std::uint32_t triangle, float u, float v) {
   const Material& material = scene.material_of(triangle);
@@ -36,4 +36,4 @@ float visible_share(const Scene& scene, const SurfacePoint& point) {
   return std::clamp(material.alpha * texel * point.colour.w, 0.f, 1.f);
 }
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -3,7 +3,7 @@
 
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline scene {
 
 /// Alpha at a point of a triangle: the material's, times the base colour texture's and the vertex colours'.
 /// `u` and `v` are the barycentric weights of the second and third vertex.
@@ -15,4 +15,4 @@ float visible_share(const Scene& scene, std::uint32_t triangle, float u, float v
 /// The same at a point that a ray has hit: not in a hole.
 float visible_share(const Scene& scene, const SurfacePoint& point);
 
-}  // namespace phos
+}  // namespace phos::inline scene

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace phos {
+namespace phos::inline splat {
 
 inline constexpr int kGlossLanes = 8;
 
@@ -59,4 +59,4 @@ extern const GlossKernel gloss_kernel_avx2;
 /// The fastest one that this machine can run.
 const GlossKernel& best_gloss_kernel();
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -11,7 +11,7 @@
 #include "splat/splatter.h"
 #include "splat/tiles.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr int kTileSide = 16;
@@ -355,4 +355,4 @@ GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const G
   return GlossSplatter(cache, 1, rays, gbuffer, camera, subpixel).look_up();
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

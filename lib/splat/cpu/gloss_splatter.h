@@ -7,7 +7,7 @@
 #include "radiance/gloss_cache.h"
 #include "splat/gbuffer.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What blending leaves per pixel, before normalisation.
 struct GlossBuffer {
@@ -39,4 +39,4 @@ float steepness_per_m(const RadianceRecord& record);
 GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,
                           const Camera& camera, const Vec2& subpixel);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -7,7 +7,7 @@
 #include "splat/splatter.h"
 #include "splat/tiles.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Pixels of a tile in a picture: where its row y starts, and how many columns and rows of it there are.
@@ -174,4 +174,4 @@ SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accur
   return buffer;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace phos {
-
+namespace phos::inline record {
 struct IrradianceRecord;
+}
+
+namespace phos::inline splat {
 
 inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
 
@@ -70,4 +72,4 @@ struct SplatKernels {
 /// The fastest ones that this machine can run.
 SplatKernels best_splat_kernels();
 
-}  // namespace phos
+}  // namespace phos::inline splat

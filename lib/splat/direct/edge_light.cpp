@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Samples that tell whether their neighbours' light is their own, and the difference, relative, from which
@@ -132,4 +132,4 @@ SharedLight EdgeLight::light(const EdgeSamples& samples, const SharedLight* abou
   return light;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

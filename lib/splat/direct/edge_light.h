@@ -7,7 +7,7 @@
 
 #include "splat/direct/lamp_rays.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Samples of one pixel that show one diffuse surface.
 struct EdgeSamples {
@@ -49,4 +49,4 @@ class EdgeLight {
   std::uint64_t seed_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -11,7 +11,7 @@
 #include "hsh/quadrature.h"
 #include "hsh/rotation.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 namespace {
 
@@ -226,4 +226,4 @@ std::optional<EnvironmentHarmonics::Light> EnvironmentHarmonics::light(const Sur
   return light;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

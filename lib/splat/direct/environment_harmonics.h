@@ -11,7 +11,7 @@
 #include "scene/rays.h"
 #include "scene/sky/environment.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// How the environment lights what the eye sees.
 enum class EnvironmentBy : unsigned char {
@@ -64,4 +64,4 @@ class EnvironmentHarmonics {
 };
 inline constexpr const char* kDarkerThanBlackEvent = "harmonic light below zero";
 
-}  // namespace phos
+}  // namespace phos::inline splat

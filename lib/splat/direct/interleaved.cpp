@@ -10,7 +10,7 @@
 #include "scene/lamp/form.h"
 #include "splat/direct/same_surface.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr int kBlock = 4;           // pixels each way that share a set of rays
@@ -400,4 +400,4 @@ std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaire
   return Interleaved(rays, lights, gbuffer, share, seed).light(pixel_rays, subpixel);
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -7,7 +7,7 @@
 #include "splat/direct/lamp_rays.h"
 #include "splat/gbuffer.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Of a pixel's rays to a lamp with an area.
 struct RayShare {
@@ -32,4 +32,4 @@ std::vector<SharedLight> interleaved_light(const RayScene& rays, const Luminaire
                                            const GBuffer& gbuffer, const PixelRays& pixel_rays,
                                            const Vec2& subpixel, const RayShare& share, std::uint64_t seed);
 
-}  // namespace phos
+}  // namespace phos::inline splat

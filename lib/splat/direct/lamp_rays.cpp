@@ -6,7 +6,7 @@
 #include "core/sampling.h"
 #include "direct/lamp_sampler.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr std::size_t kMost = 8192;  // rays on their way at once
@@ -91,4 +91,4 @@ void LampRays::send() {
   ray_.clear(), aim_.clear();
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

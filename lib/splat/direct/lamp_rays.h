@@ -10,7 +10,7 @@
 #include "scene/lamp/panel.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What rays to one lamp found.
 struct LampVisibility {
@@ -87,4 +87,4 @@ class LampRays {
   std::vector<Rgb> share_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace phos {
+namespace phos::inline splat {
 
 std::optional<std::size_t> nearest_alike(const SeenSurface& a, const GBuffer& g, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(g.width);
@@ -20,4 +20,4 @@ std::optional<std::size_t> nearest_alike(const SeenSurface& a, const GBuffer& g,
   return nearest;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

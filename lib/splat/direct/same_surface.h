@@ -6,7 +6,7 @@
 
 #include "splat/gbuffer.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What tells one surface from another.
 struct SeenSurface {
@@ -37,4 +37,4 @@ inline bool same_surface(const SeenSurface& a, const GBuffer& g, std::size_t j) 
 /// Of a pixel and the 8 about it, the one that shows the place nearest to `a` on the same surface.
 std::optional<std::size_t> nearest_alike(const SeenSurface& a, const GBuffer& g, std::size_t pixel);
 
-}  // namespace phos
+}  // namespace phos::inline splat

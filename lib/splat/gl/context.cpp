@@ -13,7 +13,7 @@
 #include "core/last_words.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 [[noreturn]] void no_context(const std::string& why) {
@@ -137,4 +137,4 @@ void GlContext::check(const char* doing) const {
   PHOS_CHECK(error == GL_NO_ERROR, doing, ": OpenGL error ", error);
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

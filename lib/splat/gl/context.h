@@ -10,7 +10,7 @@
 
 #include "core/float_traps.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 // Every function that is called. They are looked up at run time: the library exports the older ones only.
 #define PHOS_GL_FUNCTIONS(X)                                                                                 \
@@ -23,12 +23,13 @@ namespace phos {
   X(CheckNamedFramebufferStatus)                                                                             \
   X(ClearNamedFramebufferfv)                                                                                 \
   X(ClearNamedFramebufferuiv)                                                                                \
-  X(ClipControl) X(ColorMask) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram)       \
-      X(CreateShader) X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers)         \
-          X(DeleteProgram) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) \
-              X(Disable) X(DrawArrays) X(DrawArraysInstanced) X(DrawElements) X(Enable)                      \
-                  X(EnableVertexArrayAttrib) X(Finish) X(GetError) X(GetIntegerv) X(GetProgramInfoLog)       \
-                      X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage)     \
+  X(ClipControl)                                                                                             \
+  X(ColorMask) X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateShader)      \
+      X(CreateTextures) X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram)        \
+          X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable)       \
+              X(DrawArrays) X(DrawArraysInstanced) X(DrawElements) X(Enable) X(EnableVertexArrayAttrib)      \
+                  X(Finish) X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv)                  \
+                      X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTextureImage)                     \
                           X(GetUniformLocation) X(LinkProgram) X(NamedBufferData)                            \
                               X(NamedFramebufferDrawBuffers) X(NamedFramebufferTexture)                      \
                                   X(NamedFramebufferTextureLayer) X(PixelStorei) X(ProgramUniform1f)         \
@@ -89,4 +90,4 @@ class GlContext {
   int largest_texture_ = 0;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

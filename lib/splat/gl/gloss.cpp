@@ -11,7 +11,7 @@
 #include "splat/gl/shaders.h"
 #include "splat/tiles.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// The uniform block of gloss_fragment.
@@ -116,4 +116,4 @@ GlossBuffer GlRenderer::splat_gloss(const GlossCache& cache, double accuracy, co
   return buffer;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -4,7 +4,7 @@
 
 #include "hsh/basis.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 std::size_t column_of(int l, int m) { return static_cast<std::size_t>(l * (l + 1) / 2 + m); }
@@ -83,4 +83,4 @@ Rgb GlossRows::energy(const Vec4& place, int l) const {
   return sum;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -7,7 +7,7 @@
 #include "radiance/gloss_tables.h"
 #include "splat/cpu/gloss_splatter.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Tables of isotropic materials one below the other, those of one order together. Column l (l + 1) / 2 + m
 /// holds the coefficient c_l^m, RGB; w of the first column is the entry's order.
@@ -51,4 +51,4 @@ GlossBuffer splat_gloss_beside(const GlossCache& cache, double accuracy, const R
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel,
                                const GlossRows& rows, GlossLeft& left);
 
-}  // namespace phos
+}  // namespace phos::inline splat

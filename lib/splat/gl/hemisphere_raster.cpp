@@ -10,7 +10,7 @@
 #include "splat/gl/raster.h"
 #include "splat/gl/raster_plane.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Depth of the near plane, in roundings of positions: a wall at that distance is still seen where it meets
@@ -109,4 +109,4 @@ void register_raster_estimator() {
                       }});
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

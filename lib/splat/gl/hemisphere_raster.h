@@ -6,7 +6,7 @@
 
 #include "estimate/gather.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
 /// each way (raster_plane.h); what each pixel shows is lit like the place where a gathered ray lands. Without
@@ -35,4 +35,4 @@ class RasterEstimator : public Estimator {
 /// Adds --estimate raster to the table of estimators (estimate/registry.h).
 void register_raster_estimator();
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "splat/gl/shaders.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr double kLeastNear = 1e-6;  // of the farthest distance
@@ -184,4 +184,4 @@ void GlMesh::draw(const GlView& view) const {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

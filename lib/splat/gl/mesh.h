@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "splat/gl/objects.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// How a picture or a shadow map is projected: the uniforms of shaders::scene_vertex.
 struct GlView {
@@ -48,4 +48,4 @@ class GlMesh {
   std::vector<GlObject> alpha_;  // per texture; empty where no mask uses it
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 GlObject compile(const Gl& gl, const char* label, GLenum kind, const char* source) {
@@ -112,4 +112,4 @@ void GlProgram::set(const char* name, std::span<const Mat3> v) const {
                                &v[0][0][0]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

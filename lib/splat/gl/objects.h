@@ -8,7 +8,7 @@
 #include "core/vector.h"
 #include "splat/gl/context.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// One name of one kind. Empty after a move. Its context must be current when it goes.
 class GlObject {
@@ -63,4 +63,4 @@ class GlProgram {
   GlObject program_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -12,7 +12,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/projection.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 GlView camera_view(const Scene& scene, const Camera& camera, int width, int height, const Vec2& subpixel) {
@@ -131,4 +131,4 @@ GBuffer GlRenderer::rasterise(const Camera& camera, int width, int height, const
   return g;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -6,7 +6,7 @@
 #include "scene/rays.h"
 #include "splat/gl/mesh.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 inline constexpr std::uint32_t kNothingDrawn = ~0u;
 
@@ -27,4 +27,4 @@ void draw_triangles(const Gl& gl, const GlMesh& mesh, const GlView& view, const 
 /// than the rasteriser's rounding).
 Hit hit_triangle(const Scene& scene, const Ray& ray, std::uint32_t triangle);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Projected solid angle of the rectangle [0,x] x [0,y] at height 1: pi times the form factor from an element
@@ -53,4 +53,4 @@ RasterPlane raster_plane(int side, RasterBorder border) {
   return plane;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -6,7 +6,7 @@
 #include "core/vector.h"
 #include "estimate/record_options.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Half of the plane's side over its height: the view opens by 2 atan(2) = 126.9 degrees each way, and sees
 /// 83 % of a hemisphere's projected solid angle.
@@ -27,4 +27,4 @@ struct RasterPlane {
 /// side > 0.
 RasterPlane raster_plane(int side, RasterBorder border);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 GlRenderer::GlRenderer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
   impl_->context.check("loading the scene");
@@ -67,4 +67,4 @@ void GlRenderer::Impl::read(const GlObject& texture, std::vector<Vec4>& pixels) 
                                static_cast<GLsizei>(pixels.size() * sizeof(Vec4)), pixels.data());
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -8,7 +8,7 @@
 #include "splat/projection.h"
 #include "splat/splatter.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Textures of one picture size, and what draws into them. Made when a size is first asked for.
 struct GlPictureTarget {
@@ -52,4 +52,4 @@ struct GlRenderer::Impl {
   GlObject gloss_array, gloss_rects, gloss_record;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

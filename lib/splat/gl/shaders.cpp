@@ -1,6 +1,6 @@
 #include "splat/gl/shaders.h"
 
-namespace phos::shaders {
+namespace phos::inline splat::shaders {
 
 const char* const scene_vertex = R"(#version 450 core
 layout(location = 0) in vec3 position;
@@ -267,4 +267,4 @@ void main() {
 }
 )";
 
-}  // namespace phos::shaders
+}  // namespace phos::splat::shaders

@@ -1,7 +1,7 @@
 // GLSL 4.50 of the splatter. Pixels are counted from the top: the projection turns the picture over.
 #pragma once
 
-namespace phos::shaders {
+namespace phos::inline splat::shaders {
 
 /// Triangles of the scene, seen through `view`. Reversed depth: 1 at the nearest, towards 0 far away.
 extern const char* const scene_vertex;
@@ -23,4 +23,4 @@ extern const char* const picture_vertex;
 /// Illuminance of each pixel by one sample of a light, where its shadow map lets it through.
 extern const char* const shadow_fragment;
 
-}  // namespace phos::shaders
+}  // namespace phos::splat::shaders

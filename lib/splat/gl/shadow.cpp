@@ -15,7 +15,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/gl/shaders.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
@@ -317,4 +317,4 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   return illuminance;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

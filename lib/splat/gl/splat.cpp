@@ -11,7 +11,7 @@
 #include "splat/gl/shaders.h"
 #include "splat/tiles.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr std::size_t kBatch = 2048;  // records per draw
@@ -119,4 +119,4 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   return buffer;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -5,7 +5,7 @@
 
 #include "scene/picture.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 bool same_all_over(const Scene& scene, const Material& material) {
@@ -136,4 +136,4 @@ void EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result)
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -10,7 +10,7 @@
 #include "splat/picture/layers.h"
 #include "splat/picture/pixel_shader.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What one sample of each pixel sees.
 struct SeenPicture {
@@ -74,4 +74,4 @@ class EdgeShader {
   std::vector<bool> diffuse_, even_;  // per material: without another lobe; and the same all over
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -4,7 +4,7 @@
 
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr float kSameDirection = 0.966f;  // cos 15 degrees
@@ -60,4 +60,4 @@ std::vector<std::uint32_t> edge_pixels(const Scene& scene, const GBuffer& g) {
       [](Pixels& all, const Pixels& some) { all.insert(all.end(), some.begin(), some.end()); });
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "radiance/gloss_report.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// The same light, none in bands that it lacks.
@@ -51,4 +51,4 @@ PictureGloss gloss_of_picture(const RayScene& rays, SplatCaches& caches, const R
   return gloss;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -8,7 +8,7 @@
 #include "splat/caches.h"
 #include "splat/picture/render.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Who computes the gloss of a picture.
 struct PictureGloss {
@@ -22,4 +22,4 @@ struct PictureGloss {
 PictureGloss gloss_of_picture(const RayScene& rays, SplatCaches& caches, const RenderOptions& render,
                               bool allow_mismatch, Counters& counters);
 
-}  // namespace phos
+}  // namespace phos::inline splat

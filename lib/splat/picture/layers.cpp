@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr std::array<const char*, 13> kNames{"beauty",   "direct",   "indirect", "glossy",      "specular",
@@ -174,4 +174,4 @@ Image Layers::image(std::span<const std::uint16_t> samples) const {
   return image;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -9,7 +9,7 @@
 #include "core/vector.h"
 #include "image/image.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 enum class Layer : std::uint8_t {
   beauty,
@@ -88,4 +88,4 @@ class Layers {
   std::vector<float> illuminance_, weight_, depth_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

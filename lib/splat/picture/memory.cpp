@@ -7,7 +7,7 @@
 #include "splat/picture/layers.h"
 #include "splat/splatter.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 /// Bytes a pixel: of the visible surface, and of the records drawn there.
@@ -42,4 +42,4 @@ std::string require_memory(const RenderOptions& options) {
   return needed > kMuch ? takes : "";
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

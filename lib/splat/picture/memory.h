@@ -5,7 +5,7 @@
 
 #include "splat/picture/render.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Bytes that render_scene() takes for the pixels of a picture at most, the scene and the records not
 /// counted.
@@ -15,4 +15,4 @@ double picture_bytes(const RenderOptions& options);
 /// part (over 1 GiB), else empty.
 std::string require_memory(const RenderOptions& options);
 
-}  // namespace phos
+}  // namespace phos::inline splat

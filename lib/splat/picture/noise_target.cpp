@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 constexpr std::int64_t kPilotSide = 128;  // pixels, of the longer side
@@ -100,4 +100,4 @@ void require_one_choice(const Options& given, const RenderOptions& render) {
     throw Error(ExitCode::usage, "--noise", "is of shadow rays; give --direct traced or interleaved");
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

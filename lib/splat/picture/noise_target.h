@@ -3,7 +3,7 @@
 
 #include "splat/picture/render.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// What was found.
 struct NoiseTarget {
@@ -25,4 +25,4 @@ NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, Rend
 /// Throws Error(usage) where `noise` comes with a number of rays, or with shadow maps.
 void require_one_choice(const Options& given, const RenderOptions& render);
 
-}  // namespace phos
+}  // namespace phos::inline splat

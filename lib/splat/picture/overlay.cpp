@@ -12,7 +12,7 @@
 #include "splat/projection.h"
 #include "splat/tiles.h"
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 // Of a picture of 1000 pixels on its longer side; larger ones get larger marks.
@@ -201,4 +201,4 @@ DrawnRecords draw_records(Image& image, std::span<const IrradianceRecord> record
   return drawn;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -8,7 +8,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 enum class Overlay { none, records };
 /// What the colour of a record tells, on a logarithmic scale from blue (least) to red.
@@ -30,4 +30,4 @@ struct DrawnRecords {
 DrawnRecords draw_records(Image& image, std::span<const IrradianceRecord> records, double accuracy,
                           const RayScene& rays, const Camera& camera, OverlayColour colour);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -1,6 +1,6 @@
 #include "splat/picture/pixel_shader.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 void ShadingResult::join(const ShadingResult& other) {
   looked_up += other.looked_up, missed += other.missed;
@@ -234,4 +234,4 @@ void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& po
   light.noisy += gloss.from_lamps;
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

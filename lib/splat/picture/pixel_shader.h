@@ -9,7 +9,7 @@
 #include "splat/picture/layers.h"
 #include "splat/picture/render.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// One of the samples of a pixel: of those that every pixel has, or of those that edges have besides. Each
 /// group has low-discrepancy sequences of its own.
@@ -84,4 +84,4 @@ class PixelShader {
   const EnvironmentHarmonics* environment_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline splat

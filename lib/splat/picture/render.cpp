@@ -19,7 +19,7 @@
 #include "splat/picture/pixel_shader.h"
 #include "splat/splatter.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 namespace {
 
@@ -422,4 +422,4 @@ void write_misses(const std::string& path, const std::vector<Miss>& misses, cons
   file.commit();
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -19,7 +19,7 @@
 #include "splat/direct/environment_harmonics.h"
 #include "splat/picture/overlay.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 enum class SplatBy { gl, cpu };
 enum class DirectBy {
@@ -86,4 +86,4 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
 /// CSV: x,y,z (m, of the world), nx,ny,nz. What phos-irradiance --at reads. Atomic.
 void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m = DVec3(0));
 
-}  // namespace phos
+}  // namespace phos::inline splat

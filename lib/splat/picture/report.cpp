@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace phos {
+namespace phos::inline splat {
 namespace {
 
 void put_stats(Tool& tool, const Rendering& rendering, const PictureGloss& gloss) {
@@ -80,4 +80,4 @@ void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& ta
   if (!target.enough) tool.warn("the noise asked for takes more than 4096 rays a pixel; so many are sent");
 }
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -6,7 +6,7 @@
 #include "splat/picture/noise_target.h"
 #include "splat/picture/render.h"
 
-namespace phos {
+namespace phos::inline splat {
 
 /// Times, counts and events for --stats; on stderr what is missing, where `misses` and `gloss_misses` (paths
 /// of --misses and --gloss-misses, "" where not given) do not hold it; and what an overlay shows.
@@ -16,4 +16,4 @@ void report_picture(Tool& tool, const RenderOptions& render, const Rendering& re
 /// How many rays an asked noise takes, and whether that is too many; nothing where none was asked.
 void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& target);
 
-}  // namespace phos
+}  // namespace phos::inline splat

@@ -1,6 +1,6 @@
 #include "study/html/text.h"
 
-namespace phos {
+namespace phos::inline study {
 
 const char* const kPageStyle = R"css(
 :root { color-scheme: light; font: 15px/1.45 system-ui, sans-serif; color: #222; background: #fff; }
@@ -62,4 +62,4 @@ for (const box of document.querySelectorAll(".compare")) {
 }
 )js";
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -6,7 +6,7 @@
 #include "study/html/pictures.h"
 #include "study/html/text.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::string study_page(const PageInput& in) {
   return html + "<script>" + kPageScript + "</script></body></html>\n";
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -8,7 +8,7 @@
 #include "study/results/plots.h"
 #include "study/results/results.h"
 
-namespace phos {
+namespace phos::inline study {
 
 struct PageInput {
   const StudyFile& study;
@@ -23,4 +23,4 @@ struct PageInput {
 /// any column, effects, and the command lines of each point. Reads the pictures of the first seed.
 std::string study_page(const PageInput& input);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "image/metrics.h"
 #include "study/html/text.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -111,4 +111,4 @@ std::string pictures_section(const PageInput& in, std::size_t view) {
   return html + "</div></details>\n";
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

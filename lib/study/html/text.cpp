@@ -9,7 +9,7 @@
 #include "core/text/markup.h"
 #include "image/formats.h"
 
-namespace phos {
+namespace phos::inline study {
 
 std::string base64(std::string_view bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -62,4 +62,4 @@ std::string bytes_text(double bytes) {
   return text(short_number(bytes), " ", kUnits[unit]);
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "study/statistics.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// RFC 4648.
 std::string base64(std::string_view bytes);
@@ -27,4 +27,4 @@ std::string bytes_text(double bytes);
 extern const char* const kPageStyle;
 extern const char* const kPageScript;
 
-}  // namespace phos
+}  // namespace phos::inline study

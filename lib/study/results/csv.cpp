@@ -2,7 +2,7 @@
 
 #include "study/results/results.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::string results_csv(const StudyFile& study, const StudyWork& work, const Stu
   return csv;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

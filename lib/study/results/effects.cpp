@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::vector<LevelEffect> main_effect(std::span<const Trial> trials, std::size_t 
   return effects;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -7,7 +7,7 @@
 
 #include "study/statistics.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// One run of a full factorial study.
 struct Trial {
@@ -31,4 +31,4 @@ struct LevelEffect {
 std::vector<LevelEffect> main_effect(std::span<const Trial> trials, std::size_t factor, std::size_t levels,
                                      double confidence);
 
-}  // namespace phos
+}  // namespace phos::inline study

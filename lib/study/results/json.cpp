@@ -1,7 +1,7 @@
 #include "core/options.h"
 #include "study/results/results.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -140,4 +140,4 @@ Json results_json(const StudyFile& study, const StudyWork& work, const StudyJour
   return j;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace phos {
+namespace phos::inline study {
 
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
   std::vector<std::size_t> order;
@@ -25,4 +25,4 @@ std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
   return front;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace phos {
+namespace phos::inline study {
 
 /// What a setting costs (time, memory, bytes) and the error that it leaves; of both, less is better.
 struct CostAndError {
@@ -16,4 +16,4 @@ struct CostAndError {
 /// cost. Of equal points, all; points that are not finite, none. O(n log n).
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -164,4 +164,4 @@ std::vector<NamedPlot> plots_of(const StudyFile& study, const StudyWork& work, c
   return plots;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -7,7 +7,7 @@
 #include "image/plot/plot.h"
 #include "study/results/results.h"
 
-namespace phos {
+namespace phos::inline study {
 
 struct NamedPlot {
   std::string name;   ///< of its files, without extension
@@ -20,4 +20,4 @@ struct NamedPlot {
 /// Plots of which no point can be shown (all errors 0, on a logarithmic axis) are left out.
 std::vector<NamedPlot> plots_of(const StudyFile& study, const StudyWork& work, const StudyResults& results);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "study/results/pareto.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -165,4 +165,4 @@ std::vector<std::string> doubts(const StudyResults& results) {
   return sentences;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -10,7 +10,7 @@
 #include "study/run.h"
 #include "study/statistics.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// What a result takes: every stage that leads to it, each once.
 struct ChainCost {
@@ -91,4 +91,4 @@ std::string results_csv(const StudyFile& study, const StudyWork& work, const Stu
 Json results_json(const StudyFile& study, const StudyWork& work, const StudyJournal& journal,
                   const StudyResults& results);
 
-}  // namespace phos
+}  // namespace phos::inline study

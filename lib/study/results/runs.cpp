@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "study/results/results.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::vector<RunResult> measure_runs(const StudyFile& study, const StudyWork& wor
   return runs;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -10,7 +10,7 @@
 #include "sense/sensors.h"
 #include "study/measure.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::vector<SceneLoss> check_against_scenes(const StudyFile& study) {
   return out;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

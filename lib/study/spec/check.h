@@ -6,7 +6,7 @@
 
 #include "study/spec/study_file.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// The files of a given reference (`which`: pictures or lux) of a scene and camera; empty: it is to be made.
 const std::vector<std::string>& given(const StudyFile& study, const std::string& scene,
@@ -24,4 +24,4 @@ struct SceneLoss {
 /// for a given reference of another size, layer, scene or sensors, or whose two files are one.
 std::vector<SceneLoss> check_against_scenes(const StudyFile& study);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/text/likeness.h"
 
-namespace phos {
+namespace phos::inline study {
 
 StudyKeys::StudyKeys(const TomlFile& file, std::string section)
     : file_(file), section_(std::move(section)), table_(file.root.find(section_)) {
@@ -110,4 +110,4 @@ void StudyKeys::finish(std::vector<std::string> known) const {
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 
 #include "study/spec/toml.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// A section whose keys are taken by name; finish() refuses those that nobody took. All throw Error(usage)
 /// naming line and key.
@@ -41,4 +41,4 @@ class StudyKeys {
   std::set<std::string> taken_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

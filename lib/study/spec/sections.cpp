@@ -8,7 +8,7 @@
 #include "study/spec/tools.h"
 #include "study/spec/values.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -165,4 +165,4 @@ void read_reference_options(StudyKeys& keys, StudyFile& study, const CommandRunn
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

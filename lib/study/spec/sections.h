@@ -6,7 +6,7 @@
 #include "study/spec/keys.h"
 #include "study/spec/study_file.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// Path of a file that the study names, from the study's own folder; it joins study.files. Throws
 /// Error(bad_input) where it is not there.
@@ -18,4 +18,4 @@ void read_sections(const TomlFile& file, StudyFile& study, const CommandRunner& 
 /// What is left in [reference]: options of phos-reference, one value each.
 void read_reference_options(StudyKeys& keys, StudyFile& study, const CommandRunner& runner);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline study {
 
 std::vector<Setting> expand_settings(const StudyFile& study) {
   constexpr std::size_t kMost = 100000;
@@ -38,4 +38,4 @@ std::string describe(const StudyFile& study, const Setting& setting) {
   return words.empty() ? "as given" : words;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

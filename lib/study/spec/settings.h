@@ -7,7 +7,7 @@
 
 #include "study/spec/study_file.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// A point of a study: one scene, one camera, one value of each factor.
 struct Setting {
@@ -21,4 +21,4 @@ std::vector<Setting> expand_settings(const StudyFile& study);
 /// "photons 100000, accuracy 0.1": the factors' values; "as given" where nothing varies.
 std::string describe(const StudyFile& study, const Setting& setting);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -6,7 +6,7 @@
 #include "file/hash.h"
 #include "scene/load.h"
 
-namespace phos {
+namespace phos::inline study {
 
 std::span<const StageKind> stage_kinds() {
   static const std::vector<StageKind> kinds{
@@ -78,4 +78,4 @@ std::vector<std::string> Stages::shell_lines(std::size_t last, const std::string
   return lines;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 
 #include "study/spec/study_file.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// A program, and the sections whose files it reads besides the scene, where the study has them.
 struct StageKind {
@@ -58,4 +58,4 @@ class Stages {
   std::map<std::string, std::string> hashes_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -10,7 +10,7 @@
 #include "study/spec/sections.h"
 #include "study/spec/stages.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -156,4 +156,4 @@ StudyFile read_study(const std::string& path, const CommandRunner& runner) {
   return study;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

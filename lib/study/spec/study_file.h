@@ -11,7 +11,7 @@
 #include "study/command.h"
 #include "study/spec/toml.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// An option of a stage that takes several values in turn.
 struct Factor {
@@ -68,4 +68,4 @@ inline constexpr const char* kEachCamera =
 /// that contradicts itself, and a study that asks for nothing.
 StudyFile read_study(const std::string& path, const CommandRunner& runner);
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-namespace phos {
+namespace phos::inline study {
 
 /// What the parser takes for impossible, and is not ("[{" begins no key).
 struct TomlSurprise {};
 [[noreturn]] inline void toml_surprise() { throw TomlSurprise(); }
 
-}  // namespace phos
+}  // namespace phos::inline study
 
 // The parser would end the program, or with NDEBUG take it for granted.
 #undef NDEBUG
@@ -26,7 +26,7 @@ struct TomlSurprise {};
 #include "core/error.h"
 #include "core/text/line.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -124,4 +124,4 @@ TomlFile parse_toml(std::string_view text_of_file, const std::string& path) {
   return file;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

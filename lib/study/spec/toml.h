@@ -8,7 +8,7 @@
 
 #include "core/json.h"
 
-namespace phos {
+namespace phos::inline study {
 
 struct TomlFile {
   Json root;                                ///< an object
@@ -22,4 +22,4 @@ struct TomlFile {
 /// here.
 TomlFile parse_toml(std::string_view text, const std::string& path);
 
-}  // namespace phos
+}  // namespace phos::inline study

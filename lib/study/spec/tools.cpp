@@ -8,7 +8,7 @@
 #include "core/text/likeness.h"
 #include "file/json_parse.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<std::string> option_words(const ToolOption& option, const Json& valu
   return {name, word};
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

@@ -9,7 +9,7 @@
 #include "core/options.h"
 #include "study/command.h"
 
-namespace phos {
+namespace phos::inline study {
 
 struct ToolOption {
   std::string name, kind, unit;  ///< kind: flag, number, integer, text, list, file, choice
@@ -34,4 +34,4 @@ ToolOptions options_of(const CommandRunner& runner, const std::string& tool);
 std::vector<std::string> option_words(const ToolOption& option, const Json& value, const std::string& folder,
                                       const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline study

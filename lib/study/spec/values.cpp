@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline study {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<Json> values_of(const ToolOption& option, const Json& asked, const s
   return list;
 }
 
-}  // namespace phos
+}  // namespace phos::inline study

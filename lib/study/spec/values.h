@@ -7,7 +7,7 @@
 #include "core/json.h"
 #include "study/spec/tools.h"
 
-namespace phos {
+namespace phos::inline study {
 
 /// Values in the order in which they are tried. A range is a table {from, to, steps, scale}: `steps` values
 /// from one end to the other, both included, evenly spaced (scale "linear", the default) or in equal ratios
@@ -16,4 +16,4 @@ namespace phos {
 /// whole numbers, runs backwards, or is logarithmic and does not start above 0.
 std::vector<Json> values_of(const ToolOption& option, const Json& asked, const std::string& where);
 
-}  // namespace phos
+}  // namespace phos::inline study

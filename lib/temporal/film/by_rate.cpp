@@ -7,7 +7,7 @@
 #include "temporal/film/maker.h"
 #include "temporal/visible_places.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// How long a key lives, by what is expected one frame on.
 void FilmMaker::live(Key& key, const Chain& chain, const Made& made, const FrameScene* next,
@@ -79,4 +79,4 @@ void FilmMaker::frame_by_rate(std::int64_t frame, const FrameRange& shot) {
     live(chains_[i].keys.back(), chains_[i], made[i - first_new], next, most);
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -8,7 +8,7 @@
 #include "temporal/change.h"
 #include "temporal/film/lives.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 float frames_between(std::int64_t from, std::int64_t to) {
@@ -188,4 +188,4 @@ RadianceCache cache_at(const RadianceFilm& film, std::int64_t frame, const Scene
   return cache;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -10,7 +10,7 @@
 #include "scene/motion/anchor.h"
 #include "scene/motion/film.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// How records change between the frames at which they were computed.
 enum class TemporalGradients {
@@ -111,4 +111,4 @@ RadianceFilm read_radiance_film(const Container& file);
 IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Scene& scene);
 RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -3,7 +3,7 @@
 
 #include "temporal/film/maker.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
 void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
@@ -63,4 +63,4 @@ void FilmMaker::begin_appeared(std::span<const std::size_t> chains, std::int64_t
   }
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -10,7 +10,7 @@
 #include "temporal/film/cache.h"
 #include "temporal/film/lives.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 // --- changes ---
@@ -276,4 +276,4 @@ RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, c
   return shown<RadianceCache>(read_radiance(file, wanted), wanted, frame, scene);
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

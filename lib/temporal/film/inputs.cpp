@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 void require_frame(const Container& file, const FilmInfo& film, std::int64_t frame) {
@@ -83,4 +83,4 @@ SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& sce
   return all;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

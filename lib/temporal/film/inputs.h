@@ -13,7 +13,7 @@
 #include "temporal/film/cache.h"
 #include "temporal/survey.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// The frame that a scene was loaded at: the nearest to its time.
 std::int64_t frame_of(const Scene& scene);
@@ -33,4 +33,4 @@ RadianceCache read_radiance_at(const Container& file, const Scene& scene);
 SensorCaches sensor_caches_at(std::span<const Container> files, const Scene& scene,
                               const RayScene* leak_test);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 namespace {
 
@@ -165,4 +165,4 @@ FilmInfo read_film_info(const Container& file) {
   return info;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -9,7 +9,7 @@
 #include "file/container.h"
 #include "temporal/film/cache.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// What is wrong with a life, nullptr: nothing. `before`: the life of the record before it, if there is one.
 const char* what_is_wrong(const Life& life, const Life* before, const FilmInfo& film);
@@ -47,4 +47,4 @@ std::optional<RadianceRecord> at_frame(const FilmRadianceRecord& record, float s
 /// The `film` object of a file's header, which read_film_info() reads.
 Json film_header(const FilmInfo& film, const LifeColumns& lives);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "place/parallel_maker.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 /// Frames of a piece, besides its first, whose view is looked at for places.
@@ -218,4 +218,4 @@ FilmReport FilmMaker::report() const {
   return report;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -17,7 +17,7 @@
 #include "temporal/journal.h"
 #include "temporal/survey.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// The light of the frames in work: the last few that were asked for.
 class FrameLights {
@@ -145,4 +145,4 @@ class FilmMaker {
   FilmReport report_;
 };
 
-}  // namespace phos
+}  // namespace phos::inline temporal

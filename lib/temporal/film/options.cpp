@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 void declare_options(Options& options, FilmOptions& f) {
   options.section("Time");
@@ -70,4 +70,4 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   if (of_radiance && !given.given("checks")) checks = 2;
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -8,7 +8,7 @@
 #include "estimate/record_options.h"
 #include "temporal/film/cache.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// What decides at which frames the light of a place is computed.
 enum class Lives {
@@ -41,4 +41,4 @@ struct FilmOptions {
 };
 void declare_options(Options& options, FilmOptions& film);
 
-}  // namespace phos
+}  // namespace phos::inline temporal

@@ -6,7 +6,7 @@
 #include "temporal/film/maker.h"
 #include "temporal/visible_places.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// Chains whose last key lies at `frame`, in order. After a jump, all those that were there before it may be
 /// wanted: they get one.
@@ -84,7 +84,7 @@ void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, Irradi
     source.wanted = task_.wanted;
     if (!source.wanted && task_.unwanted) source.wanted = std::not_fn(task_.unwanted);
     if (task_.placement.place == Place::photons) source.photons = &light.photons(counters_);
-    placed = place(known, *kept, light.rays(), task_.records, task_.placement, source, counters_);
+    placed = extend_cache(known, *kept, light.rays(), task_.records, task_.placement, source, counters_);
   }
   report_.estimates += placed.made, report_.making_s += placed.making_s,
       report_.uncovered += placed.uncovered;
@@ -157,4 +157,4 @@ void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std:
   wanted.insert(wanted.end(), added.begin(), added.end());
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

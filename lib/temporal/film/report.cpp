@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace phos {
+namespace phos::inline temporal {
 namespace {
 
 /// Of the frames that records live through: from this share that was computed on, a film is hardly worth it.
@@ -71,4 +71,4 @@ void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& r) {
     tool.say(text(r.uncovered, " places are left uncovered by neighbour clamping; raise --passes"));
 }
 
-}  // namespace phos
+}  // namespace phos::inline temporal

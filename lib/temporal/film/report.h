@@ -4,11 +4,11 @@
 #include "file/tool.h"
 #include "temporal/make_film.h"
 
-namespace phos {
+namespace phos::inline temporal {
 
 /// Before the work: frames, cuts, what moves; that nothing changes.
 void tell_of_film(Tool& tool, const FilmJob& job);
 /// After it: records, lives, cost; also as figures for --stats.
 void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& report);
 
-}  // namespace phos
+}  // namespace phos::inline temporal
