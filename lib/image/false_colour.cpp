@@ -8,12 +8,13 @@
 #include "core/error.h"
 #include "image/canvas.h"
 #include "image/metrics.h"
+#include "image/plot/style.h"
 
 namespace phos::inline image {
 
 namespace {
 
-constexpr Colour8 kBackground{32, 32, 36}, kInk{235, 235, 235}, kFaint{150, 150, 155};
+constexpr Colour8 kBackground{32, 32, 36}, kBright{235, 235, 235}, kFaint{150, 150, 155};
 
 Colour8 to_bytes(const glm::dvec3& c) {
   Colour8 out;
@@ -105,7 +106,7 @@ Picture side_by_side(const Picture& left, const Picture& right) {
 Picture with_legend(const Picture& picture, const FalseColourRange& range, const LegendText& words,
                     const std::function<Colour8(double)>& colour) {
   // Letters grow with the picture. A line of words takes `line` pixels.
-  const int size = std::clamp(picture.height / 30, 12, 200), line = size * 4 / 3, gap = size / 2;
+  const int size = letters_of_picture(picture.height), line = size * 4 / 3, gap = size / 2;
   const std::size_t lines = words.steady ? 4 : words.figures.size();
   const int footer = static_cast<int>(lines) * line;
   const int height = std::min(std::max(picture.height, 14 * line + footer), kMostCanvasPixels);
@@ -129,7 +130,7 @@ Picture with_legend(const Picture& picture, const FalseColourRange& range, const
     legend.write({static_cast<double>(x), static_cast<double>(middle)}, s,
                  {.colour = ink, .size = static_cast<double>(size)});
   };
-  write(gap, gap + line / 2, words.title, kInk);
+  write(gap, gap + line / 2, words.title, kBright);
   write(gap, gap + line + line / 2, unit, kFaint);
   legend.fill(gap - 1, top - 1, bar_width + 2, bar_height + 2, kFaint);
   for (int y = 0; y < bar_height; ++y)
@@ -137,8 +138,8 @@ Picture with_legend(const Picture& picture, const FalseColourRange& range, const
   for (const auto& [v, label] : marks) {
     const int y = top + static_cast<int>(std::lround((1 - position(range, v)) * bar_height));
     const int thick = std::max(1, size / 12);
-    legend.fill(gap + bar_width, y - thick / 2, gap, thick, kInk);
-    write(gap + bar_width + gap + gap / 2, y, label, kInk);
+    legend.fill(gap + bar_width, y - thick / 2, gap, thick, kBright);
+    write(gap + bar_width + gap + gap / 2, y, label, kBright);
   }
   for (std::size_t i = 0; i < words.figures.size(); ++i)
     write(gap, height - footer - gap + static_cast<int>(i) * line + line / 2, words.figures[i], kFaint);
