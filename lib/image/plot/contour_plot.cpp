@@ -19,10 +19,14 @@ std::string figure(double v) {
   return s;
 }
 
-/// Of the level at an index; low ones blue, high ones red.
-Colour8 colour_of(std::size_t index, std::size_t levels) {
+/// Of the level at an index; low ones blue, high ones red. Dark ones stand out from paper, light ones from
+/// pictures, where they have a dark edge.
+Colour8 colour_of(std::size_t index, std::size_t levels, bool dark) {
   const double t = levels > 1 ? static_cast<double>(index) / static_cast<double>(levels - 1) : 1;
-  return palette_colour(Palette::turbo, 0.08 + 0.84 * t);
+  Colour8 colour = palette_colour(Palette::turbo, dark ? 0.08 + 0.84 * t : 0.2 + 0.6 * t);
+  if (dark)
+    for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>(0.8 * c);
+  return colour;
 }
 
 /// A rectangle on the canvas.
@@ -82,7 +86,7 @@ class Contours {
       if (edge && !look_.edge) continue;
       for (std::size_t i = 0; i < levels.size(); ++i)
         for (const std::vector<PlotPoint>& line : all[i])
-          canvas_.stroke(line, edge ? *look_.edge : colour_of(i, levels.size()),
+          canvas_.stroke(line, edge ? *look_.edge : colour_of(i, levels.size(), !look_.edge),
                          edge ? 2 * look_.width : look_.width);
     }
     std::vector<double> unlabelled;
@@ -119,6 +123,8 @@ class Contours {
           std::any_of(taken_.begin(), taken_.end(), [&](const Area& a) { return a.meets(box); }))
         continue;
       taken_.push_back(box);
+      if (!look_.edge)  // the line is interrupted
+        canvas_.fill(box.left, box.top, box.right - box.left, box.bottom - box.top, look_.halo);
       canvas_.write(at, words,
                     {.colour = look_.ink, .size = look_.size, .align = Align::middle, .halo = look_.halo});
       return true;
@@ -210,7 +216,7 @@ class Plan {
     const double x = frame_.right + 2 * kGap;
     double y = frame_.top + kLetter / 2.0;
     for (std::size_t i = 0; i < plan_.levels.size(); ++i, y += kLine) {
-      canvas.stroke({{x, y}, {x + kSample, y}}, colour_of(i, plan_.levels.size()), 2);
+      canvas.stroke({{x, y}, {x + kSample, y}}, colour_of(i, plan_.levels.size(), true), 2);
       canvas.write({x + kSample + kGap / 2, y}, name(plan_.levels[i]));
     }
   }

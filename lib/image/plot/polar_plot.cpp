@@ -16,7 +16,7 @@ constexpr Colour8 kGrid{205, 205, 205};
 constexpr std::size_t kColours = 4;  // of those of lines
 constexpr const char* kDegree = "\xc2\xb0";
 constexpr int kStep_deg = 15;
-constexpr double kGap = 10, kMargin = 46, kSample = 34;
+constexpr double kGap = 10, kMargin = 60, kSample = 34;
 /// Light above this angle makes the plot a whole circle; else it ends a step above the horizontal.
 constexpr double kLowerPart_deg = 100, kUpperEnd_deg = 105;
 
@@ -102,7 +102,7 @@ class Drawing {
     for (int k = every; k <= rings_; k += every) {
       const PlotPoint p = at(0, k * step_);
       canvas.write({p.x + 4, p.y - kLetter / 2 - 1},
-                   figure(k * step_) + (k + every > rings_ ? " " + plot_.unit : ""));
+                   figure(k * step_) + (k + every > rings_ ? " " + plot_.unit : ""), {.halo = kPaper});
     }
   }
 
