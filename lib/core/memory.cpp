@@ -43,6 +43,15 @@ std::uint64_t left_of_limit() {
 
 std::uint64_t free_memory_bytes() { return std::min(available_on_machine(), left_of_limit()); }
 
+std::string require_memory(const std::string& what, double bytes, const std::string& advice) {
+  constexpr double kMuch = 1024.0 * 1024 * 1024;
+  const auto free = static_cast<double>(free_memory_bytes());
+  const std::string takes = text(what, " takes about ", memory_text(bytes), " of memory");
+  if (bytes > free)
+    throw Error(ExitCode::no_memory, "", text(takes, ", and ", memory_text(free), " are free; ", advice));
+  return bytes > kMuch ? takes : "";
+}
+
 std::string memory_text(double bytes) {
   const double mebibytes = bytes / kMebi;
   if (mebibytes < 1024) return text(std::llround(mebibytes), " MiB");

@@ -10,6 +10,10 @@ namespace phos {
 /// of address space (ulimit -v) leaves. The largest number where neither is known.
 std::uint64_t free_memory_bytes();
 
+/// Throws Error(no_memory) where `what` (such as "a picture of 2 x 2") takes more bytes than there are free;
+/// `advice` says how it takes less. A line for people where it takes a good part (over 1 GiB), else empty.
+std::string require_memory(const std::string& what, double bytes, const std::string& advice);
+
 /// "23.4 GiB", "512 MiB".
 std::string memory_text(double bytes);
 

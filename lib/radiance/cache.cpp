@@ -51,9 +51,9 @@ int require_radiance_order(int order) {
 }
 
 bool is_finite(const RadianceRecord& r) {
-  return is_finite(r.position) && is_finite(r.frame.x) && is_finite(r.frame.z) && all_finite(r.light) &&
-         all_finite(r.gradient_x) && all_finite(r.gradient_y) && all_finite(r.stderr_light) &&
-         std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
+  return phos::is_finite(r.position) && phos::is_finite(r.frame.x) && phos::is_finite(r.frame.z) &&
+         all_finite(r.light) && all_finite(r.gradient_x) && all_finite(r.gradient_y) &&
+         all_finite(r.stderr_light) && std::isfinite(r.radius_m) && !std::isnan(r.distance_m);
 }
 
 Rgb irradiance_of(std::span<const float> light) {

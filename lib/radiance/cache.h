@@ -61,7 +61,9 @@ struct RadianceCache {
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
 /// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
-inline double reading_accuracy(const RadianceCache& cache) { return reading_accuracy(cache.accuracy, 0.6); }
+inline double reading_accuracy(const RadianceCache& cache) {
+  return phos::reading_accuracy(cache.accuracy, 0.6);
+}
 
 /// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy x
 /// max(1, R / D). A record's radius R is where its light is about another one (at most the mean distance D,

@@ -365,6 +365,14 @@ Image Renderer::image() const {
 
 }  // namespace
 
+double reference_bytes(const ReferenceOptions& options) {
+  // Layers: nine of three channels, normal, position, Z, and two of illuminance; one more while it is filled.
+  constexpr double kLayers = sizeof(float) * (9 * 3 + 3 + 3 + 1 + 2 + 3);
+  double of_pixel = sizeof(Pixel) + kLayers;
+  if (options.method == ReferenceMethod::bidirectional) of_pixel += sizeof(PathSample);
+  return of_pixel * static_cast<double>(options.width) * static_cast<double>(options.height);
+}
+
 ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
                                   const ReferenceOptions& options) {
   Renderer renderer(rays, luminaires, camera, options);

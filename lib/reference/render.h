@@ -33,6 +33,9 @@ void declare_options(Options& options, ReferenceOptions& reference);
 /// Fills width and height in. Throws Error(usage) for a picture of more than 2^28 pixels.
 void resolve_size(ReferenceOptions& reference, const Camera& camera);
 
+/// Bytes that render_reference() takes for the pixels at most; width and height above 0.
+double reference_bytes(const ReferenceOptions& options);
+
 struct ReferencePicture {
   /// R G B; emission, direct, indirect (as in PathSample; glossy and specular where there is any); stderr and
   /// indirect_stderr: standard error per channel; illuminance.Y and illuminance_stderr.Y, lx, of the visible

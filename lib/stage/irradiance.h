@@ -17,7 +17,12 @@ inline constexpr int kIrradianceAlgorithm = 21;
 struct IrradianceCommand {
   std::vector<std::string> inputs;
   SceneOptions scene;
-  RecordOptions records{.radius = RadiusRule::light};
+  /// Of one time: radii may follow the light.
+  RecordOptions records = [] {
+    RecordOptions stills;
+    stills.radius = RadiusRule::light;
+    return stills;
+  }();
   PlacementOptions placement;
   std::string at, add_to;  ///< files
   std::string isa;

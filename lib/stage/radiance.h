@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 18;
+inline constexpr int kRadianceAlgorithm = 19;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;

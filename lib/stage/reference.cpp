@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/memory.h"
 #include "file/atomic_file.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
@@ -76,6 +77,9 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
       is_bidirectional(method_of(reference), scene, ways, pixels * static_cast<double>(reference.samples));
   if (const auto inside = camera_inside_solid(rays, find_camera(scene, reference.camera))) tool.warn(*inside);
   reference.method = both_ends ? ReferenceMethod::bidirectional : ReferenceMethod::path;
+  const std::string takes = require_memory(text("a picture of ", reference.width, " x ", reference.height),
+                                           reference_bytes(reference), "give a smaller --width");
+  if (!takes.empty()) tool.say(takes);
   ReferencePicture picture = [&] {
     const auto timer = tool.time("trace");
     return render_reference(rays, luminaires, find_camera(scene, reference.camera), reference);

@@ -8,13 +8,15 @@
 #include "scene/opening/blind.h"
 #include "scene/opening/portal_piece.h"
 #include "scene/opening/portal_sight.h"
+#include "scene/opening/rectified_map.h"
 #include "scene/sky/environment.h"
 
 namespace phos::inline scene {
 
-/// Directions for a point that sees little of the environment: uniform over the solid angle of a portal, or
-/// of a gap of a blind, chosen by about the light that comes through it to that place (through portals behind
-/// blinds a tenth as often as through their gaps); towards the sun, where a portal lies before it; and one in
+/// Directions for a point that sees little of the environment: through a portal, by the map's luminance where
+/// the portal is a rectangle (RectifiedMap), else uniform over its solid angle; or through a gap of a blind;
+/// chosen by the light that comes through it to that place (through portals behind blinds a tenth as often as
+/// through their gaps); towards the sun, where a portal lies before it; and one in
 /// ten (one in two of a map with bright spots) as Environment::sample() has them, so that no light is lost
 /// that comes by another way. One density of all of them: unbiased whatever the portals. Const, usable from
 /// any thread.
@@ -39,15 +41,27 @@ class PortalLight {
     const Blind* blind = nullptr;
     Blind::Gap gap;
   };
+  // The map as a piece shows it to a place.
+  struct SeenMap {
+    const RectifiedMap* map = nullptr;  // null: the piece is no rectangle, or shows nothing
+    RectifiedMap::Box box;
+    double light_lx = 0;
+  };
   struct Chances {
     float sun = 0, stray = 1;
     float sum = 0;  // of the promises, lx
     // Of each piece, then of each gap that is seen; good until the thread asks again.
     std::span<const float> promise;
+    std::span<const SeenMap> map;  // of each piece
     std::span<const SeenGap> gap;
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
   Chances chances(const Vec3& from) const;
+  void add_maps(const PortalPiece& piece);
+  const RectifiedMap* map_of(const RectifiedMap::Axes& axes);
+  SeenMap seen_map(std::size_t piece, const Vec3& from) const;
+  double density(std::size_t piece, const Vec3& from, const Vec3& direction, const Chances& c,
+                 bool certain) const;
   float promise_lx(const PortalPiece& piece, const Vec3& from) const;
   float promise_lx(const SeenGap& seen) const;
   void prefer_gaps(const Vec3& from, std::vector<float>& promise) const;
@@ -61,6 +75,11 @@ class PortalLight {
   const Environment* light_;
   std::shared_ptr<const PortalSight> sight_;
   std::vector<PortalPiece> piece_;
+  std::vector<std::unique_ptr<const RectifiedMap>> map_;  // one an orientation of rectangles
+  struct Sides {
+    const RectifiedMap *along = nullptr, *against = nullptr;  // seen along the piece's normal, and against it
+  };
+  std::vector<Sides> sides_;  // of each piece
   std::vector<Blind> blind_;
   float least_cd_m2_ = 0;  // a piece is not taken for darker
   float stray_ = 0;

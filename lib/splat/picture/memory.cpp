@@ -14,7 +14,6 @@ namespace {
 constexpr double kSeen = sizeof(Hit) + 3 * sizeof(Vec4), kSplats = 3 * sizeof(Vec4);
 /// Bytes a pixel of OpenGL's own buffers, measured with OSMesa.
 constexpr double kOpenGl = 128;
-constexpr double kMuch = 1024.0 * 1024 * 1024;
 
 }  // namespace
 
@@ -27,19 +26,14 @@ double picture_bytes(const RenderOptions& options) {
 }
 
 std::string require_memory(const RenderOptions& options) {
-  const double needed = picture_bytes(options), free = static_cast<double>(free_memory_bytes());
-  const std::string takes = text("a picture of ", options.width, " x ", options.height, " takes about ",
-                                 memory_text(needed), " of memory");
-  if (needed > free) {
-    RenderOptions least = options;
-    least.layers = {"beauty"}, least.splat = SplatBy::cpu;
-    const double small = picture_bytes(least);
-    throw Error(
-        ExitCode::no_memory, "",
-        text(takes, ", and ", memory_text(free), " are free; give a smaller --width",
-             small < free ? text(", or --layers beauty --splat cpu (", memory_text(small), ")") : ""));
-  }
-  return needed > kMuch ? takes : "";
+  RenderOptions least = options;
+  least.layers = {"beauty"}, least.splat = SplatBy::cpu;
+  const double small = picture_bytes(least);
+  return phos::require_memory(
+      text("a picture of ", options.width, " x ", options.height), picture_bytes(options),
+      text("give a smaller --width", small < static_cast<double>(free_memory_bytes())
+                                         ? text(", or --layers beauty --splat cpu (", memory_text(small), ")")
+                                         : ""));
 }
 
 }  // namespace phos::inline splat
