@@ -8,8 +8,10 @@ constexpr const char* kDescription =
     "the numbers of --layer, pixel by pixel, where it ends in .csv. By default the light is tone mapped: the "
     "log-average luminance becomes a middle grey, the brightest half "
     "per cent becomes white, colours keep their hue. --false-colour shows luminance (cd/m2) or illuminance "
-    "(lx) as colours, with a legend. Pixels that are not finite are magenta, and counted in a warning. From "
-    "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG. With "
+    "(lx) as colours, with a legend. Pixels that are not finite are magenta, and counted in a warning. "
+    "--contours draws lines of equal illuminance, or of another layer, with labels, over the picture. From "
+    "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG, or "
+    "with --contours and --spacing lines of equal illuminance on a plane of sensors, seen from above. With "
     "--frames "
     "every frame of a sequence is shown with one exposure, that of the first which is not black, as pictures "
     "or, "
@@ -30,6 +32,7 @@ int main(int argc, char** argv) {
       "OpenEXR, Radiance .hdr, a table (CSV), or photometry (.ies, .ldt); with --frames, a folder or a name "
       "with %04d");
   declare_options(options, asked.picture);
+  declare_options(options, asked.picture.contours);
   options.section("Sequences");
   declare_frames(options, asked.sequence.frames);
   options.number("fps", asked.sequence.frames_per_s, "N",
@@ -44,6 +47,10 @@ int main(int argc, char** argv) {
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
                   "lux on every surface");
   options.example("phos-picture room.exr -o lux.csv --layer illuminance", "lux of every pixel, as a table");
+  options.example("phos-picture room.exr -o isolux.png --contours illuminance",
+                  "the room with lines of equal lux");
+  options.example("phos-picture plane.csv -o isolux.svg --contours E_lx --spacing 0.5",
+                  "lines of equal lux on a workplane, from phos-sense --grid 0.5");
   options.example("phos-picture film/%04d.exr --frames 0:99 -o film.mp4",
                   "a video (ffmpeg makes it), exposed as its first frame");
   options.example(

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/text/utf8.h"
 #include "file/container.h"
 #include "file/json_parse.h"
 
@@ -11,23 +12,6 @@ namespace phos::inline file {
 namespace {
 
 constexpr const char* kFormatPrefix = "phos/";
-
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-/// Length of the well-formed UTF-8 character at s[i], 0 if there is none (RFC 3629).
-std::size_t utf8_length(const std::string& s, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
-  const unsigned char lead = byte(i);
-  if (lead < 0x80) return 1;
-  const std::size_t n = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || i + n > s.size()) return 0;
-  for (std::size_t k = 1; k < n; ++k)
-    if (!is_continuation(s[i + k])) return 0;
-  const unsigned char second = byte(i + 1);
-  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
-                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
-  return wrong ? 0 : n;
-}
 
 /// Names from scenes may be in any encoding, but JSON is UTF-8: stray bytes become U+FFFD.
 std::string valid_utf8(const std::string& s) {

@@ -1,32 +1,75 @@
-// Drawing on an 8-bit picture: rectangles and small text, for legends.
+// Lines, dots, rectangles and words, drawn by Cairo as pixels or as SVG.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "image/image.h"
+#include "image/colour8.h"
 
 namespace phos::inline image {
 
-using Colour8 = std::array<std::uint8_t, 3>;
+/// x to the right, y downwards, in units of a canvas: pixels of its `width` and `height`, before `scale`.
+struct PlotPoint {
+  double x = 0, y = 0;
+};
 
-/// 8-bit sRGB of linear components (clamped to 0 .. 1; IEC 61966-2-1).
-Colour8 to_srgb(const Rgb& linear);
+enum class Align { left, middle, right };
 
-Picture make_picture(int width, int height, const Colour8& colour);
-/// Outside of the picture nothing is drawn.
-void set_pixel(Picture& picture, int x, int y, const Colour8& colour);
-void fill(Picture& picture, int x, int y, int width, int height, const Colour8& colour);
+inline constexpr int kLetter = 14;  ///< size of words on plots, units of a canvas
 
-/// Letters are 5 x 7 dots, `dot` pixels each. Lower case, capitals, digits and . , : - + / % ( ) = < > _ [ ]
-/// ^ * and, in Latin-1 or UTF-8, the degree sign and the superscript two ("\xb2" in Latin-1, which
-/// text_for_picture makes of "m2"); another character leaves a blank.
-void draw_text(Picture& picture, int x, int y, int dot, std::string_view text, const Colour8& colour);
-int text_width(std::string_view text, int dot);
-int text_height(int dot);
-/// "cd/m2" with a raised two.
-std::string text_for_picture(std::string unit);
+/// How words look. The font is DejaVu Sans.
+struct Lettering {
+  Colour8 colour{40, 40, 40};
+  double size = kLetter;  ///< of the font, units of the canvas
+  Align align = Align::left;
+  bool upwards = false;           ///< turned by 90 degrees, counter-clockwise
+  std::optional<Colour8> halo{};  ///< colour of an edge about the letters, a sixth of `size` wide
+};
+
+/// The longest side of a canvas of pixels, after `scale`.
+inline constexpr int kMostCanvasPixels = 32767;
+
+/// The same calls give the same bytes on one machine, whatever its settings of fonts: greys smooth the edges,
+/// letters are not fitted to pixels. Parts outside of the canvas are not drawn.
+class Canvas {
+ public:
+  /// `scale` pixels for each unit. width, height > 0.
+  static Canvas pixels(int width, int height, const Colour8& paper, int scale = 1);
+  /// Drawn on a picture, one unit a pixel, at most kMostCanvasPixels wide and high.
+  static Canvas over(const Picture& picture);
+  /// Words become outlines, so that a reader needs no font.
+  static Canvas svg(int width, int height, const Colour8& paper);
+  ~Canvas();
+  Canvas(Canvas&&) noexcept;
+  Canvas& operator=(Canvas&&) noexcept;
+
+  /// `width` in units; joints and ends are round. Nothing for fewer than two points. `dashes`: six units
+  /// drawn, four not.
+  void stroke(const std::vector<PlotPoint>& path, const Colour8& colour, double width, bool dashes = false);
+  void dot(const PlotPoint& centre, double radius, const Colour8& colour);
+  void fill(double x, double y, double width, double height, const Colour8& colour);
+  /// `at`: the middle of the height of figures; of their width as `align` says. UTF-8; a byte that is none is
+  /// read as Latin-1. A character that DejaVu Sans lacks becomes a box. Throws Error(bad_input) where that
+  /// font is not installed.
+  void write(const PlotPoint& at, std::string_view words, const Lettering& lettering = {});
+
+  /// Units. Throws as write() does.
+  double width_of(std::string_view words, double size = kLetter) const;
+  /// The words, or their beginning and "..." where they are wider than `width` units.
+  std::string fitting(std::string_view words, double width, double size = kLetter) const;
+
+  /// What pixels() or over() made. The canvas is used up.
+  Picture finish_picture();
+  /// What svg() made. The canvas is used up.
+  std::string finish_svg();
+
+ private:
+  struct Surface;
+  explicit Canvas(std::unique_ptr<Surface> surface);
+  std::unique_ptr<Surface> surface_;
+};
 
 }  // namespace phos::inline image

@@ -6,13 +6,15 @@
 #include <initializer_list>
 
 #include "core/error.h"
+#include "image/canvas.h"
 #include "image/metrics.h"
+#include "image/plot/style.h"
 
 namespace phos::inline image {
 
 namespace {
 
-constexpr Colour8 kBackground{32, 32, 36}, kInk{235, 235, 235}, kFaint{150, 150, 155};
+constexpr Colour8 kBackground{32, 32, 36}, kBright{235, 235, 235}, kFaint{150, 150, 155};
 
 Colour8 to_bytes(const glm::dvec3& c) {
   Colour8 out;
@@ -81,45 +83,67 @@ std::vector<std::string> figures_of(std::span<const float> values) {
   return lines;
 }
 
+std::string shown_unit(std::string unit) {
+  if (unit == "1") return "";
+  for (std::size_t at = unit.find("m2"); at != std::string::npos; at = unit.find("m2", at))
+    unit.replace(at, 2, "m\xc2\xb2");
+  return unit;
+}
+
+/// Tops of both at the top.
+Picture side_by_side(const Picture& left, const Picture& right) {
+  Picture out = make_picture(left.width + right.width, std::max(left.height, right.height), kBackground);
+  const auto copy = [&out](const Picture& from, int x) {
+    for (int y = 0; y < from.height; ++y)
+      std::copy_n(from.rgb.begin() + std::ptrdiff_t{3} * y * from.width, 3 * from.width,
+                  out.rgb.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{y} * out.width + x));
+  };
+  copy(left, 0), copy(right, left.width);
+  return out;
+}
+
 /// Copies `picture` on a larger one with a legend beside it. `colour` gives the palette at a position 0 .. 1.
 Picture with_legend(const Picture& picture, const FalseColourRange& range, const LegendText& words,
                     const std::function<Colour8(double)>& colour) {
-  const int dot = 1 + std::max(picture.height, 60) / 350;
-  const int line = text_height(dot), gap = 4 * dot;
+  // Letters grow with the picture. A line of words takes `line` pixels.
+  const int size = letters_of_picture(picture.height), line = size * 4 / 3, gap = size / 2;
   const std::size_t lines = words.steady ? 4 : words.figures.size();
-  const int footer = static_cast<int>(lines) * (line + gap);
-  const int height = std::max(picture.height, 16 * line + footer);
-  const int top = 2 * line + 5 * gap, bottom = height - footer - 3 * gap;
-  const int bar_width = 12 * dot, bar_height = bottom - top;
-  const std::string unit = text_for_picture(words.unit == "1" ? "" : words.unit);
+  const int footer = static_cast<int>(lines) * line;
+  const int height = std::min(std::max(picture.height, 14 * line + footer), kMostCanvasPixels);
+  const int top = gap + 2 * line + line / 2, bottom = height - footer - gap - line / 2;
+  const int bar_width = line, bar_height = bottom - top;
+  const std::string unit = shown_unit(words.unit);
+  const Canvas ruler = Canvas::pixels(1, 1, kBackground);
+  const auto width_of = [&](const std::string& s) {
+    return static_cast<int>(std::ceil(ruler.width_of(s, size)));
+  };
   std::vector<std::pair<double, std::string>> marks;
-  int widest = std::max(text_width(words.title, dot), text_width(unit, dot));
-  if (words.steady) widest = std::max(widest, text_width("not finite 12345678", dot));
-  for (const std::string& s : words.figures) widest = std::max(widest, text_width(s, dot));
-  widest -= bar_width + 2 * gap;
+  int widest = std::max(width_of(words.title), width_of(unit));
+  if (words.steady) widest = std::max(widest, width_of("not finite 12345678"));
+  for (const std::string& s : words.figures) widest = std::max(widest, width_of(s));
   for (const double v : scale_marks(range, std::clamp(bar_height / (2 * line), 2, 14))) {
     marks.emplace_back(v, number(v));
-    widest = std::max(widest, text_width(marks.back().second, dot));
+    widest = std::max(widest, bar_width + 2 * gap + width_of(marks.back().second));
   }
-  const int left = picture.width + 2 * gap;
-  Picture out = make_picture(left + bar_width + 2 * gap + widest + 2 * gap, height, kBackground);
-  for (int y = 0; y < picture.height; ++y)
-    std::copy_n(picture.rgb.begin() + std::ptrdiff_t{3} * y * picture.width, 3 * picture.width,
-                out.rgb.begin() + std::ptrdiff_t{3} * y * out.width);
-  draw_text(out, left, 2 * gap, dot, words.title, kInk);
-  draw_text(out, left, 2 * gap + line + gap, dot, unit, kFaint);
-  fill(out, left - dot, top - dot, bar_width + 2 * dot, bar_height + 2 * dot, kFaint);
+  Canvas legend = Canvas::pixels(gap + widest + gap, height, kBackground);
+  const auto write = [&](int x, int middle, const std::string& s, const Colour8& ink) {
+    legend.write({static_cast<double>(x), static_cast<double>(middle)}, s,
+                 {.colour = ink, .size = static_cast<double>(size)});
+  };
+  write(gap, gap + line / 2, words.title, kBright);
+  write(gap, gap + line + line / 2, unit, kFaint);
+  legend.fill(gap - 1, top - 1, bar_width + 2, bar_height + 2, kFaint);
   for (int y = 0; y < bar_height; ++y)
-    fill(out, left, top + y, bar_width, 1, colour(1 - (y + 0.5) / bar_height));
+    legend.fill(gap, top + y, bar_width, 1, colour(1 - (y + 0.5) / bar_height));
   for (const auto& [v, label] : marks) {
     const int y = top + static_cast<int>(std::lround((1 - position(range, v)) * bar_height));
-    fill(out, left + bar_width, y - dot / 2, gap, dot, kInk);
-    draw_text(out, left + bar_width + 2 * gap, y - line / 2, dot, label, kInk);
+    const int thick = std::max(1, size / 12);
+    legend.fill(gap + bar_width, y - thick / 2, gap, thick, kBright);
+    write(gap + bar_width + gap + gap / 2, y, label, kBright);
   }
   for (std::size_t i = 0; i < words.figures.size(); ++i)
-    draw_text(out, left, height - gap - footer + static_cast<int>(i) * (line + gap), dot, words.figures[i],
-              kFaint);
-  return out;
+    write(gap, height - footer - gap + static_cast<int>(i) * line + line / 2, words.figures[i], kFaint);
+  return side_by_side(picture, legend.finish_picture());
 }
 
 Picture coloured(std::span<const float> values, int width, int height, const FalseColourRange& range,

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "image/canvas.h"
+#include "image/colour8.h"
 #include "image/image.h"
 
 namespace phos::inline image {

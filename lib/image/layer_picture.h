@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "image/contouring.h"
 #include "image/false_colour.h"
 #include "image/tone_map.h"
 
@@ -20,7 +21,8 @@ struct LayerPictureOptions {
   ScaleChoice scale = ScaleChoice::automatic;
   Palette palette = Palette::viridis;
   std::optional<double> min, max;
-  bool steady = false;  ///< one of a sequence: the legend is of one size
+  ContourOptions contours;  ///< drawn by show_image(), declared by their own declare_options()
+  bool steady = false;      ///< one of a sequence: the legend is of one size
 };
 void declare_options(Options& options, LayerPictureOptions& picture);
 /// Options::first_given() of these.

@@ -39,7 +39,24 @@ bool expose(const Tool& tool, const Image& image, std::int64_t frame, LayerPictu
   if (p.tone.key_cd_m2 != asked.tone.key_cd_m2 || p.tone.white_cd_m2 != asked.tone.white_cd_m2)
     tool.say(text("all frames are exposed as frame ", frame, ": --key ", shortest(*p.tone.key_cd_m2),
                   " --white ", shortest(*p.tone.white_cd_m2)));
+  if (!p.contours.of.empty() && p.contours.levels.empty()) {
+    p.contours = fixed_levels(image, p.contours);
+    std::string levels;
+    for (const std::string& level : p.contours.levels) levels += (levels.empty() ? "" : ",") + level;
+    if (levels.empty()) return false;
+    tool.say(text("all frames have the lines of frame ", frame, ": --levels ", levels));
+  }
   return p.false_colour ? p.max.has_value() : p.tone.white_cd_m2.has_value();
+}
+
+void draw_contours(Tool& tool, const Image& image, const std::string& input, const ContourOptions& contours,
+                   Picture& picture) {
+  ContouredPicture drawn = contoured(image, picture, contours);
+  picture = std::move(drawn.picture);
+  if (drawn.unlabelled.empty()) return;
+  std::string levels;
+  for (const double level : drawn.unlabelled) levels += (levels.empty() ? "" : ", ") + shortest(level);
+  tool.warn(text(input, ": lines of ", levels, " have no room for a label"));
 }
 
 }  // namespace
@@ -61,6 +78,7 @@ std::optional<Picture> show_image(Tool& tool, const Image& image, const std::str
   if (tool.verbose() && !p.false_colour)
     tool.say(text("middle grey ", shown.key_cd_m2, " cd/m2, white ", shown.white_cd_m2, " cd/m2"));
   tell_non_finite(tool, input, image, shown.non_finite, false);
+  if (!p.contours.of.empty()) draw_contours(tool, image, input, p.contours, shown.picture);
   return std::move(shown.picture);
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "image/canvas.h"
+#include "image/colour8.h"
 
 namespace phos::inline image {
 

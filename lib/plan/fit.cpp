@@ -1,5 +1,6 @@
 #include "plan/fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,26 +47,21 @@ struct Normal {
 
 /// Solves for the terms of `set` by Cholesky's method. False if they are not told apart, or one is negative.
 bool solve(const Normal& n, const std::vector<std::size_t>& set, std::vector<double>& x) {
-  const std::size_t k = set.size();
-  std::vector<double> lower(k * k);
-  for (std::size_t i = 0; i < k; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = n.matrix[set[i] * n.terms + set[j]];
-      for (std::size_t m = 0; m < j; ++m) sum -= lower[i * k + m] * lower[j * k + m];
-      if (i == j && !(sum > kCollinear)) return false;
-      lower[i * k + j] = i == j ? std::sqrt(sum) : sum / lower[j * k + j];
-    }
+  const auto k = static_cast<Eigen::Index>(set.size());
+  Eigen::MatrixXd matrix(k, k);
+  Eigen::VectorXd right(k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const std::size_t row = set[static_cast<std::size_t>(i)];
+    right[i] = n.right[row];
+    for (Eigen::Index j = 0; j < k; ++j)
+      matrix(i, j) = n.matrix[row * n.terms + set[static_cast<std::size_t>(j)]];
   }
-  x.assign(k, 0);
-  for (std::size_t i = 0; i < k; ++i) {
-    x[i] = n.right[set[i]];
-    for (std::size_t m = 0; m < i; ++m) x[i] -= lower[i * k + m] * x[m];
-    x[i] /= lower[i * k + i];
-  }
-  for (std::size_t i = k; i-- > 0;) {
-    for (std::size_t m = i + 1; m < k; ++m) x[i] -= lower[m * k + i] * x[m];
-    x[i] /= lower[i * k + i];
-  }
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(matrix);
+  if (cholesky.info() != Eigen::Success ||
+      !(cholesky.matrixLLT().diagonal().array().square() > kCollinear).all())
+    return false;
+  const Eigen::VectorXd solution = cholesky.solve(right);
+  x.assign(solution.begin(), solution.end());
   return std::all_of(x.begin(), x.end(), [](double v) { return v >= 0 && std::isfinite(v); });
 }
 

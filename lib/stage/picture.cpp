@@ -37,6 +37,21 @@ void write_plot(const std::string& output, const P& plot, std::string (*svg)(con
   file.commit();
 }
 
+/// Places of rows that a later row hides are counted.
+void draw_plan(Tool& tool, const std::string& bytes, const std::string& input, const PictureCommand& asked) {
+  const Options& options = tool.options();
+  refuse_given(options.first_given({"x", "y", "series", "where", "log-x", "log-y", "x-min", "x-max", "y-min",
+                                    "y-max", "x-label", "y-label", "plot-height"}),
+               "lines over --x", input, "drawn as a plan, by --contours");
+  check_usage(asked.picture.contours, true);
+  TableContours drawn = contours_of(parse_csv(bytes, input), asked.picture.contours);
+  drawn.plan.title = asked.plot.title, drawn.plan.width = static_cast<int>(asked.plot.width);
+  if (drawn.hidden > 0)
+    tool.warn(text(input, ": ", drawn.hidden,
+                   " rows are hidden by later ones at the same x and z; give a table of one plane"));
+  write_plot(tool.output(), drawn.plan, contour_plan_svg, contour_plan_picture);
+}
+
 void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
                const CsvPlotOptions& options) {
   const CsvTable table = parse_csv(bytes, input);
@@ -58,6 +73,7 @@ void draw_goniometric(Tool& tool, const std::string& input) {
                 "a polar plot is no image of light; the name must end in .png or .svg");
   refuse_given(given_picture_option(options), "images", input, "a luminaire");
   refuse_given(given_plot_option(options), "tables", input, "a luminaire");
+  refuse_given(given_contour_option(options), "images and tables", input, "a luminaire");
   const PhotometricFile file = read_photometry(input);
   for (const std::string& warning : file.warnings) tool.warn(text(input, ": ", warning));
   const std::string name = std::filesystem::path(input).filename().string();
@@ -67,7 +83,7 @@ void draw_goniometric(Tool& tool, const std::string& input) {
 }
 
 void check_usage(const Options& options, const std::string& output, const PictureSequence& s,
-                 bool false_colour) {
+                 const LayerPictureOptions& picture) {
   const auto refuse = [](const char* option, const std::string& why) {
     throw Error(ExitCode::usage, option, why);
   };
@@ -76,8 +92,10 @@ void check_usage(const Options& options, const std::string& output, const Pictur
       !output.ends_with(".csv") && !video)
     refuse("--output",
            "the name must end in .png, .hdr, .csv or .svg, or for a video in .mp4, .mkv or .webm");
-  if (false_colour && (output.ends_with(".hdr") || output.ends_with(".csv")))
+  if (picture.false_colour && (output.ends_with(".hdr") || output.ends_with(".csv")))
     refuse("--false-colour", "false colours need an output that ends in .png");
+  if (!picture.contours.of.empty() && (output.ends_with(".hdr") || output.ends_with(".csv")))
+    refuse("--contours", "lines of equal value need an output that ends in .png or .svg");
   if (video && s.frames.empty()) refuse("--output", "a video is made of frames: --frames 0:47");
   if (!video && s.frames_per_s) refuse("--fps", "is of videos: -o film.mp4");
   if (s.frames.empty() && names_frames(output))
@@ -96,7 +114,8 @@ void run(Tool& tool, const PictureCommand& asked) {
   const std::string& output = tool.output();
   if (asked.goniometric)
     refuse_given(tool.options().first_given({"frames", "fps"}), "sequences", input, "a luminaire");
-  check_usage(tool.options(), output, sequence, picture.false_colour);
+  check_usage(tool.options(), output, sequence, picture);
+  if (!sequence.frames.empty()) check_usage(picture.contours, false);
   if (!sequence.frames.empty()) return show_sequence(tool, sequence, picture);
   require_writable(output);
   tool.add_input("input", input);
@@ -107,11 +126,14 @@ void run(Tool& tool, const PictureCommand& asked) {
   if (!is_image(bytes) && !is_named_image(input) && is_plain_text(bytes)) {
     check_output(output, input, false);
     refuse_given(given_picture_option(tool.options()), "images", input, "a table");
+    if (!picture.contours.of.empty()) return draw_plan(tool, bytes, input, asked);
+    check_usage(picture.contours, true);
     return draw_plot(tool, bytes, input, asked.plot);
   }
   const Image image = read_image(input);
   check_output(output, input, true);
   refuse_given(given_plot_option(tool.options()), "tables", input, "an image");
+  check_usage(picture.contours, false);
   if (const auto shown = show_image(tool, image, input, output, picture)) write_png(output, *shown);
 }
 

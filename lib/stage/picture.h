@@ -8,7 +8,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kPictureAlgorithm = 1;
+inline constexpr int kPictureAlgorithm = 2;
 
 struct PictureCommand {
   PictureSequence sequence;  ///< with the input

@@ -22,6 +22,7 @@
 #include "core/parallel.h"
 #include "estimate/density.h"
 #include "stage/chosen_estimator.h"
+#include "study/statistics.h"
 #include "support/records.h"
 
 namespace {
@@ -56,15 +57,13 @@ struct Mean {
   double excess() const { return std::fabs(value) - interval; }
 };
 
-/// With Student's quantile, to first order in 1 / degrees of freedom.
+/// With Student's quantile; at least two samples.
 Mean mean_of(const std::vector<double>& samples) {
   const auto n = static_cast<double>(samples.size());
   double sum = 0, squares = 0;
   for (const double x : samples) sum += x;
   for (const double x : samples) squares += (x - sum / n) * (x - sum / n);
-  constexpr double z = 1.96;
-  const double t = z + (z * z * z + z) / (4 * (n - 1));
-  return {sum / n, t * std::sqrt(squares / (n * (n - 1)))};
+  return {sum / n, student_t(0.95, samples.size() - 1) * std::sqrt(squares / (n * (n - 1)))};
 }
 
 /// Adds `values` to sums of as many, divided by `count`.

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
+#include "core/error.h"
 #include "file/csv.h"
 #include "image/image.h"
 #include "support/refused.h"
@@ -121,9 +123,101 @@ TEST_F(PictureTool, PlotsOfATable) {
     EXPECT_EQ(run.out, "");
   }
   const std::string svg = test::slurp(path("t.svg"));
-  EXPECT_NE(svg.find(">rmse<"), std::string::npos);
-  EXPECT_NE(svg.find(">b<"), std::string::npos);
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
   EXPECT_EQ(read_png(path("t.png")).width, 1440);
+}
+
+TEST_F(PictureTool, LinesOfEqualValue) {
+  // Over the tone-mapped beauty, over false colours, and as plans of a table.
+  Image image(200, 120);
+  image.set_rgb("", std::vector<Rgb>(image.pixels(), Rgb(1)));
+  for (std::size_t i = 0; i < image.pixels(); ++i)
+    image.channel("illuminance.Y")[i] = static_cast<float>(i % 200);
+  write_exr(path("lit.exr"), image);
+  const auto make = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "picture");
+    const auto run = run_tool(words);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+  };
+  make({path("lit.exr"), "-o", path("plain.png")});
+  make({path("lit.exr"), "-o", path("lines.png"), "--contours", "illuminance"});
+  make({path("lit.exr"), "-o", path("two.png"), "--contours", "illuminance", "--levels", "50,150"});
+  make({path("lit.exr"), "-o", path("false.png"), "--layer", "illuminance", "--false-colour", "--contours",
+        "illuminance"});
+  EXPECT_EQ(read_png(path("lines.png")).width, 200);
+  EXPECT_NE(read_png(path("lines.png")).rgb, read_png(path("plain.png")).rgb);
+  EXPECT_NE(read_png(path("lines.png")).rgb, read_png(path("two.png")).rgb);
+  std::string csv = "id,x,y,z,E_lx\n";
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 4; ++j) csv += text("p", i, ",", i, ",0.8,", j, ",", 100 * i, "\n");
+  test::spill(path("plane.csv"), csv);
+  for (const std::string name : {"plan.svg", "plan.png"}) {
+    const std::vector<std::string> words{path("plane.csv"), "--contours", "E_lx", "--spacing", "1", "-o"};
+    std::vector<std::string> all = words;
+    all.push_back(path(name));
+    make(all);
+    const std::string bytes = test::slurp(path(name));
+    all.back() = path("again" + name);
+    make(all);
+    EXPECT_EQ(test::slurp(path("again" + name)), bytes);
+  }
+  EXPECT_EQ(read_png(path("plan.png")).width, 1440);
+  const auto refused = [&](std::vector<std::string> words, int code, const std::string& word) {
+    words.insert(words.end(), {"-o", path("no.png")});
+    test::expect_refused("picture", words, code, word);
+  };
+  refused({path("plane.csv"), "--contours", "E_lx"}, 2, "--spacing");
+  refused({path("plane.csv"), "--contours", "df", "--spacing", "1"}, 2, "\"df\"");
+  refused({path("plane.csv"), "--contours", "E_lx", "--spacing", "0.3"}, 3, "neighbours");
+  refused({path("plane.csv"), "--contours", "E_lx", "--spacing", "1", "--x", "x"}, 2, "--x");
+  refused({path("plane.csv"), "--levels", "5"}, 2, "--levels");
+  refused({path("lit.exr"), "--contours", "glossy"}, 3, "glossy");
+  refused({path("lit.exr"), "--contours", "illuminance", "--levels", "5,x"}, 2, "\"x\"");
+  refused({path("lit.exr"), "--contours", "illuminance", "--spacing", "1"}, 2, "--spacing");
+  test::expect_refused("picture", {path("lit.exr"), "--contours", "illuminance", "-o", path("no.hdr")}, 2,
+                       "--contours");
+}
+
+TEST_F(PictureTool, LinesOfASequenceAreThoseOfItsFirstFrame) {
+  for (int frame = 0; frame < 2; ++frame) {
+    Image image(60, 40);
+    image.set_rgb("", std::vector<Rgb>(image.pixels(), Rgb(1)));
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+      image.channel("illuminance.Y")[i] = static_cast<float>(i % 60) * (frame == 0 ? 1.0f : 100.0f);
+    write_exr(path("f" + std::to_string(frame) + ".exr"), image);
+  }
+  const auto run = run_tool({"picture", path("f%01d.exr"), "--frames", "0:1", "--contours", "illuminance",
+                             "-o", path("f%01d.png")});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("lines of frame 0: --levels 20,40"), std::string::npos) << run.err;
+}
+
+TEST_F(PictureTool, LettersDoNotDependOnSettingsOfFonts) {
+  test::spill(path("t.csv"), "n,e\n1,2\n3,4\n");
+  const auto draw = [&](const std::string& name) {
+    return run_tool({"picture", path("t.csv"), "--x", "n", "--y", "e", "-o", path(name)});
+  };
+  ASSERT_EQ(draw("a.png").code, 0);
+  const std::string head = "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig>",
+                    cache = "<cachedir>" + path("cache") + "</cachedir>";
+  test::spill(path("odd.conf"),
+              head + "<dir>/usr/share/fonts</dir>" + cache +
+                  "<match target=\"pattern\"><edit name=\"antialias\"><bool>false</bool></edit></match>"
+                  "<match target=\"font\"><edit name=\"antialias\"><bool>false</bool></edit>"
+                  "<edit name=\"hintstyle\"><const>hintfull</const></edit>"
+                  "<edit name=\"embolden\"><bool>true</bool></edit></match></fontconfig>");
+  test::spill(path("none.conf"), head + "<dir>" + path("nowhere") + "</dir>" + cache + "</fontconfig>");
+  setenv("FONTCONFIG_FILE", path("odd.conf").c_str(), 1);
+  const auto odd = draw("b.png");
+  setenv("FONTCONFIG_FILE", path("none.conf").c_str(), 1);
+  const auto none = draw("c.png");
+  unsetenv("FONTCONFIG_FILE");
+  EXPECT_EQ(odd.code, 0) << odd.err;
+  EXPECT_EQ(test::slurp(path("a.png")), test::slurp(path("b.png")));
+  EXPECT_EQ(none.code, 3);
+  EXPECT_NE(none.err.find("fonts-dejavu-core"), std::string::npos) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(path("c.png")));
 }
 
 TEST_F(PictureTool, PlotErrors) {

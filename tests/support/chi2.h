@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -11,27 +12,9 @@
 
 namespace phos::test {
 
-/// Upper tail of the chi-squared distribution, Q(k/2, x/2): a series below the mean, Lentz's continued
-/// fraction above.
+/// Upper tail of the chi-squared distribution, Q(k/2, x/2).
 inline double chi2_tail(double statistic, int degrees) {
-  const double a = 0.5 * degrees, x = 0.5 * statistic;
-  if (!(x > 0)) return 1;
-  const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
-  if (x < a + 1) {
-    double term = 1 / a, sum = term;
-    for (int n = 1; n < 10000 && term > sum * 1e-16; ++n) sum += term *= x / (a + n);
-    return std::max(0.0, 1 - front * sum);
-  }
-  double b = x + 1 - a, c = 1e300, d = 1 / b, h = d;
-  for (int n = 1; n < 10000; ++n) {
-    const double an = -n * (n - a);
-    b += 2;
-    d = 1 / (an * d + b), c = b + an / c;
-    const double step = c * d;
-    h *= step;
-    if (std::fabs(step - 1) < 1e-15) break;
-  }
-  return front * h;
+  return statistic > 0 ? boost::math::gamma_q(0.5 * degrees, 0.5 * statistic) : 1;
 }
 
 struct Chi2 {

@@ -6,20 +6,17 @@
 #include <limits>
 
 #include "core/error.h"
-#include "image/plot/pen.h"
+#include "image/plot/style.h"
 
 namespace phos::inline image {
 
 namespace {
 
 constexpr Colour8 kGrid{224, 224, 224};
-/// Told apart by people of any colour vision (Okabe and Ito 2008), black last.
-constexpr Colour8 kLines[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
-                              {230, 159, 0}, {86, 180, 233}, {150, 90, 40}, {0, 0, 0}};
-constexpr std::size_t kColours = std::size(kLines);
+constexpr std::size_t kColours = std::size(kLineColours);
 constexpr std::size_t kMostMarks = 60;  // points of a line that are marked
 
-Colour8 colour_of(std::size_t line) { return kLines[line % kColours]; }
+Colour8 colour_of(std::size_t line) { return kLineColours[line % kColours]; }
 /// After the colours come dashes.
 bool dashed(std::size_t line) { return line / kColours % 2 == 1; }
 
@@ -85,9 +82,9 @@ struct Box {
 
 class Drawing {
  public:
-  Drawing(const Plot& plot, Pen& pen)
+  Drawing(const Plot& plot, Canvas& canvas)
       : plot_(plot),
-        pen_(pen),
+        canvas_(canvas),
         x_(range_of(plot, plot.x, &PlotPoint::x)),
         y_(range_of(plot, plot.y, &PlotPoint::y)) {
     PHOS_CHECK(plot.width >= 320 && plot.height >= 200, plot.width, " x ", plot.height);
@@ -97,12 +94,12 @@ class Drawing {
     lay_out();
     axes();
     for (std::size_t i = 0; i < plot_.lines.size(); ++i) line(i);
-    pen_.stroke({{box_.left, box_.top},
-                 {box_.right, box_.top},
-                 {box_.right, box_.bottom},
-                 {box_.left, box_.bottom},
-                 {box_.left, box_.top}},
-                kInk, 1, false);
+    canvas_.stroke({{box_.left, box_.top},
+                    {box_.right, box_.top},
+                    {box_.right, box_.bottom},
+                    {box_.left, box_.bottom},
+                    {box_.left, box_.top}},
+                   kInk, 1, false);
     legend();
   }
 
@@ -113,10 +110,11 @@ class Drawing {
     marks_x_ = scale_marks(x_, std::max(2, plot_.width / 90));
     marks_y_ = scale_marks(y_, std::max(2, plot_.height / 50));
     double numbers = 0, names = 0;
-    for (const double v : marks_y_) numbers = std::max(numbers, pen_.width_of(number(v)));
-    for (const PlotLine& line : plot_.lines) names = std::max(names, pen_.width_of(line.name));
+    for (const double v : marks_y_) numbers = std::max(numbers, canvas_.width_of(number(v)));
+    for (const PlotLine& line : plot_.lines) names = std::max(names, canvas_.width_of(line.name));
     box_.left = kGap + (plot_.y.label.empty() ? 0 : kLetter + kGap) + numbers + kGap;
-    box_.right = plot_.width - 2 * kGap - (names > 0 ? kSample + names + 2 * kGap : 0);
+    const double last = marks_x_.empty() ? 0 : canvas_.width_of(number(marks_x_.back())) / 2 + kGap / 2;
+    box_.right = plot_.width - std::max(2 * kGap, last) - (names > 0 ? kSample + names + 2 * kGap : 0);
     box_.right = std::max(box_.right, box_.left + 0.4 * plot_.width);
     box_.top = kGap + (plot_.title.empty() ? 0 : kLetter + kGap);
     box_.bottom = plot_.height - 2 * kGap - kLetter - (plot_.x.label.empty() ? 0 : kLetter + kGap);
@@ -125,26 +123,34 @@ class Drawing {
   double right_of(double x) const { return box_.left + share(x_, x) * (box_.right - box_.left); }
   double down_to(double y) const { return box_.bottom - share(y_, y) * (box_.bottom - box_.top); }
 
+  /// Words about a place, moved or shortened so that they stay on the paper.
+  void along(PlotPoint at, const std::string& words, bool upwards = false) {
+    const double room = upwards ? plot_.height : plot_.width;
+    const std::string shown = canvas_.fitting(words, room - 2 * kGap);
+    const double half = canvas_.width_of(shown) / 2, end = std::max(kGap + half, room - kGap - half);
+    double& place = upwards ? at.y : at.x;
+    place = std::clamp(place, kGap + half, end);
+    canvas_.write(at, shown, {.align = Align::middle, .upwards = upwards});
+  }
+
   void axes() {
     double free_from = 0;
     for (const double v : marks_x_) {
-      const double at = right_of(v), half = pen_.width_of(number(v)) / 2;
-      pen_.stroke({{at, box_.top}, {at, box_.bottom}}, kGrid, 1, false);
+      const double at = right_of(v), half = canvas_.width_of(number(v)) / 2;
+      canvas_.stroke({{at, box_.top}, {at, box_.bottom}}, kGrid, 1, false);
       if (at - half < free_from) continue;  // numbers do not run into each other
       free_from = at + half + kGap / 2;
-      pen_.write({at, box_.bottom + kGap + kLetter / 2}, number(v), Align::middle);
+      canvas_.write({at, box_.bottom + kGap + kLetter / 2}, number(v), {.align = Align::middle});
     }
     for (const double v : marks_y_) {
       const double at = down_to(v);
-      pen_.stroke({{box_.left, at}, {box_.right, at}}, kGrid, 1, false);
-      pen_.write({box_.left - kGap, at}, number(v), Align::right);
+      canvas_.stroke({{box_.left, at}, {box_.right, at}}, kGrid, 1, false);
+      canvas_.write({box_.left - kGap, at}, number(v), {.align = Align::right});
     }
-    const double middle = (box_.left + box_.right) / 2;
-    if (!plot_.title.empty()) pen_.write({middle, kGap + kLetter / 2}, plot_.title, Align::middle);
-    if (!plot_.x.label.empty())
-      pen_.write({middle, plot_.height - kGap - kLetter / 2}, plot_.x.label, Align::middle);
-    if (!plot_.y.label.empty())
-      pen_.write({kGap + kLetter / 2, (box_.top + box_.bottom) / 2}, plot_.y.label, Align::middle, true);
+    const double x = (box_.left + box_.right) / 2, y = (box_.top + box_.bottom) / 2;
+    if (!plot_.title.empty()) along({x, kGap + kLetter / 2}, plot_.title);
+    if (!plot_.x.label.empty()) along({x, plot_.height - kGap - kLetter / 2}, plot_.x.label);
+    if (!plot_.y.label.empty()) along({kGap + kLetter / 2, y}, plot_.y.label, true);
   }
 
   /// The part of a to b within the box, or nothing (Liang and Barsky 1984).
@@ -174,10 +180,10 @@ class Drawing {
     const double low = shows(plot_.y, bar.lo) ? down_to(bar.lo) : box_.bottom;
     const std::vector<PlotPoint> part = clipped({x, down_to(bar.hi)}, {x, low});
     if (part.empty()) return;
-    pen_.stroke(part, colour, 1, false);
+    canvas_.stroke(part, colour, 1, false);
     for (const PlotPoint& end : part)
       if (inside({end.x - half, end.y}) && inside({end.x + half, end.y}) && end.y < box_.bottom - 1e-6)
-        pen_.stroke({{end.x - half, end.y}, {end.x + half, end.y}}, colour, 1, false);
+        canvas_.stroke({{end.x - half, end.y}, {end.x + half, end.y}}, colour, 1, false);
   }
 
   void line(std::size_t index) {
@@ -187,7 +193,7 @@ class Drawing {
     for (const PlotLine::Bar& bar : plot_.lines[index].bars) upright(bar, colour);
     std::vector<PlotPoint> path;
     const auto finish = [&] {
-      if (path.size() > 1 && joined) pen_.stroke(path, colour, 2, dashed(index));
+      if (path.size() > 1 && joined) canvas_.stroke(path, colour, 2, dashed(index));
       path.clear();
     };
     const PlotPoint* before = nullptr;
@@ -209,7 +215,7 @@ class Drawing {
         }
       }
       before = &p, last = at;
-      if ((points.size() <= kMostMarks || !joined) && inside(at)) pen_.dot(at, 3, colour);
+      if ((points.size() <= kMostMarks || !joined) && inside(at)) canvas_.dot(at, 3, colour);
     }
     finish();
   }
@@ -220,16 +226,17 @@ class Drawing {
       if (plot_.lines[i].name.empty()) continue;
       const double x = box_.right + 2 * kGap;
       if (plot_.lines[i].joined)
-        pen_.stroke({{x, y}, {x + kSample, y}}, colour_of(i), 2, dashed(i));
+        canvas_.stroke({{x, y}, {x + kSample, y}}, colour_of(i), 2, dashed(i));
       else
-        pen_.dot({x + kSample / 2, y}, 3, colour_of(i));
-      pen_.write({x + kSample + kGap / 2, y}, plot_.lines[i].name, Align::left);
+        canvas_.dot({x + kSample / 2, y}, 3, colour_of(i));
+      canvas_.write({x + kSample + kGap / 2, y},
+                    canvas_.fitting(plot_.lines[i].name, plot_.width - kGap - (x + kSample + kGap / 2)));
       y += kLetter + kGap / 2;
     }
   }
 
   const Plot& plot_;
-  Pen& pen_;
+  Canvas& canvas_;
   FalseColourRange x_, y_;
   std::vector<double> marks_x_, marks_y_;
   Box box_;
@@ -245,15 +252,15 @@ std::size_t points_left_out(const Plot& plot) {
 }
 
 std::string plot_svg(const Plot& plot) {
-  SvgPen pen(plot.width, plot.height);
-  Drawing(plot, pen).draw();
-  return pen.finish();
+  Canvas canvas = Canvas::svg(plot.width, plot.height, kPaper);
+  Drawing(plot, canvas).draw();
+  return canvas.finish_svg();
 }
 
 Picture plot_picture(const Plot& plot, int scale) {
-  PixelPen pen(plot.width, plot.height, scale);
-  Drawing(plot, pen).draw();
-  return pen.finish();
+  Canvas canvas = Canvas::pixels(plot.width, plot.height, kPaper, scale);
+  Drawing(plot, canvas).draw();
+  return canvas.finish_picture();
 }
 
 }  // namespace phos::inline image

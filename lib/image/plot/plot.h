@@ -10,10 +10,6 @@
 
 namespace phos::inline image {
 
-struct PlotPoint {
-  double x = 0, y = 0;
-};
-
 /// Points joined in the order given. One that is not finite, or not above 0 on a logarithmic axis, is left
 /// out, and the line is broken there.
 struct PlotLine {
@@ -48,7 +44,7 @@ std::size_t points_left_out(const Plot& plot);
 /// (min not below max, or a logarithmic one that does not start above 0), Error(bad_input) if no point can be
 /// shown.
 std::string plot_svg(const Plot& plot);
-/// Same drawing, `scale` times as many pixels each way. Letters are those of draw_text.
+/// The same drawing, `scale` times as many pixels each way.
 Picture plot_picture(const Plot& plot, int scale = 1);
 
 }  // namespace phos::inline image

@@ -7,16 +7,16 @@
 
 #include "core/error.h"
 #include "image/false_colour.h"
-#include "image/plot/pen.h"
+#include "image/plot/style.h"
 
 namespace phos::inline image {
 namespace {
 
 constexpr Colour8 kGrid{205, 205, 205};
-constexpr Colour8 kCurves[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
+constexpr std::size_t kColours = 4;  // of those of lines
 constexpr const char* kDegree = "\xc2\xb0";
 constexpr int kStep_deg = 15;
-constexpr double kGap = 10, kMargin = 46, kSample = 34;
+constexpr double kGap = 10, kMargin = 60, kSample = 34;
 /// Light above this angle makes the plot a whole circle; else it ends a step above the horizontal.
 constexpr double kLowerPart_deg = 100, kUpperEnd_deg = 105;
 
@@ -55,74 +55,67 @@ class Drawing {
     return static_cast<int>(std::ceil(below_ + lines * (kLetter + 0.6 * kGap) + kGap));
   }
 
-  void draw(Pen& pen) const {
+  void draw(Canvas& canvas) const {
     if (!plot_.title.empty())
-      pen.write({centre_.x, kGap + kLetter / 2}, fitting(pen, plot_.title), Align::middle);
-    grid(pen);
+      canvas.write({centre_.x, kGap + kLetter / 2}, canvas.fitting(plot_.title, plot_.width - 2 * kGap),
+                   {.align = Align::middle});
+    grid(canvas);
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) {
       std::vector<PlotPoint> path;
       for (const PlotPoint& p : plot_.curves[i].points)
         if (std::isfinite(p.y)) path.push_back(at(p.x, p.y));
-      pen.stroke(path, colour(i), 2.2, i % 2 == 1);
+      canvas.stroke(path, colour(i), 2.2, i % 2 == 1);
     }
-    rings(pen);
-    legend(pen);
+    rings(canvas);
+    legend(canvas);
   }
 
  private:
-  static const Colour8& colour(std::size_t i) { return kCurves[i % std::size(kCurves)]; }
+  static const Colour8& colour(std::size_t i) { return kLineColours[i % kColours]; }
 
   PlotPoint at(double deg, double value) const {
     const double r = value / (rings_ * step_) * radius_, a = deg * std::numbers::pi / 180;
     return {centre_.x + r * std::sin(a), centre_.y + r * std::cos(a)};
   }
 
-  std::string fitting(const Pen& pen, std::string words) const {
-    if (pen.width_of(words) <= plot_.width - 2 * kGap) return words;
-    while (!words.empty() && pen.width_of(words + "...") > plot_.width - 2 * kGap) words.pop_back();
-    while (!words.empty() && (words.back() & 0xc0) == 0x80) words.pop_back();
-    if (!words.empty() && (words.back() & 0x80) != 0) words.pop_back();
-    return words + "...";
-  }
-
-  void grid(Pen& pen) const {
+  void grid(Canvas& canvas) const {
     for (int k = 1; k <= rings_; ++k) {
       std::vector<PlotPoint> circle;
       for (int i = -90; i <= 90; ++i) circle.push_back(at(i / 90.0 * end_deg_, k * step_));
-      pen.stroke(circle, kGrid, 1, false);
+      canvas.stroke(circle, kGrid, 1, false);
     }
     for (int deg = -180 + kStep_deg; deg <= 180; deg += kStep_deg) {
       if (std::abs(deg) > end_deg_) continue;
       const bool main = deg % 90 == 0;
-      pen.stroke({at(deg, main || end_deg_ < 180 ? 0 : step_), at(deg, rings_ * step_)}, kGrid,
-                 main ? 1.6 : 1, false);
+      canvas.stroke({at(deg, main || end_deg_ < 180 ? 0 : step_), at(deg, rings_ * step_)}, kGrid,
+                    main ? 1.6 : 1, false);
       const PlotPoint end = at(deg, rings_ * step_ * (1 + 0.055 * 314 / radius_));
       const double side = std::sin(deg * std::numbers::pi / 180);
       const Align align = side > 0.3 ? Align::left : side < -0.3 ? Align::right : Align::middle;
       const double back = align == Align::middle ? 0 : align == Align::left ? -8 : 8;
-      pen.write({end.x + back, end.y}, text(std::abs(deg), kDegree), align);
+      canvas.write({end.x + back, end.y}, text(std::abs(deg), kDegree), {.align = align});
     }
   }
 
-  void rings(Pen& pen) const {
+  void rings(Canvas& canvas) const {
     const int every = rings_ > 5 ? 2 : 1;
     for (int k = every; k <= rings_; k += every) {
       const PlotPoint p = at(0, k * step_);
-      pen.write({p.x + 4, p.y - kLetter / 2 - 1},
-                figure(k * step_) + (k + every > rings_ ? " " + plot_.unit : ""), Align::left);
+      canvas.write({p.x + 4, p.y - kLetter / 2 - 1},
+                   figure(k * step_) + (k + every > rings_ ? " " + plot_.unit : ""), {.halo = kPaper});
     }
   }
 
-  void legend(Pen& pen) const {
+  void legend(Canvas& canvas) const {
     double x = kMargin, y = below_;
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) {
-      pen.stroke({{x, y}, {x + kSample, y}}, colour(i), 2.2, i % 2 == 1);
-      pen.write({x + kSample + kGap / 2, y}, plot_.curves[i].name, Align::left);
-      x += kSample + pen.width_of(plot_.curves[i].name) + 3 * kGap;
+      canvas.stroke({{x, y}, {x + kSample, y}}, colour(i), 2.2, i % 2 == 1);
+      canvas.write({x + kSample + kGap / 2, y}, plot_.curves[i].name);
+      x += kSample + canvas.width_of(plot_.curves[i].name) + 3 * kGap;
     }
     for (const std::string& line : plot_.caption) {
       y += kLetter + 0.6 * kGap;
-      pen.write({kMargin, y}, fitting(pen, line), Align::left);
+      canvas.write({kMargin, y}, canvas.fitting(line, plot_.width - 2 * kMargin));
     }
   }
 
@@ -136,16 +129,16 @@ class Drawing {
 
 std::string polar_plot_svg(const PolarPlot& plot) {
   const Drawing drawing(plot);
-  SvgPen pen(plot.width, drawing.height());
-  drawing.draw(pen);
-  return pen.finish();
+  Canvas canvas = Canvas::svg(plot.width, drawing.height(), kPaper);
+  drawing.draw(canvas);
+  return canvas.finish_svg();
 }
 
 Picture polar_plot_picture(const PolarPlot& plot, int scale) {
   const Drawing drawing(plot);
-  PixelPen pen(plot.width, drawing.height(), scale);
-  drawing.draw(pen);
-  return pen.finish();
+  Canvas canvas = Canvas::pixels(plot.width, drawing.height(), kPaper, scale);
+  drawing.draw(canvas);
+  return canvas.finish_picture();
 }
 
 }  // namespace phos::inline image

@@ -7,7 +7,7 @@ const char* const kPageStyle = R"css(
 body { margin: 0 auto; padding: 1.2rem; max-width: 1500px; }
 h1 { font-size: 1.5rem; margin: 0 0 .3rem; } h2 { font-size: 1.2rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #ccc; }
 p { margin: .4rem 0; max-width: 70rem; } .doubt { background: #fff3cd; border-left: 4px solid #d69e00; padding: .4rem .8rem; }
-.plots { display: flex; flex-wrap: wrap; gap: 1rem; } .plots svg { width: 438px; max-width: 100%; height: auto; border: 1px solid #ddd; }
+.plots { display: flex; flex-wrap: wrap; gap: 1rem; } .plots img { width: 438px; max-width: 100%; height: auto; border: 1px solid #ddd; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .87rem; }
 th, td { padding: .25rem .6rem; text-align: left; border-bottom: 1px solid #e4e4e4; vertical-align: top; white-space: nowrap; }
 table.sorts th { cursor: pointer; background: #f3f3f3; position: sticky; top: 0; } th.up::after { content: " \25b2"; } th.down::after { content: " \25bc"; }

@@ -23,7 +23,8 @@ bool several_views(const PageInput& in) { return in.study.scenes.size() * in.stu
 std::string plots(const PageInput& in, const std::string& part) {
   std::string html;
   for (const NamedPlot& p : in.plots)
-    if (p.name.find(part) != std::string::npos) html += plot_svg(p.plot);
+    if (p.name.find(part) != std::string::npos)
+      html += text("<img alt=\"", markup_text(p.title), "\" src=\"", svg_uri(plot_svg(p.plot)), "\">");
   return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>\n";
 }
 

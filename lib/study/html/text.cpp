@@ -32,6 +32,11 @@ std::string data_uri(const Picture& picture) {
   return uri.append(base64(encode_png(picture)));
 }
 
+std::string svg_uri(std::string_view svg) {
+  std::string uri = "data:image/svg+xml;base64,";
+  return uri.append(base64(svg));
+}
+
 std::string short_number(double v) {
   if (!std::isfinite(v)) return std::isnan(v) ? "-" : v > 0 ? "inf" : "-inf";
   char digits[32];

@@ -14,6 +14,8 @@ namespace phos::inline study {
 std::string base64(std::string_view bytes);
 /// "data:image/png;base64,..."
 std::string data_uri(const Picture& picture);
+/// "data:image/svg+xml;base64,..."
+std::string svg_uri(std::string_view svg);
 
 /// Four digits, for people: "0.01234", "1.2e-07".
 std::string short_number(double v);
