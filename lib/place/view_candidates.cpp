@@ -42,7 +42,8 @@ class Sight {
     if (!trace(rays_, ray, point)) return;
     travelled_m += point.distance_m;
     const Bsdf bsdf(rays_.scene(), point);
-    if (wanted_ ? wanted_(point.material) : bsdf.has_diffuse()) add(point, travelled_m, -ray.direction);
+    if (wanted_ ? wanted_(point.material) : shows_illuminance(point, bsdf))
+      add(point, travelled_m, -ray.direction);
     // What comes through a sheet is the light on its other side.
     if (!wanted_ && bsdf.transmits_diffusely()) add(point.other_side(), travelled_m, ray.direction);
     if (bsdf.has_specular()) follow(point, bsdf, -ray.direction, travelled_m, throughput, depth);
@@ -50,6 +51,12 @@ class Sight {
   }
 
  private:
+  /// What reflects diffusely shows it in the picture; a black surface, unless it is a lamp's, as a layer.
+  bool shows_illuminance(const SurfacePoint& point, const Bsdf& bsdf) const {
+    const bool is_black = !bsdf.scatters() && !bsdf.has_specular();
+    return bsdf.has_diffuse() || (is_black && !rays_.scene().material[point.material].emits());
+  }
+
   void add(const SurfacePoint& point, float travelled_m, const Vec3& towards_eye) {
     RecordSite site{point.position, point.smooth_normal};
     if (view_.least_radius_pixels > 0 || view_.most_radius_pixels > 0) {

@@ -19,6 +19,19 @@ constexpr std::size_t kEveryLampUpTo = 8;
 constexpr float kSameSurface = 0.5f;
 
 bool positive(const Rgb& c) { return max_component(c) > 0; }
+
+/// Does nothing stand between two places of one surface? Both are lifted over what a curved surface rises
+/// between them.
+bool nothing_between(const RayScene& rays, const SurfacePoint& a, const SurfacePoint& b) {
+  const Vec3 way = b.position - a.position;
+  const float rise_m =
+      std::max(std::fabs(glm::dot(way, a.geometric_normal)), std::fabs(glm::dot(way, b.geometric_normal)));
+  const auto lifted = [rise_m](SurfacePoint p) {
+    p.position += rise_m * p.geometric_normal;
+    return p;
+  };
+  return rays.visible(lifted(a), lifted(b));
+}
 double to_double(float x) { return static_cast<double>(x); }
 
 void add_indirect(const Rgb& light, const Rgb& glossy, PathSample& sum) {
@@ -263,6 +276,7 @@ void BidirectionalTracer::merge(const Vertex& at, const LightPass& pass, const W
         balance(v.end.instead_of_merging(eta, s.onward), at.end().instead_of_merging(eta, s.back));
     const Rgb light =
         walk.throughput * v.flux_lm * s.f_cos * static_cast<float>(weight / (to_double(landed) * eta));
+    if (!positive(light) || (facing > 0 && !nothing_between(*rays_, *at.point, v.point))) return;
     const bool inner = distance2 <= inner2;
     if (inner) add(light, scatterings, at, wi, walk, sample.sum);
     sample.bias += (inner ? -0.5f : 0.5f) * light;

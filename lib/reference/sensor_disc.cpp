@@ -24,14 +24,21 @@ SensorDisc::SensorDisc(const RayScene& rays, const SurfacePoint& sensor, float m
       frame_(make_frame(sensor.geometric_normal)),
       slack_m_(kSlack * sensor.error_m),
       most_m_(most_m) {
-  for (std::size_t k = 0; k < kSectors; ++k) {
-    const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.5) / kSectors;
+  const auto reach_m = [&](double sectors) {
+    const double angle = 2 * std::numbers::pi * sectors / kSectors;
     const Vec3 along =
         frame_.to_world({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
     // Above the sensor's own surface.
     Hit hit;
     const Ray ray{centre_ + 2 * slack_m_ * frame_.z, glm::normalize(along), 0, most_m / kFree};
-    reach_m_[k] = rays.intersect(ray, hit) ? std::min(most_m, kFree * hit.distance_m) : most_m;
+    return rays.intersect(ray, hit) ? std::min(most_m, kFree * hit.distance_m) : most_m;
+  };
+  // A sector that a wall enters from the side ends where the wall begins: no light from behind it counts.
+  float before_m = reach_m(0);
+  for (std::size_t k = 0; k < kSectors; ++k) {
+    const float after_m = reach_m(static_cast<double>(k + 1));
+    reach_m_[k] = std::min({before_m, reach_m(static_cast<double>(k) + 0.5), after_m});
+    before_m = after_m;
   }
 }
 

@@ -16,7 +16,7 @@ namespace phos::inline reference {
 /// Only light counts that came by way of a mirror, glass or sharp gloss.
 class SensorDisc {
  public:
-  /// Looks how far the plane is free, up to `most_m`.
+  /// Looks how far the plane is free, up to `most_m`: along both sides and the middle of each sector.
   SensorDisc(const RayScene& rays, const SurfacePoint& sensor, float most_m);
 
   /// Of what lies within radius_m, m2.

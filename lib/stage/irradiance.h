@@ -12,7 +12,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 21;
+inline constexpr int kIrradianceAlgorithm = 22;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;

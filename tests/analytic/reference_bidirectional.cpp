@@ -199,6 +199,63 @@ TEST(BidirectionalAnalytic, PictureShowsWhatSensorsMeasure) {
   }
 }
 
+/// A black partition stands on a grey floor; all light, straight and by a mirror, is on one side of it. Light
+/// paths that end within the radius of merging are not merged with what lies behind the partition.
+TEST(BidirectionalAnalytic, NoLightLeaksUnderAWall) {
+  Scene scene;
+  test::begin_instance(scene, "floor", test::add_lambert(scene, "grey", 0.5f));
+  test::add_quad(scene, {-4, 0, 0}, {0, 0, 4}, {8, 0, 0});
+  test::begin_instance(scene, "partition", test::add_lambert(scene, "black", 0));
+  test::add_quad(scene, {0, 0, 0}, {0, 0, 4}, {0, 4, 0});
+  test::begin_instance(scene, "mirror", add_material(scene, Model::mirror, 1));
+  test::add_quad(scene, {4, 0, 0}, {0, 0, 4}, {0, 3, 0});
+  test::add_point_light(scene, {1, 2, 2}, 1000);
+  // Floor of 0.1 m on this side of the partition, and of as much on the other.
+  for (const float side : {-1.f, 1.f})
+    scene.camera.push_back(
+        test::look_at({0.05f * side, 2, 2}, {0.05f * side, 0, 2}, {0, 0, 1}, 2 * std::atan(0.02f)));
+  finalize(scene);
+  const Lit lit(scene);
+  ReferenceOptions options;
+  options.width = options.height = 8, options.samples = 16;
+  options.method = ReferenceMethod::bidirectional;
+  options.illuminance = true;
+  for (const Camera& camera : scene.camera) {
+    const Image image = render_reference(lit.rays, lit.luminaires, camera, options).image;
+    double light = 0, lux = 0;
+    for (const Rgb& c : image.rgb("")) light += static_cast<double>(luminance(c)) / 64;
+    for (const float e : image.channel("illuminance.Y")) lux += static_cast<double>(e) / 64;
+    if (&camera == &scene.camera[0]) {
+      EXPECT_EQ(light, 0);
+      EXPECT_EQ(lux, 0);
+    } else {
+      EXPECT_NEAR(light / lux, 0.5 / std::numbers::pi, 0.1 * 0.5 / std::numbers::pi);
+    }
+  }
+}
+
+/// Nothing gets out of a cup: sensors outside read 0, however near to the wall their discs lie.
+TEST(BidirectionalAnalytic, NoLightLeaksOutOfAMirrorCup) {
+  Scene scene;
+  test::begin_instance(scene, "floor", test::add_lambert(scene, "black", 0));
+  test::add_quad(scene, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  test::begin_instance(scene, "cup", add_material(scene, Model::mirror, 0.8f));
+  constexpr int kSides = 64;
+  const auto corner = [](int k) {
+    const float angle = 2 * kPi * static_cast<float>(k % kSides) / kSides;
+    return Vec3(std::cos(angle), 0, std::sin(angle));
+  };
+  for (int k = 0; k < kSides; ++k) test::add_quad(scene, corner(k), corner(k + 1) - corner(k), {0, 1, 0});
+  test::add_point_light(scene, {0, 0.5f, 0}, 1000);
+  finalize(scene);
+  std::vector<SensorPoint> sensors;
+  for (const float r : {1.002f, 1.01f, 1.03f, 1.1f, 1.3f, 0.9f})
+    sensors.push_back({r * Vec3(std::cos(0.3f), 0, std::sin(0.3f)), {0, 1, 0}});
+  const auto light = Lit(scene).measure(sensors, 64);
+  for (std::size_t i = 0; i + 1 < light.size(); ++i) EXPECT_EQ(light[i].illuminance_lx, 0) << i;
+  EXPECT_GT(light.back().illuminance_lx, 100);
+}
+
 /// Twelve pentagons' worth of triangles about a ball, refined; vertex normals are the sphere's.
 void add_ball(Scene& scene, const Vec3& centre, float radius_m) {
   const AnalyticScene sphere = test::integrating_sphere(0.5f, 5120, radius_m);

@@ -157,6 +157,22 @@ TEST(ViewPlacement, GoesFromCoarseToFine) {
   EXPECT_EQ(cells.size(), 16u);
 }
 
+/// Black surfaces show their illuminance; black lamps and mirrors have none to show.
+TEST(ViewPlacement, TakesBlackSurfacesButNoLamps) {
+  for (const bool lamp : {false, true}) {
+    for (const Model model : {Model::lambert, Model::mirror}) {
+      test::AnalyticScene s = test::point_light_over_plane(2, 1000, 0);
+      s.scene.material[0].model = model;
+      if (lamp) s.scene.material[0].emission = Rgb(1);
+      const RayScene rays(s.scene);
+      const Candidates candidates = view_candidates(rays, {s.scene.camera[0], 16, 16});
+      std::vector<RecordSite> sites;
+      for (std::size_t i = 0; i < candidates.count; ++i) candidates.sites(i, sites);
+      EXPECT_EQ(!sites.empty(), !lamp && model == Model::lambert) << lamp;
+    }
+  }
+}
+
 /// Any block of 4^k places can be walked over, each next to the one before.
 TEST(ViewPlacement, CanBeWalkedOver) {
   const Scene scene = test::furnace(0.5f).scene;

@@ -106,6 +106,75 @@ TEST(Render, AnEmptyCacheLeavesDirectLightAndMisses) {
   for (const int n : quadrant) EXPECT_GT(n, 15);
 }
 
+/// Illuminance is what falls on a surface, whatever it makes of it: I cos / d2 under a lamp on black, on a
+/// mirror, on glass, on metal. Records are looked for on black surfaces, where they may be placed.
+TEST(Render, IlluminanceOfWhatReflectsNothingDiffusely) {
+  for (const Model model : {Model::lambert, Model::mirror, Model::thin_dielectric, Model::conductor}) {
+    AnalyticScene s = point_light_over_plane(2, 1000, 0);
+    Material& floor = s.scene.material[0];
+    floor.model = model, floor.ks = Rgb(0.9f), floor.alpha_x = floor.alpha_y = 0.5f;
+    const RayScene rays(s.scene);
+    const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
+    RenderOptions options = small_picture(s.scene.camera[0], cache);
+    options.layers = {"illuminance", "indirect"};
+    for (const DirectBy by : {DirectBy::traced, DirectBy::interleaved, DirectBy::none}) {
+      options.direct = by;
+      const Rendering rendering = render_scene(rays, cache, options);
+      const GBuffer gbuffer = trace_gbuffer(rays, s.scene.camera[0], 32, 32, {0.5f, 0.5f});
+      const auto lux = rendering.image.channel("illuminance.Y");
+      std::uint64_t covered = 0;
+      for (std::size_t i = 0; i < lux.size(); ++i) {
+        if (!gbuffer.covered(i)) continue;
+        ++covered;
+        const double truth = by == DirectBy::none ? 0 : s.irradiance_lx(Vec3(gbuffer.position[i]), {0, 1, 0});
+        EXPECT_NEAR(static_cast<double>(lux[i]), truth, 1e-3 * truth)
+            << static_cast<int>(model) << " " << static_cast<int>(by);
+      }
+      EXPECT_GT(covered, 200u);
+      EXPECT_EQ(rendering.missed, model == Model::lambert ? covered : 0u);
+    }
+  }
+}
+
+/// A floor of which one half is black: indirect light on it goes on over the border as if there were none.
+TEST(Render, IlluminanceGoesOnOverABlackHalf) {
+  Scene scene = cornell();
+  std::uint32_t floor = 0;
+  for (std::uint32_t t = 0; t < scene.triangle.size(); ++t)
+    if (geometric_normal(scene, t).y > 0.99f &&
+        scene.position[scene.triangle[t].v[0]].y < scene.bounds.lo.y + 1e-3f)
+      floor = scene.triangle_instance[t];
+  ASSERT_EQ(scene.instance[floor].triangle_count, 2u);
+  Instance half = scene.instance[floor];
+  half.material = add_lambert(scene, "black", 0);
+  half.triangle_count = 1, scene.instance[floor].triangle_count = 1;
+  const std::uint32_t of_half = ++half.first_triangle;
+  scene.triangle_instance[of_half] = static_cast<std::uint32_t>(scene.instance.size());
+  scene.instance.push_back(half);
+  const Lit lit = light_up(scene, 100000);
+  const GBuffer gbuffer = trace_gbuffer(*lit.rays, scene.camera[0], 64, 64, {0.5f, 0.5f});
+  const IrradianceCache cache = records_in_view(lit, gbuffer, Quantity::indirect, 0.2);
+  RenderOptions options = small_picture(scene.camera[0], cache, 64);
+  options.direct = DirectBy::none;
+  const Rendering rendering = render_scene(*lit.rays, cache, options);
+  const auto lux = rendering.image.channel("illuminance.Y");
+  const std::vector<Rgb> indirect = rendering.image.rgb("indirect");
+  double sum[2] = {0, 0};
+  int pairs = 0;
+  for (std::size_t i = 0; i + 1 < lux.size(); ++i) {
+    if (i % 64 == 63 || !gbuffer.covered(i) || !gbuffer.covered(i + 1)) continue;
+    const std::uint32_t a = gbuffer.hit[i].triangle, b = gbuffer.hit[i + 1].triangle;
+    if (!((a == of_half && b == of_half - 1) || (b == of_half && a == of_half - 1))) continue;
+    const std::size_t black = a == of_half ? i : i + 1, grey = a == of_half ? i + 1 : i;
+    EXPECT_EQ(indirect[black], Rgb(0));
+    EXPECT_GT(lux[black], 0);
+    sum[0] += static_cast<double>(lux[black]), sum[1] += static_cast<double>(lux[grey]);
+    ++pairs;
+  }
+  EXPECT_GT(pairs, 10);
+  EXPECT_NEAR(sum[0] / sum[1], 1, 0.05);
+}
+
 TEST(Render, DirectNoneIsDark) {
   const AnalyticScene s = point_light_over_plane();
   const RayScene rays(s.scene);

@@ -19,6 +19,7 @@ PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const Ren
       shading_(shading),
       options_(options),
       cached_direct_(cached_direct),
+      shows_lux_(LayerSet(options.layers).has(Layer::illuminance)),
       environment_(environment) {}
 
 PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, const SurfacePoint& point,
@@ -42,6 +43,8 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   if (bsdf.has_diffuse()) {
     ++result.looked_up;
     from_cache(point, bsdf, splat, light, result);
+  } else if (shows_lux_) {
+    lux_from_cache(point, bsdf, splat, light, result);
   }
   from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
   from_caustics(sample, point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
@@ -53,9 +56,14 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
 
 Interpolated PixelShader::from_records(const SurfacePoint& point) const {
   ShadingLog log;
-  const Interpolated found =
-      Bsdf(rays_.scene(), point).has_diffuse() ? shading_.cached(point, log) : Interpolated();
+  const Bsdf bsdf(rays_.scene(), point);
+  const bool shows = bsdf.has_diffuse() || (shows_lux_ && is_dark(point, bsdf));
+  const Interpolated found = shows ? shading_.cached(point, log) : Interpolated();
   return log.misses.empty() ? found : Interpolated();
+}
+
+bool PixelShader::is_dark(const SurfacePoint& point, const Bsdf& bsdf) const {
+  return !bsdf.scatters() && !bsdf.has_specular() && !rays_.scene().material[point.material].emits();
 }
 
 PixelSample PixelShader::background(const Ray& ray) const {
@@ -83,6 +91,19 @@ void PixelShader::from_cache(const SurfacePoint& point, const Bsdf& bsdf, const 
   light.indirect = light_here.irradiance * reflected;
   light.indirect_error += light_here.stderr_lx * reflected;
   light.illuminance_lx += luminance(light_here.irradiance);
+}
+
+/// Where nothing is reflected diffusely, records light nothing but the layer of illuminance. They are placed
+/// on black surfaces; lamps, mirrors, glass and metal have those that reach them.
+void PixelShader::lux_from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat,
+                                 PixelSample& light, ShadingResult& result) const {
+  if (is_dark(point, bsdf)) {
+    ++result.looked_up;
+    return from_cache(point, bsdf, splat, light, result);
+  }
+  ShadingLog none;
+  const Interpolated found = splat.found.weight > 0 ? splat.found : shading_.cached(point, none);
+  if (found.weight > 0) light.illuminance_lx += luminance(found.irradiance);
 }
 
 bool PixelShader::gloss_from_cache(const SurfacePoint& point, const Vec3& wo, const Splat& splat,
@@ -117,14 +138,15 @@ int PixelShader::caustic_turns(const SampleOfPixel& sample) const {
 /// What caustic photons bring to the diffuse lobe, and with `gloss` to those that read radiance records.
 void PixelShader::from_caustics(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
                                 const Vec3& wo, bool gloss, PixelSample& light, ShadingLog& log) const {
-  if (!shading_.has_caustics() || !(bsdf.has_diffuse() || gloss)) return;
+  const bool lux = bsdf.has_diffuse() || (shows_lux_ && bsdf.takes_light());
+  if (!shading_.has_caustics() || !(lux || gloss)) return;
   const int turns = caustic_turns(sample);
   if ((static_cast<std::size_t>(sample.index) + sample.pixel) % static_cast<std::size_t>(turns) != 0) return;
   const auto stands_for = static_cast<float>(turns);
   const LocalDensity found = shading_.caustic(point, log, light.illuminance_lx);
   const Rgb reflected = stands_for * bsdf.diffuse_reflectance() / kPi, error = found.stderr_lx();
   light.indirect += found.irradiance * reflected;
-  if (bsdf.has_diffuse()) light.illuminance_lx += stands_for * luminance(found.irradiance);
+  if (lux) light.illuminance_lx += stands_for * luminance(found.irradiance);
   Rgb unsure = error * reflected;
   if (gloss) {
     const Rgb shown = stands_for * CausticLight::gloss(found, bsdf, wo, log.caustics);
@@ -156,7 +178,7 @@ SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixe
 
 bool PixelShader::from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                    PixelSample& light, ShadingLog& log) const {
-  if (!environment_ || !(bsdf.has_diffuse() || bsdf.has_gloss())) return false;
+  if (!environment_ || !(bsdf.has_diffuse() || bsdf.has_gloss() || shows_lux_)) return false;
   const std::optional<EnvironmentHarmonics::Light> found = environment_->light(point, bsdf, wo);
   if (!found) return false;
   if (found->clamped) log.counters.count(kDarkerThanBlackEvent);
@@ -171,12 +193,16 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
                               const Vec3& wo, const SharedLight* shared, bool environment, bool gloss_by_rays,
                               RandomStream& sequence, PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
-  if (options_.direct == DirectBy::none || !(diffuse || bsdf.has_gloss())) return;
+  if (options_.direct == DirectBy::none) return;
+  if (!(diffuse || bsdf.has_gloss())) {
+    if (shows_lux_ && !cached_direct_) lux_from_lights(sample, point, bsdf, wo, shared, environment, light);
+    return;
+  }
   from_mirrors(sample, point, bsdf, wo, gloss_by_rays, sequence, light);
   // What lamps show in gloss is not shared. Where rays look for gloss anyway, shadow maps leave it to them.
   const bool own = bsdf.has_gloss() && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
   if (shared && !own) {
-    if (!diffuse) return;
+    if (cached_direct_) return;
     const Rgb reflected = bsdf.diffuse_reflectance() / kPi;
     light.direct += shared->illuminance * reflected;
     light.variance += shared->variance * DVec3(reflected) * DVec3(reflected);
@@ -191,6 +217,19 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
   light.noisy += direct.radiance;
   light.variance += direct.variance;
   if (!cached_direct_) light.illuminance_lx += luminance(direct.illuminance);
+}
+
+/// Lamps on what reflects nothing of them, such as black surfaces, mirrors and clear glass.
+void PixelShader::lux_from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                                  const Vec3& wo, const SharedLight* shared, bool environment,
+                                  PixelSample& light) const {
+  // Own random numbers: other layers are the same without this one.
+  RandomStream own(options_.seed, Stage::direct_light, sample.pixel);
+  if (sample.at_edge) own.start_bounce(1);
+  const SampleRange rays = range(sample, options_.light_samples);
+  light.illuminance_lx += luminance(shading_.mirrored(point, bsdf, wo, false, rays, own).illuminance);
+  light.illuminance_lx += luminance(
+      shared ? shared->illuminance : shading_.direct(point, bsdf, wo, rays, 0, own, environment).illuminance);
 }
 
 /// What comes through a sheet of the light on its other side, which no splat tells of.

@@ -52,6 +52,12 @@ class PixelShader {
   PixelSample background(const Ray& ray) const;
 
  private:
+  /// Black, and no lamp: records are placed there for the layer of illuminance alone.
+  bool is_dark(const SurfacePoint& point, const Bsdf& bsdf) const;
+  void lux_from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,
+                      ShadingResult& result) const;
+  void lux_from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
+                       const Vec3& wo, const SharedLight* shared, bool environment, PixelSample& light) const;
   void from_cache(const SurfacePoint& point, const Bsdf& bsdf, const Splat& splat, PixelSample& light,
                   ShadingResult& result) const;
   /// Is the gloss had from radiance records? Else it is to be traced.
@@ -81,6 +87,7 @@ class PixelShader {
   const Shading& shading_;
   const RenderOptions& options_;
   bool cached_direct_;
+  bool shows_lux_;  // the layer of illuminance is asked for
   const EnvironmentHarmonics* environment_;
 };
 
