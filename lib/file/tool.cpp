@@ -14,11 +14,11 @@
 #include "core/interrupt.h"
 #include "core/last_words.h"
 #include "core/parallel.h"
+#include "core/text/standard_streams.h"
 #include "file/atomic_file.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
 #include "file/reuse.h"
-#include "file/standard_streams.h"
 
 namespace phos::inline file {
 

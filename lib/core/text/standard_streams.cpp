@@ -1,4 +1,4 @@
-#include "file/standard_streams.h"
+#include "core/text/standard_streams.h"
 
 #include <fcntl.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/text/line.h"
 
-namespace phos::inline file {
+namespace phos {
 
 void occupy_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd)
@@ -27,4 +27,4 @@ void finish_stdout() {
                 "cannot write; free some space, or redirect it elsewhere");
 }
 
-}  // namespace phos::inline file
+}  // namespace phos

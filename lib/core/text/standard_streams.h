@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace phos::inline file {
+namespace phos {
 
 /// Opens /dev/null for each of them that is closed: a file would take its number, and messages would be
 /// written into that file.
@@ -16,4 +16,4 @@ void print_line(const std::string& line);
 /// full disk.
 void finish_stdout();
 
-}  // namespace phos::inline file
+}  // namespace phos
