@@ -38,21 +38,21 @@ triplets=$(((number + 2) / 3))
 pictures=() tables=() dark=()
 for ((k = 1; k <= triplets; ++k)); do
   part=$folder/triplets/$k
-  bands=(--bands "$number" --triplet "$k" ${every[@]+"${every[@]}"})
+  bands=(--bands "$number" --triplet "$k")
   # Where no lamp shines there is nothing to compute.
-  summary=$(phos-scene "$scene" "${bands[@]}" --json)
+  summary=$(phos-scene "$scene" "${bands[@]}" "${every[@]}" --json)
   if [[ $summary != *'"flux_lm"'* ]]; then
     echo "triplet $k of $triplets: dark"
     dark+=("$k")
     continue
   fi
-  # 1. Light. 2. Records where the camera looks, at the same places in every triplet. 3. Picture. 4. Sensors.
-  phos-photons "$scene" "${bands[@]}" --photons "$photons" --reuse --quiet -o "$part.photons"
-  phos-irradiance "$scene" "$part.photons" "${bands[@]}" --estimate gather --rays "$rays" --place view "${view[@]}" --reuse --quiet -o "$part.irradiance"
-  phos-splat "$scene" "$part.irradiance" "${bands[@]}" "${view[@]}" --pixel-samples "$samples" --reuse --quiet -o "$part.exr"
+  # 1. Light. 2. Records where the camera looks, at the same places in every triplet, whose number the photons hold. 3. Picture. 4. Sensors.
+  phos-photons "$scene" "${bands[@]}" "${every[@]}" --photons "$photons" --reuse --quiet -o "$part.photons"
+  phos-irradiance "$scene" "$part.photons" "${every[@]}" --estimate gather --rays "$rays" --place view "${view[@]}" --reuse --quiet -o "$part.irradiance"
+  phos-splat "$scene" "$part.irradiance" "${every[@]}" "${view[@]}" --pixel-samples "$samples" --reuse --quiet -o "$part.exr"
   pictures+=("$part.exr")
   if [[ -n $points ]]; then
-    phos-sense "$scene" "$part.irradiance" "${bands[@]}" --points "$points" --quiet -o "$part.csv"
+    phos-sense "$scene" "$part.irradiance" "${every[@]}" --points "$points" --quiet -o "$part.csv"
     tables+=("$part.csv")
   fi
   echo "triplet $k of $triplets: done"

@@ -29,6 +29,16 @@ take_all_options() {
   ((${#rest[@]} == 0)) || usage
 }
 
+# file_options OPTION VALUE...: puts those options of a scene into the array `files` whose values are files. Every stage needs them; it takes
+# the others from the caches that it reads.
+file_options() {
+  files=()
+  while (($# > 1)); do
+    case $1 in --environment | --luminaire | --spectrum) files+=("$1" "$2") ;; esac
+    shift 2
+  done
+}
+
 # need_file FILE: ends with code 3 where there is none.
 need_file() { [[ -f $1 ]] || { echo "${0##*/}: $1: no such file" >&2; exit 3; }; }
 

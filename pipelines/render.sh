@@ -45,24 +45,25 @@ edges=$(($(setting edge_samples) > samples ? $(setting edge_samples) - samples :
 # A record serves so many pixels about it at least: what is smaller is seen by its neighbours.
 least=$(awk -v p="$pixels" -v a="$accuracy" 'BEGIN { print p / a }')
 
+file_options "${light[@]}"
 # 2. Light: photons from the lamps, and a tree over them.
 phos-photons "$scene" "${light[@]}" --photons "$photons" --reuse -o "$file.photons"
 # 3. Cache: irradiance records where the camera looks.
-phos-irradiance "$scene" "$file.photons" "${light[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" \
+phos-irradiance "$scene" "$file.photons" "${files[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" \
   --min-radius-pixels "$least" --reuse -o "$file.irradiance"
 # 4. Fill what the picture sees and no record covers, until nothing is missing.
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do
-  phos-splat "$scene" "$file.view.irradiance" "${light[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
+  phos-splat "$scene" "$file.view.irradiance" "${files[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
     --direct none --gloss-samples 1 --layers weight --misses "$file.misses.csv" --quiet -o "$file.pass.exr"
   missing=$(($(wc -l <"$file.misses.csv") - 1))
   echo "round $round: $missing visible points without a record"
   ((missing > 0)) || break
-  phos-irradiance "$scene" "$file.photons" "${light[@]}" --at "$file.misses.csv" --add-to "$file.view.irradiance" -o "$file.view.irradiance"
+  phos-irradiance "$scene" "$file.photons" "${files[@]}" --at "$file.misses.csv" --add-to "$file.view.irradiance" -o "$file.view.irradiance"
 done
 rm -f "$file.pass.exr" "$file.misses.csv"
 # 5. Picture.
-phos-splat "$scene" "$file.view.irradiance" "${light[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
+phos-splat "$scene" "$file.view.irradiance" "${files[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
   "${direct[@]}" -o "$file.exr"
 phos-picture "$file.exr" -o "$file.png"
 phos-picture "$file.exr" --layer illuminance.Y --false-colour -o "$file-lux.png"

@@ -36,9 +36,7 @@ int main(int argc, char** argv) {
       "tenth of the default --min-radius on it, leave out one in free air with a warning, and end "
       "with code 3 where all are; gathered rays serve any point");
   options.file("add-to", asked.add_to,
-               "irradiance file whose records are kept; options left out are taken from it; the "
-               "output may be the same file",
-               FileUse::grown);
+               "irradiance file whose records are kept; the output may be the same file", FileUse::grown);
   options.flag("allow-mismatch", asked.allow_mismatch,
                "use photons of another scene or another version of it");
   options.example("phos-irradiance room.glb room.photons -o room.irradiance",

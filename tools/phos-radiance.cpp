@@ -31,9 +31,7 @@ int main(int argc, char** argv) {
       "point off a surface by up to a tenth of the default --min-radius is put on it; one in free "
       "air is left out with a warning, and where all are, the end is code 3");
   options.file("add-to", asked.add_to,
-               "radiance file whose records are kept; options left out are taken from it; the "
-               "output may be the same file",
-               FileUse::grown);
+               "radiance file whose records are kept; the output may be the same file", FileUse::grown);
   options.flag("allow-mismatch", asked.allow_mismatch, "use files of another scene or another version of it");
   options.example("phos-radiance room.glb room.photons room.brdf -o room.radiance",
                   "where photons met gloss");

@@ -25,11 +25,12 @@ struct Declaration {
   const char* kind = "text";
   std::vector<std::string> choices;
   Range range;
-  Recorded recorded = Recorded::yes;
+  InFiles in_files;
+  std::string other_name;  // of the option whose value this one sets
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
-  std::function<void(const std::string&)> set;  // of what takes one value
-  bool adopted = false;
+  std::function<void(const std::string&)> set;  // of what takes one value, or "true" and "false"
+  bool was_adopted = false;
   FileUse use = FileUse::read;
   std::function<std::vector<std::string>()> paths;  // of what names files
   std::string default_text;
@@ -122,18 +123,19 @@ struct Options::Impl {
   bool help = false, version = false, manual = false, options_json = false;
 
   Declaration& declare(const std::string& names, const std::string& unit, const std::string& help_text,
-                       Recorded recorded) {
+                       InFiles in_files) {
+    PHOS_CHECK(in_files.adopted == Adopted::no || in_files.recorded != Recorded::no, "option ", names);
     Declaration d;
     const std::size_t comma = names.find(',');
     d.name = names.substr(0, comma);
     if (comma != std::string::npos) d.short_name = names.substr(comma + 1);
-    d.section = section, d.unit = unit, d.help = help_text, d.recorded = recorded;
+    d.section = section, d.unit = unit, d.help = help_text, d.in_files = in_files;
     declarations.push_back(std::move(d));
     return declarations.back();
   }
   Declaration& declare_number(const std::string& names, const std::string& unit, const std::string& help_text,
-                              const char* kind, const Range& range, Recorded recorded) {
-    Declaration& d = declare(names, unit, help_text, recorded);
+                              const char* kind, const Range& range, InFiles in_files) {
+    Declaration& d = declare(names, unit, help_text, in_files);
     d.kind = kind, d.range = range, d.limits = limits_text(range);
     return d;
   }
@@ -175,8 +177,19 @@ struct Options::Impl {
       if (!d.is_input) names.push_back("--" + d.name);
     throw Error(ExitCode::usage, option, "no such option" + did_you_mean(option, names) + see);
   }
-  static std::string detail(const Declaration& d) {
+  std::vector<std::string> names(Adopted adopted) const {
+    std::vector<std::string> names;
+    for (const Declaration& d : declarations)
+      if (!d.is_input && d.in_files.adopted == adopted) names.push_back(d.name);
+    return names;
+  }
+  std::string detail(const Declaration& d) const {
     std::string s = d.help;
+    if (d.use == FileUse::grown) {
+      std::string list;
+      for (const std::string& name : names(Adopted::estimate)) list += (list.empty() ? "--" : ", --") + name;
+      if (!list.empty()) s += "; what is not given of these options is taken from it: " + list;
+    }
     if (!d.choices.empty()) {
       s += " (";
       for (std::size_t i = 0; i < d.choices.size(); ++i) s += (i == 0 ? "" : ", ") + d.choices[i];
@@ -208,8 +221,10 @@ struct Options::Impl {
       Json o;
       o["name"] = d.name, o["kind"] = d.kind, o["unit"] = d.unit, o["help"] = d.help;
       o["default"] = d.is_input ? Json() : d.value();
-      o["required"] = d.required, o["recorded"] = d.recorded != Recorded::no;
+      o["required"] = d.required, o["recorded"] = d.in_files.recorded != Recorded::no;
       if (!d.is_input) o["section"] = d.section;
+      if (d.in_files.adopted != Adopted::no)
+        o["adopted"] = d.in_files.adopted == Adopted::estimate ? "estimate" : "site";
       if (!d.short_name.empty()) o["short"] = d.short_name;
       if (!d.choices.empty()) o["choices"] = Json::Array(d.choices.begin(), d.choices.end());
       if (std::isfinite(d.range.lo)) o["min"] = d.range.lo, o["min_excluded"] = d.range.lo_open;
@@ -249,16 +264,18 @@ void Options::example(const std::string& command, const std::string& what) {
   impl_->examples.push_back({command, what});
 }
 
-void Options::flag(const std::string& name, bool& value, const std::string& help, Recorded recorded) {
-  Declaration& d = impl_->declare(name, "", help, recorded);
+void Options::flag(const std::string& name, bool& value, const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, "", help, in_files);
   d.is_flag = true, d.kind = "flag";
   d.value = [&value] { return Json(value); };
+  d.initial = d.value();
+  d.set = [&value](const std::string& s) { value = s == "true"; };
   d.parsed = impl_->app.add_flag(Impl::flags_of(d), value);
 }
 
 void Options::number(const std::string& name, double& value, const std::string& unit, const std::string& help,
-                     Range range, Recorded recorded) {
-  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded);
+                     Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, in_files);
   d.default_text = shortest(value);
   d.value = [&value] { return Json(value); };
   impl_->add(
@@ -266,8 +283,8 @@ void Options::number(const std::string& name, double& value, const std::string& 
 }
 
 void Options::number(const std::string& name, std::optional<double>& value, const std::string& unit,
-                     const std::string& help, Range range, Recorded recorded) {
-  Declaration& d = impl_->declare_number(name, unit, help, "number", range, recorded);
+                     const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "number", range, in_files);
   d.default_text = value ? shortest(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
   impl_->add(
@@ -275,8 +292,8 @@ void Options::number(const std::string& name, std::optional<double>& value, cons
 }
 
 void Options::integer(const std::string& name, std::int64_t& value, const std::string& unit,
-                      const std::string& help, Range range, Recorded recorded) {
-  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded);
+                      const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, in_files);
   d.default_text = std::to_string(value);
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value, range, n = d.name](const std::string& s) {
@@ -285,8 +302,8 @@ void Options::integer(const std::string& name, std::int64_t& value, const std::s
 }
 
 void Options::integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
-                      const std::string& help, Range range, Recorded recorded) {
-  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, recorded);
+                      const std::string& help, Range range, InFiles in_files) {
+  Declaration& d = impl_->declare_number(name, unit, help, "integer", range, in_files);
   d.default_text = value ? std::to_string(*value) : "";
   d.value = [&value] { return value ? Json(*value) : Json(); };
   impl_->add(d, [&value, range, n = d.name](const std::string& s) {
@@ -295,16 +312,16 @@ void Options::integer(const std::string& name, std::optional<std::int64_t>& valu
 }
 
 void Options::text(const std::string& name, std::string& value, const std::string& unit,
-                   const std::string& help, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
+                   const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, unit, help, in_files);
   d.default_text = value;
   d.value = [&value] { return Json(value); };
   impl_->add(d, [&value](const std::string& s) { value = s; });
 }
 
 void Options::list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
-                   const std::string& help, Recorded recorded) {
-  Declaration& d = impl_->declare(name, unit, help, recorded);
+                   const std::string& help, InFiles in_files) {
+  Declaration& d = impl_->declare(name, unit, help, in_files);
   d.kind = "list";
   d.value = [&value] {
     Json items = Json::Array{};
@@ -314,9 +331,10 @@ void Options::list(const std::string& name, std::vector<std::string>& value, con
   impl_->add_several(d, value, split_at_commas);
 }
 
-void Options::named_files(const std::string& name, std::vector<std::string>& value, const std::string& help) {
-  Declaration& d =
-      impl_->declare(name, "NAME=FILE", phos::text(help, "; ", kNamedFileCommas), Recorded::if_given);
+void Options::named_files(const std::string& name, std::vector<std::string>& value, const std::string& help,
+                          Adopted adopted) {
+  Declaration& d = impl_->declare(name, "NAME=FILE", phos::text(help, "; ", kNamedFileCommas),
+                                  {Recorded::if_given, adopted});
   d.kind = "list";
   d.value = [&value] {
     Json names = Json::Array{};
@@ -347,8 +365,8 @@ void Options::file(const std::string& name, std::string& value, const std::strin
 void Options::choice_of_names(const std::string& name, const std::vector<std::string>& names,
                               std::size_t index, std::function<void(std::size_t)> set,
                               std::function<std::size_t()> current, const std::string& help,
-                              Recorded recorded) {
-  Declaration& d = impl_->declare(name, "WHICH", help, recorded);
+                              InFiles in_files) {
+  Declaration& d = impl_->declare(name, "WHICH", help, in_files);
   d.choices = names, d.default_text = names[index], d.kind = "choice";
   d.value = [current, names] { return Json(names[current()]); };
   impl_->add(d, [names, set, n = d.name](const std::string& s) {
@@ -452,20 +470,41 @@ bool Options::parse(int argc, const char* const* argv) {
     if (d.required && d.parsed->count() == 0)
       throw Error(ExitCode::usage, "",
                   (empty ? "usage: " + impl_->usage() : phos::text(Impl::left(d), " is missing")) + see);
+  for (const Declaration& d : impl_->declarations)
+    if (!d.other_name.empty() && given(d.name) && given(d.other_name))
+      reject(d.name, phos::text("says what --", d.other_name, " says; give one of the two"));
   return true;
+}
+
+void Options::another_name(const std::string& name, const std::string& other) {
+  Declaration* d = impl_->find(name);
+  PHOS_CHECK(d != nullptr && impl_->find(other) != nullptr, "option ", name, " or ", other);
+  d->other_name = other;
 }
 
 void Options::adopt(const std::string& name, const Json& value) {
   Declaration* d = impl_->find(name);
-  PHOS_CHECK(d != nullptr && d->set && d->recorded != Recorded::no, "option ", name);
+  PHOS_CHECK(d != nullptr && d->set && d->in_files.recorded != Recorded::no, "option ", name);
+  const std::string kind = d->kind;
+  const bool fits = kind == "flag"                          ? value.is_bool()
+                    : kind == "number" || kind == "integer" ? value.is_number()
+                                                            : value.is_string();
+  if (!fits) reject(name, "is of another kind");
   d->set(value.is_string() ? value.as_string() : value.dump());
-  d->adopted = true;
+  d->was_adopted = true;
 }
 
 bool Options::given(const std::string& name) const {
   const Declaration* d = impl_->find(name);
   PHOS_CHECK(d != nullptr, "option ", name);
   return d->parsed->count() > 0;
+}
+
+std::string Options::given_as(const std::string& name) const {
+  if (given(name)) return name;
+  for (const Declaration& d : impl_->declarations)
+    if (d.other_name == name && given(d.name)) return d.name;
+  return "";
 }
 
 std::string Options::first_given(std::initializer_list<const char*> names) const {
@@ -487,6 +526,8 @@ std::vector<std::string> Options::names() const {
   return names;
 }
 
+std::vector<std::string> Options::names(Adopted adopted) const { return impl_->names(adopted); }
+
 std::vector<GivenFile> Options::files() const {
   std::vector<GivenFile> all;
   for (const Declaration& d : impl_->declarations) {
@@ -503,12 +544,18 @@ Json Options::value(const std::string& name) const {
   return d ? d->value() : Json();
 }
 
+Json Options::unrecorded_value(const std::string& name) const {
+  const Declaration* d = impl_->find(name);
+  return d && d->in_files.recorded == Recorded::unless_default ? d->initial : Json();
+}
+
 Json Options::recorded() const {
   Json all = Json::Object{};
   for (const Declaration& d : impl_->declarations) {
     const Json value = d.value();
-    if (d.recorded == Recorded::yes || (d.recorded == Recorded::if_given && (d.adopted || given(d.name))) ||
-        (d.recorded == Recorded::unless_default && !(value == d.initial)))
+    if (d.in_files.recorded == Recorded::yes ||
+        (d.in_files.recorded == Recorded::if_given && (d.was_adopted || given(d.name))) ||
+        (d.in_files.recorded == Recorded::unless_default && !(value == d.initial)))
       all[d.name] = value;
   }
   return all;
@@ -551,12 +598,12 @@ std::string Options::help() const {
     if (!d.is_input) continue;
     if (!heading) out += "\nInputs:\n";
     heading = true;
-    line(Impl::left(d), Impl::detail(d));
+    line(Impl::left(d), impl_->detail(d));
   }
   for (const std::string& section : impl_->sections()) {
     out += "\n" + section + ":\n";
     for (const Declaration& d : impl_->declarations)
-      if (!d.is_input && d.section == section) line(Impl::left(d), Impl::detail(d));
+      if (!d.is_input && d.section == section) line(Impl::left(d), impl_->detail(d));
   }
   out += "\nOther:\n";
   line("-h, --help", "this text");
@@ -584,12 +631,12 @@ std::string Options::manual() const {
   };
   out += ".SH INPUTS\n";
   for (const Declaration& d : impl_->declarations)
-    if (d.is_input) entry(Impl::left(d), Impl::detail(d));
+    if (d.is_input) entry(Impl::left(d), impl_->detail(d));
   out += ".SH OPTIONS\n";
   for (const std::string& section : impl_->sections()) {
     out += ".SS " + roff(section) + "\n";
     for (const Declaration& d : impl_->declarations)
-      if (!d.is_input && d.section == section) entry(Impl::left(d), Impl::detail(d));
+      if (!d.is_input && d.section == section) entry(Impl::left(d), impl_->detail(d));
   }
   if (!impl_->examples.empty()) out += ".SH EXAMPLES\n";
   for (const Example& e : impl_->examples) entry(e.command, e.what);

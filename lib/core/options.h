@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/json.h"
 
 namespace phos {
@@ -21,6 +22,22 @@ namespace phos {
 /// command line may have settled, is not the default.
 enum class Recorded { yes, no, if_given, unless_default };
 
+/// Whether a run that reads files of earlier runs takes the option from them where it is not given. Such an
+/// option is recorded.
+enum class Adopted {
+  no,        ///< of the run alone (placement, output): free to differ
+  estimate,  ///< how records are made: from the file that records are added to (adopt_estimate())
+  site,      ///< what the scene stands under: from each cache that is read (adopt_site())
+};
+
+/// What files hold of an option, and give back.
+struct InFiles {
+  InFiles(Recorded r = Recorded::yes, Adopted a = Adopted::no) : recorded(r), adopted(a) {}
+  InFiles(Adopted a) : InFiles(Recorded::yes, a) {}
+  Recorded recorded;
+  Adopted adopted;
+};
+
 struct Range {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -28,6 +45,17 @@ struct Range {
 };
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity(), false};
+
+/// Values of a choice by name.
+template <class E>
+using Names = std::vector<std::pair<std::string, E>>;
+
+template <class E>
+const std::string& name_in(const Names<E>& names, E value) {
+  for (const auto& [name, e] : names)
+    if (e == value) return name;
+  PHOS_CHECK(false, "value ", static_cast<int>(value));
+}
 
 /// What becomes of a file that the command line names.
 enum class FileUse {
@@ -55,30 +83,31 @@ class Options {
   /// Heading in the help for the options declared after it.
   void section(const std::string& title);
 
-  void flag(const std::string& name, bool& value, const std::string& help, Recorded = Recorded::yes);
+  void flag(const std::string& name, bool& value, const std::string& help, InFiles = {});
   void number(const std::string& name, double& value, const std::string& unit, const std::string& help,
-              Range = {}, Recorded = Recorded::yes);
+              Range = {}, InFiles = {});
   void number(const std::string& name, std::optional<double>& value, const std::string& unit,
-              const std::string& help, Range = {}, Recorded = Recorded::yes);
+              const std::string& help, Range = {}, InFiles = {});
   void integer(const std::string& name, std::int64_t& value, const std::string& unit, const std::string& help,
-               Range = {}, Recorded = Recorded::yes);
+               Range = {}, InFiles = {});
   void integer(const std::string& name, std::optional<std::int64_t>& value, const std::string& unit,
-               const std::string& help, Range = {}, Recorded = Recorded::yes);
+               const std::string& help, Range = {}, InFiles = {});
   void text(const std::string& name, std::string& value, const std::string& unit, const std::string& help,
-            Recorded = Recorded::yes);
+            InFiles = {});
   /// May be given several times, or once with commas (split_at_commas()).
   void list(const std::string& name, std::vector<std::string>& value, const std::string& unit,
-            const std::string& help, Recorded = Recorded::yes);
+            const std::string& help, InFiles = {});
   /// A path. Never recorded (contents are, by hash). "-o" is declared as file("output,o", ...).
   void file(const std::string& name, std::string& value, const std::string& help, FileUse use = FileUse::read,
             bool required = false);
   /// NAME=FILE; may be given several times, or once with commas (split_named_files()). NAMEs are recorded, if
-  /// given, FILEs never.
-  void named_files(const std::string& name, std::vector<std::string>& value, const std::string& help);
+  /// given, FILEs never: such an Adopted option has to be given again.
+  void named_files(const std::string& name, std::vector<std::string>& value, const std::string& help,
+                   Adopted = Adopted::no);
   /// One of named values.
   template <class E>
-  void choice(const std::string& name, E& value, const std::vector<std::pair<std::string, E>>& values,
-              const std::string& help, Recorded recorded = Recorded::yes) {
+  void choice(const std::string& name, E& value, const Names<E>& values, const std::string& help,
+              InFiles in_files = {}) {
     std::vector<std::string> names;
     std::size_t index = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -92,8 +121,11 @@ class Options {
     };
     choice_of_names(
         name, names, index, [&value, values](std::size_t i) { value = values[i].second; }, current, help,
-        recorded);
+        in_files);
   }
+  /// Says that `name` sets the value of `other`, both declared before: parse() refuses a command line that
+  /// gives both, and given_as(other) finds either.
+  void another_name(const std::string& name, const std::string& other);
 
   /// Positional inputs (never recorded).
   void input(const std::string& placeholder, std::string& value, const std::string& help,
@@ -109,21 +141,28 @@ class Options {
   bool parse(int argc, const char* const* argv);
 
   /// Sets an option that was not given to a value that recorded() of another run has, and records it as if it
-  /// had been given. Not for flags, lists and files. Throws Error(usage) as parse() does.
+  /// had been given. Not for lists and files. Throws Error(usage) as parse() does, and for a value of another
+  /// kind.
   void adopt(const std::string& name, const Json& value);
 
   /// Was the option given on the command line?
   bool given(const std::string& name) const;
+  /// The name by which its value was given: its own, or another_name(); "" where it was not given.
+  std::string given_as(const std::string& name) const;
   /// The first of these that was, "--" before it; "" if none was.
   std::string first_given(std::initializer_list<const char*> names) const;
   /// The same of all options that were declared in a section.
   std::string first_given_in(const std::string& section) const;
   /// Of every option, in the order of declaration.
   std::vector<std::string> names() const;
+  std::vector<std::string> names(Adopted) const;
   /// Every path that the command line names: inputs, files, the FILEs of NAME=FILE, and files of options.
   std::vector<GivenFile> files() const;
   /// The value of an option as it is now; null where there is none of that name.
   Json value(const std::string& name) const;
+  /// The value that a record without this option stands for: the default of Recorded::unless_default, null
+  /// (not known) of others.
+  Json unrecorded_value(const std::string& name) const;
   /// Every recorded option as resolved now (call after automatic values are filled in), sorted by name.
   Json recorded() const;
   /// `tool --name value ...` from recorded(), without paths.
@@ -136,7 +175,7 @@ class Options {
  private:
   void choice_of_names(const std::string& name, const std::vector<std::string>& names, std::size_t index,
                        std::function<void(std::size_t)> set, std::function<std::size_t()> current,
-                       const std::string& help, Recorded recorded);
+                       const std::string& help, InFiles in_files);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -42,8 +42,9 @@ struct Made {
   /// What it stands for, where radiance records are placed: `record` is then irradiance_of() that.
   std::shared_ptr<const RadianceRecord> radiance{};
   std::shared_ptr<const Ahead> ahead{};
-  std::uint64_t item = 0;  ///< of its RecordSite (set by ParallelMaker)
-  float least_share = 1;   ///< of site_least_m that counts here (GatherSource)
+  std::uint64_t item = 0;     ///< of its RecordSite (set by ParallelMaker)
+  float least_share = 1;      ///< of site_least_m that counts here (GatherSource)
+  float light_m = kInfinity;  ///< harmonic mean distance that the light comes from, where it is to count
 };
 
 /// One way of estimating irradiance. Const and usable from any thread, each with a worker of its own.

@@ -150,7 +150,9 @@ Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOpti
     record.translation_gradient[c] = light.gradients.translation[c];
   }
   record.radius_m = std::max(radius_m, std::numeric_limits<float>::min());
-  return {record, 0, site.least_radius_m, site.most_radius_m};
+  Made made{record, 0, site.least_radius_m, site.most_radius_m};
+  made.light_m = light.light_m;
+  return made;
 }
 
 Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const RecordOptions& resolved) {

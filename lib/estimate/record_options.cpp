@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "estimate/adoption.h"
 
 namespace phos::inline estimate {
 namespace {
@@ -86,52 +85,61 @@ void RecordOptions::resolve(TypicalDistance typical) {
 void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("accuracy", r.accuracy, "A",
                  "error allowed in interpolation: a record serves points within A times its radius",
-                 {1e-3, 1, false});
+                 {1e-3, 1, false}, Adopted::estimate);
   options.number("min-radius", r.min_radius_m, "METRES",
                  "smallest radius (default: a 25th of the typical distance, which is the median, over lit or "
                  "seen places, of the harmonic mean distance to what surrounds a place)",
-                 kPositive);
+                 kPositive, Adopted::estimate);
   options.number(
       "max-radius", r.max_radius_m, "METRES",
       "largest radius (default: the typical distance, or half of it with --footprint adaptive); the "
       "coarse records that rays read are limited to a quarter of the typical distance",
-      kPositive);
+      kPositive, Adopted::estimate);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
-                           "ray: a record serves a point only if the two can see each other");
+                           "ray: a record serves a point only if the two can see each other",
+                           Adopted::estimate);
 }
 
 void declare_photon_options(Options& options, RecordOptions& r) {
   options.integer("near-photons", r.near_photons, "N",
-                  "photons of the first query, for the distance to surroundings", {8, 4096});
+                  "photons of the first query, for the distance to surroundings", {8, 4096},
+                  Adopted::estimate);
   options.integer("min-photons", r.min_photons, "N",
                   "photons that a zone should hold at least, as far as the surroundings allow; records are "
                   "no closer to each other than half such a zone",
-                  {1, 1e6});
-  options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7});
+                  {1, 1e6}, Adopted::estimate);
+  options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7},
+                  Adopted::estimate);
   options.integer("distance-rays", r.distance_rays, "N",
-                  "rays that look for dark surroundings; 0: photons alone", {0, 4096});
+                  "rays that look for dark surroundings; 0: photons alone", {0, 4096}, Adopted::estimate);
   options.integer("probes", r.probes, "N", "short rays that look for the surface where a zone is in doubt",
-                  {16, 65536});
+                  {16, 65536}, Adopted::estimate);
 }
 
 void declare_gather_options(Options& options, RecordOptions& r) {
   options.integer("rays", r.rays, "N",
-                  "rays of a hemisphere, at most: those of whole rings (12, 27, 52, 80, ...)", {12, 1048576});
+                  "rays of a hemisphere, at most: those of whole rings (12, 27, 52, 80, ...)", {12, 1048576},
+                  Adopted::estimate);
   options.integer("gather-bounces", r.gather_bounces, "N",
-                  "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1});
+                  "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1},
+                  Adopted::estimate);
   options.choice<GatherFrom>(
       "gather-from", r.gather_from, kSources,
       "indirect light where rays land: a coarse cache made from the photons first, or the "
       "photons there (ten times the work); a cache among the inputs is read instead; where rays land nearer "
       "than half a zone's radius, another ray is followed from there, unless lamps without area meet mirrors "
-      "or glass");
-  options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false});
+      "or glass",
+      Adopted::estimate);
+  options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false},
+                 Adopted::estimate);
   options.integer("source-photons", r.source_photons, "N",
-                  "photons that a zone of the coarse cache should hold at least", {16, 1e6});
+                  "photons that a zone of the coarse cache should hold at least", {16, 1e6},
+                  Adopted::estimate);
   options.choice<RadiusRule>(
       "radius", r.radius, kRadii,
       "radius from the harmonic mean distance of surroundings, from the less of it and of the "
-      "harmonic mean distance that the light comes from, or from the least distance");
+      "harmonic mean distance that the light comes from, or from the least distance",
+      Adopted::estimate);
 }
 
 const char* name_of(Quantity quantity) { return quantity == Quantity::all ? "all" : "indirect"; }
@@ -141,26 +149,29 @@ void declare_options(Options& options, RecordOptions& r) {
   options.choice<Estimate>(
       "estimate", r.estimate, kEstimates,
       "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
-      "rays over the hemisphere lit where they land, or the scene drawn on a plane above");
+      "rays over the hemisphere lit where they land, or the scene drawn on a plane above",
+      Adopted::estimate);
   declare_reach_options(options, r);
   options.choice<Quantity>("paths", r.paths, kQuantities,
-                           "light that counts: indirect leaves out what comes straight from a lamp");
+                           "light that counts: indirect leaves out what comes straight from a lamp",
+                           Adopted::estimate);
   options.choice<GradientMode>(
       "gradients", r.gradients, kGradients,
       "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
-      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none");
+      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none",
+      Adopted::estimate);
   options.section("Estimates from photons");
-  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel");
-  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere",
-                  {1, 64});
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel", Adopted::estimate);
+  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere", {1, 64},
+                  Adopted::estimate);
   declare_photon_options(options, r);
   options.section("Estimates from rays");
   declare_gather_options(options, r);
   options.number("error", r.error, "E",
                  "relative standard error at which a record has rays enough (default: all --rays are spent)",
-                 kPositive);
+                 kPositive, Adopted::estimate);
   options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
-                  {1, 65536});
+                  {1, 65536}, Adopted::estimate);
 }
 
 void declare_footprint_options(Options& options, RecordOptions& r) {
@@ -170,65 +181,27 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
       "what a record serves: a disc; with --estimate gather also a disc by the least distance, one by the "
       "harmonic mean that shrinks where records about it say otherwise, or eight axes of their own lengths "
       "with the change of light along each (half the records, each at more cost; drawn on the CPU)",
-      Recorded::unless_default);
+      {Recorded::unless_default, Adopted::estimate});
   options.number(
       "rho", r.rho, "R",
       "of adaptive footprints: relative error of light along an axis, which is halved until it is met; at "
       "most 0.05 where direct light is cached, or shadows are missed",
-      {1e-3, 1, false}, Recorded::unless_default);
+      {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
   options.choice<Quantity>(
       "direct", r.paths, {{"traced", Quantity::indirect}, {"cached", Quantity::all}},
       "light straight from the lamps: traced where it is seen, or cached in the records (the "
       "same as --paths all); pays for many or large lamps, with --footprint adaptive",
       Recorded::no);
-}
-
-void require_one_light(const Options& given) {
-  if (given.given("direct") && given.given("paths"))
-    throw Error(ExitCode::usage, "--direct", "says what --paths says; give one of the two");
+  options.another_name("direct", "paths");
 }
 
 void declare_raster_options(Options& options, RecordOptions& r, Recorded recorded) {
   options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster", {8, 1024},
-                  recorded);
+                  {recorded, Adopted::estimate});
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
                                "what stands for directions beyond the plane: nothing, the plane's own mean "
                                "(coverage), or its border pixels (stretch)",
-                               recorded);
-}
-
-void adopt_options(RecordOptions& r, const Options& given, const Container& earlier) {
-  const Adoption from(given, earlier);
-  from.choice("gradients", r.gradients, kGradients);
-  from.choice_unless(Footprint::circle, "footprint", r.footprint, kFootprints);
-  from.number_unless(RecordOptions().rho, "rho", r.rho);
-  adopt_all_but_gradients(r, from);
-}
-
-void adopt_all_but_gradients(RecordOptions& r, const Adoption& from) {
-  from.choice("estimate", r.estimate, kEstimates);
-  from.number("accuracy", r.accuracy);
-  from.number("min-radius", r.min_radius_m);
-  from.number("max-radius", r.max_radius_m);
-  from.choice("paths", r.paths, kQuantities, "direct");
-  from.choice("leak-test", r.leak_test, kLeakTests);
-  from.choice("kernel", r.kernel, kKernels);
-  from.integer("hemisphere-rings", r.hemisphere_rings);
-  from.integer("near-photons", r.near_photons);
-  from.integer("min-photons", r.min_photons);
-  from.integer("max-photons", r.max_photons);
-  from.integer("distance-rays", r.distance_rays);
-  from.integer("probes", r.probes);
-  from.integer("rays", r.rays);
-  from.number("error", r.error);
-  from.integer("gather-bounces", r.gather_bounces);
-  from.choice("gather-from", r.gather_from, kSources);
-  from.number("source-accuracy", r.source_accuracy);
-  from.integer("source-photons", r.source_photons);
-  from.choice("radius", r.radius, kRadii);
-  from.integer("light-samples", r.light_samples);
-  from.integer("raster-side", r.raster_side);
-  from.choice("raster-border", r.raster_border, kBorders);
+                               {recorded, Adopted::estimate});
 }
 
 }  // namespace phos::inline estimate

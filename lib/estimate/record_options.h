@@ -6,7 +6,6 @@
 
 #include "core/options.h"
 #include "estimate/zone/gradients.h"
-#include "file/container.h"
 #include "photon/density.h"
 
 namespace phos::inline estimate {
@@ -62,8 +61,8 @@ struct TypicalDistance {
 
 struct RecordOptions {
   Estimate estimate = Estimate::hull;
-  double accuracy = 0.2;                             ///< a: zone of influence = a x radius
-  std::optional<double> min_radius_m, max_radius_m;  ///< empty: resolve() sets them
+  double accuracy = 0.2;                                 ///< a: zone of influence = a x radius
+  std::optional<double> min_radius_m{}, max_radius_m{};  ///< empty: resolve() sets them
   Quantity paths = Quantity::indirect;
   GradientMode gradients = GradientMode::automatic;
   RadiusRule radius = RadiusRule::harmonic;  ///< of gather and raster
@@ -78,17 +77,17 @@ struct RecordOptions {
   std::int64_t distance_rays = 32;                     ///< 0: distances from photons alone
   std::int64_t probes = 128;
   // Rays.
-  std::int64_t rays = 512;      ///< of a hemisphere, at most
-  std::optional<double> error;  ///< relative standard error at which a hemisphere has rays enough; empty: all
+  std::int64_t rays = 512;        ///< of a hemisphere, at most
+  std::optional<double> error{};  ///< relative standard error at which rays are enough; empty: all are sent
   std::int64_t gather_bounces =
       -1;  ///< between the lamp and the record: 1 = surfaces lit by lamps alone; negative: all
   GatherFrom gather_from = GatherFrom::cache;
-  double source_accuracy = 0.4;               ///< a of the coarse cache
-  std::optional<double> source_max_radius_m;  ///< resolve() sets it: max_radius_m, at most a quarter
-                                              ///< of the typical distance
-  std::int64_t source_photons = 100;          ///< that a zone of the coarse cache should hold at least
-  std::int64_t light_samples = 64;            ///< with paths = all: shadow rays to each area light
-  std::int64_t raster_side = 64;              ///< pixels of the plane, each way
+  double source_accuracy = 0.4;                 ///< a of the coarse cache
+  std::optional<double> source_max_radius_m{};  ///< resolve() sets it: max_radius_m, at most a quarter
+                                                ///< of the typical distance
+  std::int64_t source_photons = 100;            ///< that a zone of the coarse cache should hold at least
+  std::int64_t light_samples = 64;              ///< with paths = all: shadow rays to each area light
+  std::int64_t raster_side = 64;                ///< pixels of the plane, each way
   RasterBorder raster_border = RasterBorder::stretch;
   /// Light that comes from lamps by mirrors and glass alone is not in the records: neither caustic photons
   /// nor lamps that rays from the record meet after mirrors and glass count (docs/methods.md#g7-5). No
@@ -113,18 +112,10 @@ void declare_options(Options& options, RecordOptions& records);
 void declare_raster_options(Options& options, RecordOptions& records, Recorded recorded = Recorded::yes);
 /// --footprint, --rho and --direct (another name of --paths).
 void declare_footprint_options(Options& options, RecordOptions& records);
-/// Throws Error(usage) if both --direct and --paths were given.
-void require_one_light(const Options& given);
 // Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays
 // with what they read where they land.
 void declare_reach_options(Options& options, RecordOptions& records);
 void declare_photon_options(Options& options, RecordOptions& records);
 void declare_gather_options(Options& options, RecordOptions& records);
-
-/// For adding to an earlier file: options that were not given take its values; one that was given and differs
-/// throws Error(mismatch) saying which.
-void adopt_options(RecordOptions& records, const Options& given, const Container& earlier);
-class Adoption;
-void adopt_all_but_gradients(RecordOptions& records, const Adoption& from);
 
 }  // namespace phos::inline estimate

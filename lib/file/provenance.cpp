@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -101,6 +102,48 @@ std::string node_change(const Json* then, const Json* now) {
   for (const auto& [name, hash] : now->as_object())
     if (then->find(name) == nullptr) return "node \"" + name + "\" is new";
   return "";
+}
+
+bool differ(const Json& a, const Json& b, const char* part) {
+  const Json *of_a = a.find(part), *of_b = b.find(part);
+  return of_a != nullptr && of_b != nullptr && !(*of_a == *of_b);
+}
+
+const Json::Object* nodes_of(const Json& parts) {
+  const Json* nodes = parts.find("nodes");
+  return nodes != nullptr && nodes->is_object() ? &nodes->as_object() : nullptr;
+}
+
+/// A few of the named nodes that only one of two scenes has: nodes "a", "b", "c" and 4 more.
+std::string nodes_beside(const Json::Object& own, const Json::Object& others) {
+  constexpr std::size_t kNamed = 3;
+  std::string words;
+  std::size_t n = 0;
+  for (const auto& [name, hash] : own)
+    if (!others.contains(name) && ++n <= kNamed) words += text(n == 1 ? "" : ", ", '"', name, '"');
+  if (n == 0) return "";
+  if (n > kNamed) words += text(" and ", n - kNamed, " more");
+  return text(n == 1 ? "node " : "nodes ", words);
+}
+
+/// How two scenes differ of which neither is a version of the other: surfaces and materials, and more than
+/// half of the nodes (where nodes are not known, lights). "" for versions of one scene.
+std::string another_scene(const Json& then, const Json& now, const std::string& now_path) {
+  if (!differ(then, now, "geometry") || !differ(then, now, "materials")) return "";
+  const Json::Object *nodes_then = nodes_of(then), *nodes_now = nodes_of(now);
+  if (!nodes_then || !nodes_now)
+    return differ(then, now, "lights") ? text("geometry, materials and lights are not those of ", now_path)
+                                       : "";
+  const auto stayed =
+      static_cast<std::size_t>(std::count_if(nodes_then->begin(), nodes_then->end(), [&](const auto& node) {
+        const auto found = nodes_now->find(node.first);
+        return found != nodes_now->end() && found->second == node.second;
+      }));
+  if (2 * stayed >= std::min(nodes_then->size(), nodes_now->size())) return "";
+  const std::string had = nodes_beside(*nodes_then, *nodes_now), has = nodes_beside(*nodes_now, *nodes_then);
+  if (had.empty() && has.empty()) return text("geometry, materials and nodes are not those of ", now_path);
+  return text(had.empty() ? "" : "with " + had, had.empty() || has.empty() ? "" : "; ",
+              has.empty() ? "" : text(now_path, " has ", has));
 }
 
 /// The options that give such bands; "" for RGB.
@@ -226,6 +269,8 @@ void require_same_scene(const Container& file, const std::string& scene_path, co
   const std::string remedy = text("; rerun ", made_by(file), ", or pass --allow-mismatch");
   if (p.scene_hash.empty())
     throw Error(ExitCode::mismatch, file.path(), "does not say which scene it was made from" + remedy);
+  if (const std::string other = another_scene(p.scene_parts, scene_parts, scene_path); !other.empty())
+    throw Error(ExitCode::mismatch, file.path(), text("made from another scene (", other, ")", remedy));
   const std::string change = scene_change(p.scene_parts, scene_parts);
   throw Error(ExitCode::mismatch, file.path(),
               text("made from another scene (", scene_path, " has changed since", change.empty() ? "" : ": ",

@@ -127,7 +127,7 @@ void Growth::accept(const Made& made) {
   Made start = made;
   IrradianceRecord& placed = start.record;
   if (by_ == GrowthBy::error)
-    placed.radius_m = std::min(kStartReach * placed.distance_m / accuracy_, most_m_);
+    placed.radius_m = std::min(kStartReach * std::min(placed.distance_m, made.light_m) / accuracy_, most_m_);
   placed.radius_m = rules_.add(start, [&](std::size_t i, float radius_m) { shrink(i, radius_m); });
   tree_.insert(placed);
   if (as_read_) as_read_->insert(placed);
@@ -170,7 +170,7 @@ std::size_t Growth::compare() {
             const float allowed =
                 *tolerance_ * std::max(light, foretold) + 2 * std::hypot(noise, luminance(r->stderr_lx));
             if (std::fabs(foretold - light) <= allowed) continue;
-            const float turn = glm::length(there.normal - r->normal) * 0.70710678f;
+            const float turn = turn_error(glm::length(there.normal - r->normal));
             const float apart = record_error(*r, there.position, there.normal) - turn;
             const float share = apart / std::max(reading_accuracy_ - turn, std::numeric_limits<float>::min());
             found.push_back({k, r->radius_m * std::clamp(share, 0.5f, 1.f)});

@@ -69,10 +69,10 @@ RadiusBounds bounds_of(const RecordOptions& resolved);
 /// How radii come about.
 enum class GrowthBy {
   rules,  ///< RadiusRules
-  /// docs/methods.md#h7: records start with a reach of kStartReach times their harmonic distance, whatever
-  /// their gradients say, and are judged afterwards (Refinement). Those that have been found to reach too far
-  /// clamp new ones by half of what lies between; others clamp none, for at an edge the distance goes to
-  /// zero, and all records about it would be small. Not of footprints.
+  /// docs/methods.md#h7: records start with a reach of kStartReach times their harmonic distance (or the
+  /// light's), whatever their gradients say, and are judged afterwards (Refinement). Those that have been
+  /// found to reach too far clamp new ones by half of what lies between; others clamp none, for at an edge
+  /// the distance goes to zero, and all records about it would be small. Not of footprints.
   error,
 };
 /// In harmonic distances.

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "estimate/adoption.h"
 
 namespace phos::inline place {
 namespace {
@@ -23,23 +22,19 @@ void declare_options(Options& options, RadianceOptions& r) {
   options.choice<Estimate>(
       "estimate", r.records.estimate, kEstimates,
       "how radiance is estimated: rays over the hemisphere lit where they land, or photons over their convex "
-      "hull");
+      "hull",
+      Adopted::estimate);
   declare_reach_options(options, r.records);
   options.choice<RadianceGradient>(
       "gradients", r.gradients, kGradients,
       "how the light's change with the place is found: from each ray, with the "
       "edges of what hides it (hybrid; photons show none) or without (analytic), "
-      "or by moved rays");
+      "or by moved rays",
+      Adopted::estimate);
   options.section("Estimates from photons");
   declare_photon_options(options, r.records);
   options.section("Estimates from rays");
   declare_gather_options(options, r.records);
-}
-
-void adopt_options(RadianceOptions& r, const Options& given, const Container& earlier) {
-  const Adoption from(given, earlier);
-  from.choice("gradients", r.gradients, kGradients);
-  adopt_all_but_gradients(r.records, from);
 }
 
 std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables& tables,

@@ -25,8 +25,6 @@ struct RadianceOptions {
   RadianceGradient gradients = RadianceGradient::hybrid;
 };
 void declare_options(Options& options, RadianceOptions& radiance);
-/// As adopt_options() of irradiance records.
-void adopt_options(RadianceOptions& radiance, const Options& given, const Container& earlier);
 
 /// One run of placement: records of one order, on the materials that want that.
 struct RadianceRun {

@@ -1,6 +1,6 @@
-// Places of records from text.
+#include "place/read_points.h"
+
 #include "file/atomic_file.h"
-#include "place/placement.h"
 #include "scene/point_table.h"
 
 namespace phos::inline place {

@@ -117,13 +117,13 @@ Residual residual_of(std::span<const IrradianceRecord> records, const Neighbourh
   if (neighbours.empty()) return residual;
   for (const Neighbour& n : neighbours) residual.neighbours.push_back(n.record);
   const auto count = static_cast<double>(neighbours.size());
-  double foretold = 0, mean = light_of(own), spread = 1;
-  for (const Neighbour& n : neighbours) mean += light_of(records[n.record]);
-  mean /= count + 1;
+  const auto variance_of = [&](const IrradianceRecord& r) { return noise.error_lx(r) * noise.error_lx(r); };
+  double foretold = 0, variance = variance_of(own);
   if (const auto plane = plane_through(neighbours)) {
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       const double l = (*plane)[k];
-      foretold += l * light_of(records[neighbours[k].record]), spread += l * l;
+      const IrradianceRecord& r = records[neighbours[k].record];
+      foretold += l * light_of(r), variance += l * l * variance_of(r);
     }
   } else {  // few or in a row: each by its own gradient
     for (const Neighbour& n : neighbours) {
@@ -132,24 +132,32 @@ Residual residual_of(std::span<const IrradianceRecord> records, const Neighbourh
       const double turn = noise.gradient * glm::length(n.offset_m) /
                           std::max(static_cast<double>(r.distance_m), 1e-30) /
                           std::max(noise.irradiance, kLeastNoise);
-      spread += (1 + turn * turn) / (count * count);
+      variance += (1 + turn * turn) * variance_of(r) / (count * count);
     }
   }
-  const double wrong = foretold - light_of(own), sd = noise.irradiance * mean;
-  residual.excess = wrong * wrong - sd * sd * spread;
+  const double wrong = foretold - light_of(own);
+  residual.excess = wrong * wrong - variance;
   residual.known = true;
   return residual;
 }
 
 }  // namespace
 
+double RecordNoise::error_lx(const IrradianceRecord& record) const {
+  return stated > 0 ? stated * static_cast<double>(luminance(record.stderr_lx))
+                    : irradiance * light_of(record);
+}
+
 RecordNoise noise_of(std::span<const Made> first, std::span<const Made> second) {
   PHOS_CHECK(first.size() == second.size(), first.size(), " and ", second.size());
-  double variance = 0, light = 0, gradient = 0, count = 0;
+  double variance = 0, light = 0, stated = 0, gradient = 0, count = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const IrradianceRecord &a = first[i].record, &b = second[i].record;
     const double difference = light_of(a) - light_of(b), mean = (light_of(a) + light_of(b)) / 2;
+    const double error_a = static_cast<double>(luminance(a.stderr_lx)),
+                 error_b = static_cast<double>(luminance(b.stderr_lx));
     variance += difference * difference / 2, light += mean * mean;
+    stated += (error_a * error_a + error_b * error_b) / 2;
     const double distance_m = static_cast<double>(a.distance_m);
     if (!(mean > 0) || !std::isfinite(distance_m)) continue;
     for (int c = 0; c < 3; ++c) {
@@ -159,7 +167,8 @@ RecordNoise noise_of(std::span<const Made> first, std::span<const Made> second) 
       gradient += glm::dot(g, g) * relative * relative / 4, count += 1;  // two components, a pair of records
     }
   }
-  return {light > 0 ? std::sqrt(variance / light) : 0, count > 0 ? std::sqrt(gradient / count) : 0};
+  return {light > 0 ? std::sqrt(variance / light) : 0, count > 0 ? std::sqrt(gradient / count) : 0,
+          stated > 0 ? std::sqrt(variance / stated) : 0};
 }
 
 Refinement::Refinement(Growth& growth, ParallelMaker& maker, const RecordOptions& resolved, double target)
@@ -202,7 +211,7 @@ std::size_t Refinement::refine() {
       sum += residuals[j].excess * std::min(4.0, std::pow(ratio, 4)) / 2, weight += 0.5;
     }
     const double error_lx = std::sqrt(std::max(0.0, sum / weight));
-    const double tolerance_lx = std::max(aim_lx, noise_.irradiance * light_of(records[i]));
+    const double tolerance_lx = std::max(aim_lx, noise_.error_lx(records[i]));
     if (error_lx > tolerance_lx)
       radius_m[i] *= static_cast<float>(std::max(0.5, std::sqrt(tolerance_lx / error_lx)));
   }

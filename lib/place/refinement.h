@@ -16,6 +16,11 @@ namespace phos::inline place {
 struct RecordNoise {
   double irradiance = 0;  ///< standard error of irradiance, of the irradiance E
   double gradient = 0;    ///< standard error of a component of the translation gradient, of E / distance_m
+  double stated = 0;      ///< standard error of irradiance, of the stated one; 0: none is stated
+
+  /// Standard error of a record's luminance, lx: its stated one, by how far those are true; where none is
+  /// stated, all are taken for equally noisy. Rays that find a bright spot make more noise than those beside.
+  double error_lx(const IrradianceRecord& record) const;
 };
 /// From pairs of independent records, one a place. Zero for none.
 RecordNoise noise_of(std::span<const Made> first, std::span<const Made> second);

@@ -37,6 +37,10 @@ struct RadianceRecord {
 /// The order itself; throws Error(usage) unless 1 <= order <= HshRotator::kMaxOrder.
 int require_radiance_order(int order);
 
+/// Change of a record's coefficients per metre relative to their own size, 1/m: steps by more than 1/this are
+/// shortened to that (step_share). 0: it takes no steps, having no gradients, or no light of its own.
+float steepness_per_m(const RadianceRecord& record);
+
 /// Are all its numbers finite? The distance may be infinite.
 bool is_finite(const RadianceRecord& record);
 

@@ -18,13 +18,6 @@ double squares(const std::vector<float>& v) {
   return sum;
 }
 
-/// Change of a record's coefficients per metre relative to their own size, 1/m.
-float steepness(const RadianceRecord& r) {
-  const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
-  if (!(slope > 0)) return 0;
-  return light > 0 ? static_cast<float>(std::sqrt(slope / light)) : kInfinity;
-}
-
 /// The angle between normals at which no weight is left, |n - n_i| / sqrt(2) = a, and a little more.
 float most_turned(double accuracy) {
   const double angle = 2 * std::asin(std::min(1., accuracy / std::numbers::sqrt2)) + 0.01;
@@ -65,10 +58,8 @@ struct RadianceTree::Impl {
     const RadianceRecord& r = records[record];
     const Vec3 step = p - r.position;
     const float steep = steepness_per_m[record];
-    if (!(steep > 0) || std::isinf(steep)) return Vec2(0);
-    const float lengths = steep * glm::length(step);
-    const float shorter = lengths > 1 ? 1 / lengths : 1.f;
-    return shorter * Vec2(glm::dot(step, r.frame.x), glm::dot(step, r.frame.y));
+    if (!(steep > 0)) return Vec2(0);
+    return step_share(step, steep) * Vec2(glm::dot(step, r.frame.x), glm::dot(step, r.frame.y));
   }
   /// sum += w (c + dx g_x + dy g_y), as far as `sum` goes.
   void add(std::size_t record, float w, const Vec3& p, std::vector<float>& sum) const {
@@ -113,6 +104,13 @@ struct RadianceTree::Impl {
   }
 };
 
+float steepness_per_m(const RadianceRecord& r) {
+  const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
+  // Without light of its own, any step would change it by more than that.
+  const auto steepness = static_cast<float>(light > 0 ? std::sqrt(slope / light) : 0.);
+  return std::isfinite(steepness) ? steepness : 0;
+}
+
 RadianceTree::RadianceTree(const Bounds& bounds, double accuracy, int order, const RayScene* leak_test) {
   impl_ = std::make_unique<Impl>(bounds, accuracy, require_radiance_order(order), leak_test);
 }
@@ -131,7 +129,7 @@ void RadianceTree::insert(RadianceRecord r) {
                  (r.gradient_x.empty() || r.gradient_x.size() == r.light.size()),
              r.gradient_x.size(), " and ", r.gradient_y.size(), " numbers of gradients");
   impl_->tree.insert(phos::irradiance_of(r));
-  impl_->steepness_per_m.push_back(steepness(r));
+  impl_->steepness_per_m.push_back(steepness_per_m(r));
   impl_->records.push_back(std::move(r));
 }
 

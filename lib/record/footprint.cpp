@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "record/weight.h"
+
 namespace phos::inline record {
 namespace {
 
@@ -53,9 +55,8 @@ float AdaptiveFootprint::error(const Vec3& step, const Vec3& n_p, const Vec3& n,
   const float along = s.a + s.b;
   const float q = s.a * inverse_m_[static_cast<std::size_t>(s.first)] +
                   s.b * inverse_m_[static_cast<std::size_t>(s.second)];
-  const float across = along > 0 ? std::sqrt(x * x + y * y) / along * q : 0;
-  const float turn = glm::length(n_p - n) * kHalf;
-  return std::sqrt(across * across + height * height) * (longest_m_ / radius_m) + turn;
+  const float reach = along > 0 ? border_reach(x, y, along, q) : 0;
+  return footprint_error(reach, height, glm::length(n_p - n), longest_m_ / radius_m);
 }
 
 Rgb AdaptiveFootprint::change(const Vec3& step, const Vec3& n_p) const {
@@ -65,18 +66,18 @@ Rgb AdaptiveFootprint::change(const Vec3& step, const Vec3& n_p) const {
     const auto i = static_cast<std::size_t>(s.first), j = static_cast<std::size_t>(s.second);
     const float along = s.a + s.b, share = s.b / along;
     const float a = s.a * inverse_m_[i], b = s.b * inverse_m_[j];
-    const float reach = std::sqrt(x * x + y * y) / along * (a + b), within = std::min(reach, 1.f);
-    sum += (reach > 1 ? 1 / reach : 1.f) * (a * axes_[i].slope + b * axes_[j].slope) +
-           (0.5f * within * within) * ((1 - share) * axes_[i].bend + share * axes_[j].bend);
+    const float reach = border_reach(x, y, along, a + b);
+    sum += slope_share(reach, 1) * (a * axes_[i].slope + b * axes_[j].slope) +
+           0.5f * bend_share(reach, 1) * ((1 - share) * axes_[i].bend + share * axes_[j].bend);
   }
   const float tx = glm::dot(n_p, x_), ty = glm::dot(n_p, y_);
   if (const Sector s = sector_of(tx, ty); s.a + s.b > 0) {
     const auto i = static_cast<std::size_t>(s.first), j = static_cast<std::size_t>(s.second);
     const float along = s.a + s.b, share = s.b / along;
-    const float sine = std::sqrt(tx * tx + ty * ty), within = std::min(sine, kMostSine);
-    sum += (sine > kMostSine ? kMostSine / sine : 1.f) *
-               (s.a * axes_[i].turn_slope + s.b * axes_[j].turn_slope) +
-           (0.5f * within * within) * ((1 - share) * axes_[i].turn_bend + share * axes_[j].turn_bend);
+    const float sine = std::sqrt(tx * tx + ty * ty);
+    sum += slope_share(sine, kMostTurnSine) * (s.a * axes_[i].turn_slope + s.b * axes_[j].turn_slope) +
+           0.5f * bend_share(sine, kMostTurnSine) *
+               ((1 - share) * axes_[i].turn_bend + share * axes_[j].turn_bend);
   }
   return sum;
 }

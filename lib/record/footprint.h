@@ -28,8 +28,6 @@ namespace phos::inline record {
 class AdaptiveFootprint {
  public:
   static constexpr int kAxes = 8;
-  /// Sine of the greatest turn that turning terms are good for: where the error (docs/methods.md#a1) is 1/2.
-  static constexpr float kMostSine = 0.66143783f;
 
   struct Axis {
     float length_m = 0;     ///< along which the parabola was fitted; > 0

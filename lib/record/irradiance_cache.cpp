@@ -40,10 +40,8 @@ const char* what_is_wrong(const IrradianceRecord& r) {
 }
 
 bool record_apart(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
-  if (!(glm::dot(n, r.normal) > 0)) return true;
-  const Vec3 d = p - r.position;
-  return glm::dot(d, n + r.normal) * 0.5f < -kFrontTolerance * r.radius_m ||
-         glm::dot(d, r.normal) > over_limit_m(r.distance_m, r.radius_m);
+  return weight_if_lit(1, p - r.position, n, r.normal, -kFrontTolerance * r.radius_m,
+                       over_limit_m(r.distance_m, r.radius_m)) == 0;
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include "photon/caustic_map.h"
 #include "record/blend.h"
 #include "record/footprint.h"
+#include "record/weight.h"
 #include "scene/rays.h"
 
 namespace phos::inline record {
@@ -119,28 +120,15 @@ class RecordColumns {
   std::vector<std::shared_ptr<const AdaptiveFootprint>> footprints_;  // likewise
 };
 
-/// The least weight that counts: below it a record is not valid, and a point without others is a miss.
-inline constexpr float kLeastWeight = 1e-6f;
-/// How far a record may lie behind the plane between itself and the point it lights, in units of its radius.
-inline constexpr float kFrontTolerance = 0.01f;
-/// How far over a record's plane a point may lie that it lights: its mean distance to what it sees, however
-/// large its radius has been made. In a niche or behind a cornice that is little, and what lies beyond has
-/// other light.
-inline float over_limit_m(float distance_m, float radius_m) {
-  return std::max(distance_m, kFrontTolerance * radius_m);
-}
 /// How far p lies off a record's plane, on either side, in units of its radius.
 inline float height_over(const IrradianceRecord& r, const Vec3& p) {
   return std::fabs(glm::dot(p - r.position, r.normal)) / r.radius_m;
 }
-/// An extrapolated irradiance is at most this many times the record's.
-inline constexpr float kGrowthLimit = 2;
-
 /// eps (docs/methods.md#a1): |p - p_i|/R_i + |n - n_i|/sqrt(2); R_i is that of the direction where the
 /// record has a footprint.
 inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (r.footprint) return r.footprint->error(p - r.position, n, r.normal, r.radius_m);
-  return glm::length(p - r.position) / r.radius_m + glm::length(n - r.normal) * 0.70710678f;
+  return disc_error(p - r.position, n - r.normal, r.radius_m);
 }
 /// Of the direction in which the record reaches least far.
 inline float least_radius_m(const IrradianceRecord& r) {
@@ -163,19 +151,17 @@ bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3
 inline Rgb extrapolate(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   const Vec3 step = p - r.position;
   if (r.footprint) return glm::max(r.irradiance + r.footprint->change(step, n), Rgb(0));
-  const Vec3 turn = glm::cross(r.normal, n);
+  const Vec3 turning = glm::cross(r.normal, n);
   Rgb e;
-  for (int c = 0; c < 3; ++c) {
-    const float value =
-        r.irradiance[c] + glm::dot(turn, r.rotation_gradient[c]) + glm::dot(step, r.translation_gradient[c]);
-    e[c] = std::min(std::max(value, 0.f), kGrowthLimit * r.irradiance[c]);
-  }
+  for (int c = 0; c < 3; ++c)
+    e[c] = carried_light(r.irradiance[c], turning, r.rotation_gradient[c], step, r.translation_gradient[c],
+                         kGrowthLimit * r.irradiance[c]);
   return e;
 }
 
 /// Weight (docs/methods.md#a4): 1 - eps/a, in [0,1]; 0 = not valid. The one used by every splatter and
 /// lookup.
-inline float record_weight(float eps, float accuracy) { return eps < accuracy ? 1.f - eps / accuracy : 0.f; }
+inline float record_weight(float eps, float accuracy) { return weight_left(eps, accuracy, 0); }
 
 /// The weight of a record that serves a disc at p, n; 0 beyond its reach. No footprint gives it more.
 inline float weight_at(const Vec3& record_position, const Vec3& record_normal, float radius_m, float accuracy,
@@ -183,9 +169,7 @@ inline float weight_at(const Vec3& record_position, const Vec3& record_normal, f
   const Vec3 d = p - record_position;
   const float reach = accuracy * radius_m;
   if (!(glm::dot(d, d) < reach * reach)) return 0;
-  const float eps =
-      glm::length(d) / radius_m + glm::length(n - record_normal) * 0.70710678f;  // record_error()
-  return record_weight(eps, accuracy);
+  return record_weight(disc_error(d, n - record_normal, radius_m), accuracy);
 }
 
 /// The same of a record with a footprint, which weight_at() of its longest axis has let pass.

@@ -51,8 +51,10 @@ void aim(Scene& scene, const std::string& portals) {
 void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS",
-                 "when animations are evaluated (default: when those of the caches are, or 0)");
-  options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene");
+                 "when animations are evaluated (default: when those of the caches are, or 0)", {},
+                 Adopted::site);
+  options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene", {},
+                 Adopted::site);
   declare_light_options(options, scene);
 }
 
@@ -64,9 +66,9 @@ void declare_light_options(Options& options, SceneOptions& scene) {
       "+Z, Radiance .hdr (x 179 lm/W) or OpenEXR (cd/m2); give it to every stage");
   options.number("environment-rotation", scene.environment_rotation_deg, "DEGREES",
                  "turns the environment about +Y, counter-clockwise seen from above (default: 0)",
-                 {-360, 360});
+                 {-360, 360}, Adopted::site);
   options.number("environment-scale", scene.environment_scale, "X",
-                 "multiplies the luminance of the environment (default: 1)", kPositive);
+                 "multiplies the luminance of the environment (default: 1)", kPositive, Adopted::site);
   declare_options(options, scene.daylight);
   declare_options(options, scene.bands);
   options.text(
@@ -76,7 +78,7 @@ void declare_light_options(Options& options, SceneOptions& scene) {
       "(panes; commas of names that the scene has part none, nor do \\,). One in ten (where a sky or map has "
       "bright spots, one shadow ray in two) is not aimed, so "
       "that no light is lost",
-      Recorded::if_given);
+      {Recorded::if_given, Adopted::site});
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {

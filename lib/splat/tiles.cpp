@@ -42,7 +42,7 @@ bool TileGrid::touches(const IrradianceRecord& r, float accuracy, int column, in
   const float apart = distance_to(tile.position, r.position) / r.radius_m;
   // The margins cover the rounding of this bound and of the error it bounds.
   if (!(apart < accuracy * 1.0001f)) return false;
-  return apart + distance_to(tile.normal, r.normal) * 0.70710678f < accuracy * 1.0001f + 1e-6f;
+  return apart + turn_error(distance_to(tile.normal, r.normal)) < accuracy * 1.0001f + 1e-6f;
 }
 
 void TileGrid::cut(const IrradianceRecord& record, float accuracy, const PixelRect& bounds,

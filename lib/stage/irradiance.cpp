@@ -3,8 +3,10 @@
 #include <sstream>
 
 #include "estimate/record_ways.h"
+#include "file/adoption.h"
 #include "place/parts.h"
 #include "place/points_on_surfaces.h"
+#include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "scene/inside_solid.h"
 #include "stage/chosen_estimator.h"
@@ -68,10 +70,10 @@ void summarise(Tool& tool, const IrradianceCache& cache, const PlacementReport& 
 
 /// The cache to add to, and the ways of light that it does not hold. Options that were not given become its
 /// own; one that was and differs throws Error(mismatch).
-IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, const Options& given,
-                             IrradianceCommand& asked, std::vector<LightWay>& missed) {
+IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, Options& options,
+                             const IrradianceCommand& asked, std::vector<LightWay>& missed) {
   const Container file = open_to_add(asked.add_to, "irradiance", files, scene, asked.allow_mismatch);
-  adopt_options(asked.records, given, file);
+  adopt_estimate(options, file);
   missed = unsampled_in(file.provenance());
   return read_irradiance(file);
 }
@@ -81,7 +83,6 @@ IrradianceCache open_earlier(const RecordFiles& files, const Scene& scene, const
 void run(Tool& tool, IrradianceCommand& asked) {
   RecordOptions& records = asked.records;
   PlacementOptions& placement = asked.placement;
-  require_one_light(tool.options());
   const RecordFiles files = sort_record_inputs(asked.inputs);
   take_site(tool, {files.photons, files.source, files.radiance, asked.add_to}, asked.allow_mismatch);
   add_inputs(tool, files, asked.scene);

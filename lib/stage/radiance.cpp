@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "estimate/record_ways.h"
+#include "file/adoption.h"
 #include "place/points_on_surfaces.h"
 #include "place/radiance_report.h"
+#include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
 #include "stage/chosen_estimator.h"
@@ -52,7 +54,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   std::vector<LightWay> missed_before;
   if (!asked.add_to.empty()) {
     const Container earlier = open_to_add(asked.add_to, "radiance", files, scene, asked.allow_mismatch);
-    adopt_options(radiance, tool.options(), earlier);
+    adopt_estimate(tool.options(), earlier);
     missed_before = unsampled_in(earlier.provenance());
     cache = read_radiance(earlier);
     require_same_orders(cache, tables, asked.add_to);

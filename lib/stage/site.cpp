@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "file/adoption.h"
 #include "scene/load.h"
 #include "scene/sky/daylight.h"
 
@@ -20,8 +21,6 @@ bool is_stated(const Json* value) {
   return !(value->is_string() && value->as_string().empty()) &&
          !(value->is_array() && value->as_array().empty());
 }
-
-std::string shown(const Json& value) { return value.is_string() ? value.as_string() : value.dump(); }
 
 const Json* recorded(const Container& file, const std::string& name) {
   const Json* value = file.provenance().parameters.find(name);
@@ -58,6 +57,7 @@ class Site {
  public:
   Site(Options& options, bool allow_mismatch) : options_(options), allow_mismatch_(allow_mismatch) {
     for (std::string& name : options.names()) known_.insert(std::move(name));
+    for (std::string& name : names_of<DaylightOptions>()) by_rule_.insert(std::move(name));
   }
 
   /// The line that says what was taken; "" for nothing.
@@ -66,9 +66,8 @@ class Site {
     file_ = &file;
     take_daylight();
     take_environment();
-    require_files("luminaire");
-    require_files("spectrum");
-    for (const char* name : {"luminaires-as", "bands", "triplet"}) take_one(name);
+    for (const std::string& name : options_.names(Adopted::site))
+      if (!by_rule_.contains(name)) is_of_files(name) ? require_files(name) : take_one(name);
     take_portals();
     take_time();
     return taken_.empty() ? "" : text(taken_, ": as of ", file.path());
@@ -81,12 +80,7 @@ class Site {
   void take_one(const std::string& name) {
     const Json* value = was(name);
     if (!value || !known_.contains(name) || options_.given(name) || !settled_.insert(name).second) return;
-    if (value->is_array() || value->is_object() || value->is_bool()) damaged(name, "is of another kind");
-    try {
-      options_.adopt(name, *value);
-    } catch (const Error& e) {
-      damaged(name, e.what());
-    }
+    adopt_recorded(options_, name, *value, *file_);
     taken_ += text(taken_.empty() ? "" : ", ", name, " ", shown(*value));
   }
 
@@ -170,10 +164,12 @@ class Site {
     }
   }
 
+  bool is_of_files(const std::string& name) const { return options_.value(name).is_array(); }
+
   /// Of NAME=FILE only names are recorded.
   void require_files(const std::string& option) const {
     const Json* names = was(option);
-    if (!names || !names->is_array() || !known_.contains(option) || options_.given(option)) return;
+    if (!names || !names->is_array() || options_.given(option)) return;
     std::string words;
     for (const Json& name : names->as_array())
       if (name.is_string()) words += text(" --", option, " ", name.as_string(), "=FILE");
@@ -220,14 +216,13 @@ class Site {
   void refuse(const std::string& message) const {
     if (!allow_mismatch_) throw Error(ExitCode::mismatch, file_->path(), message);
   }
-  [[noreturn]] void damaged(const std::string& name, const std::string& why) const {
-    throw Error(ExitCode::bad_input, file_->path(), text("damaged metadata: --", name, ": ", why));
-  }
 
   Options& options_;
   bool allow_mismatch_;
   const Container* file_ = nullptr;
   std::set<std::string> known_, settled_;  // options of the program; those that a file has settled
+  /// Options that are taken together with others, or not always.
+  std::set<std::string> by_rule_{"environment-rotation", "environment-scale", "portals", "time", "frame"};
   bool daylight_settled_ = false, time_settled_ = false;
   std::string taken_;
 };

@@ -280,6 +280,38 @@ TEST(RequireSameScene, NamesWhatChanged) {
       << unknown.what();
 }
 
+/// A scene of which most nodes are others is no version of the file's.
+TEST(RequireSameScene, NamesAnotherScene) {
+  const auto scene = [](const char* hash, const std::vector<std::string>& nodes) {
+    Json parts;
+    parts["geometry"] = hash, parts["materials"] = hash, parts["lights"] = hash, parts["time"] = 0.0;
+    for (const std::string& name : nodes) parts["nodes"][name] = hash;
+    return parts;
+  };
+  Provenance p = sample_provenance();
+  p.scene_parts = scene("1", {"bed", "chair", "desk", "lamp", "wall"});
+  const std::string path = test::scratch("another-scene") + "/room.irradiance";
+  SampleColumns().writer().write(path, p);
+  const Container file = Container::open(path);
+  const auto said = [&](const Json& now) {
+    const Error e = error_of([&] { require_same_scene(file, "hall.glb", "other", now); });
+    EXPECT_EQ(e.code(), ExitCode::mismatch);
+    return std::string(e.what());
+  };
+  EXPECT_NE(said(scene("2", {"door", "wall"}))
+                .find(R"(made from another scene (with nodes "bed", "chair", "desk" and 1 more; )"
+                      R"(hall.glb has node "door"); rerun)"),
+            std::string::npos);
+  EXPECT_NE(said(scene("2", {"bed", "chair", "desk", "lamp", "wall"}))
+                .find("(geometry, materials and nodes are not those of hall.glb)"),
+            std::string::npos);
+  Json edited = p.scene_parts;
+  edited["geometry"] = "2", edited["materials"] = "2", edited["lights"] = "2", edited["nodes"]["lamp"] = "2";
+  EXPECT_NE(said(edited).find("hall.glb has changed since: node \"lamp\" moved"), std::string::npos);
+  Json many = scene("2", {});
+  EXPECT_NE(said(many).find("(geometry, materials and lights are not those of hall.glb)"), std::string::npos);
+}
+
 TEST(ContainerDeathTest, OurOwnMistakesAreCaught) {
   const std::vector<float> v(6, 0.f);
   ContainerWriter writer;

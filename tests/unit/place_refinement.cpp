@@ -142,6 +142,7 @@ TEST(Refinement, NoiseIsWhatPairsTell) {
   // A variance from 1000 pairs: its root within 1/sqrt(2000) of itself; light weighs unevenly.
   EXPECT_NEAR(noise.irradiance, static_cast<double>(kNoise), 0.15 * static_cast<double>(kNoise));
   EXPECT_NEAR(noise.gradient, static_cast<double>(kGradientNoise), 0.1 * static_cast<double>(kGradientNoise));
+  EXPECT_NEAR(noise.stated, 1, 0.15);
   EXPECT_EQ(noise_of({}, {}).irradiance, 0);
 }
 

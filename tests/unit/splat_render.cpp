@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "place/read_points.h"
 #include "splat/picture/render.h"
 #include "support/splat_scenes.h"
 

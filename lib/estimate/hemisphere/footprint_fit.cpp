@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "record/weight.h"
+
 namespace phos::inline estimate {
 namespace {
 
@@ -260,7 +262,7 @@ FittedFootprint fit_footprint(std::span<const Hemisphere> passes, const LightNea
     axis = {fit.length_m, fit.slope, fit.bend};
     const Vec3 around_which = glm::cross(frame.z, u.x * frame.x + u.y * frame.y);
     for (int c = 0; c < 3; ++c) axis.turn_slope[c] = glm::dot(around_which, rotation[c]);
-    constexpr float kSine = AdaptiveFootprint::kMostSine;
+    constexpr float kSine = kMostTurnSine;
     axis.turn_bend = 2 / (kSine * kSine) * nearby.bend_by_turn(u, kSine, lamps);
   }
   limit_slopes(length);

@@ -11,13 +11,14 @@ void declare_options(Options& options, LuminaireOptions& luminaires) {
       "gives a point or spot light of the scene, or one of EXT_lights_ies, the measured distribution and "
       "lumens of a luminaire: IES LM-63 (.ies) or EULUMDAT (.ldt); point lights then hang straight down, "
       "their C0 along the node's x axis, spots shine where they did; several may be given; give them to "
-      "every stage");
+      "every stage",
+      Adopted::site);
   options.choice(
       "luminaires-as", luminaires.as,
       {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
       "what of measured luminaires shines: the luminous opening that the file states (right near by, and "
       "seen in pictures), or a point",
-      Recorded::if_given);
+      {Recorded::if_given, Adopted::site});
 }
 
 std::vector<std::string> luminaire_files(const LuminaireOptions& options) {

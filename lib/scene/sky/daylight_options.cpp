@@ -67,9 +67,9 @@ const NumberOption kNumbers[] = {
 
 void declare_options(Options& options, DaylightOptions& daylight) {
   for (const TextOption& o : kTexts)
-    options.text(o.name, daylight.*o.value, o.unit, o.help, Recorded::if_given);
+    options.text(o.name, daylight.*o.value, o.unit, o.help, {Recorded::if_given, Adopted::site});
   for (const NumberOption& o : kNumbers)
-    options.number(o.name, daylight.*o.value, o.unit, o.help, o.range, Recorded::if_given);
+    options.number(o.name, daylight.*o.value, o.unit, o.help, o.range, {Recorded::if_given, Adopted::site});
 }
 
 std::vector<std::string> daylight_words(const DaylightOptions& options) {

@@ -15,16 +15,17 @@ void declare_options(Options& options, BandOptions& bands) {
       "of "
       "all stages; phos-bands joins the results. What has no spectrum gets a smooth one of its RGB colour "
       "under D65",
-      {0, Bands::kMost}, Recorded::if_given);
+      {0, Bands::kMost}, {Recorded::if_given, Adopted::site});
   options.integer("triplet", bands.triplet, "K",
                   "with --bands: bands 3 K - 2 to 3 K. Lux, lumens and cd/m2 are then those of the light in "
                   "these bands",
-                  {1, (Bands::kMost + 2) / 3}, Recorded::if_given);
+                  {1, (Bands::kMost + 2) / 3}, {Recorded::if_given, Adopted::site});
   options.named_files(
       "spectrum", bands.spectra,
       "with --bands: the reflectance of a material (0 to 1), or the relative power of a light, a luminaire, "
       "the environment or of what shines of a material or node, whose lumens stay; CSV with the columns "
-      "wavelength_nm,value; several may be given; give them to every stage");
+      "wavelength_nm,value; several may be given; give them to every stage",
+      Adopted::site);
 }
 
 std::vector<std::string> band_words(const BandOptions& options) {

@@ -24,12 +24,6 @@ bool same(const Frame& a, const Frame& b) {
   return near(a.x, b.x) && near(a.z, b.z);
 }
 
-double squares(const std::vector<float>& v) {
-  double sum = 0;
-  for (const float x : v) sum += static_cast<double>(x) * static_cast<double>(x);
-  return sum;
-}
-
 GlossSplat pack(const RadianceRecord& r) {
   GlossSplat s{};
   for (int i = 0; i < 3; ++i)
@@ -318,13 +312,6 @@ Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb&
                 float unit) {
   const double mean = static_cast<double>(luminance(light)) / static_cast<double>(weight * unit);
   return weight * blended_error(sums, weight, kept / weight, error / weight, mean);
-}
-
-float steepness_per_m(const RadianceRecord& r) {
-  const double light = squares(r.light), slope = squares(r.gradient_x) + squares(r.gradient_y);
-  // Without light of its own, any step would change it by more than that.
-  const auto steepness = static_cast<float>(light > 0 ? std::sqrt(slope / light) : 0.);
-  return std::isfinite(steepness) ? steepness : 0;
 }
 
 const GlossKernel& best_gloss_kernel() {

@@ -32,9 +32,6 @@ GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const R
 Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb& light, const Rgb& error,
                 float unit);
 
-/// Of a record: steps by more than 1/this are shortened to that; 0: it takes none.
-float steepness_per_m(const RadianceRecord& record);
-
 /// The same by lookups alone: what splatting gives; without leaks where the cache tests for them.
 GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,
                           const Camera& camera, const Vec2& subpixel);

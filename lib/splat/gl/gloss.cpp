@@ -44,8 +44,8 @@ GlProgram& GlRenderer::Impl::gloss_program(int order) {
   }
   GlProgram& program = gloss_programs[order];
   if (!program) {
-    const std::string fragment =
-        text("#version 450 core\n#define COUNT ", harmonic_count(order), "\n", shaders::gloss_fragment);
+    const std::string fragment = text("#version 450 core\n", shaders::record_weight, "#define COUNT ",
+                                      harmonic_count(order), "\n", shaders::gloss_fragment);
     program = GlProgram(gl, "gloss", shaders::gloss_vertex, fragment.c_str());
   }
   return program;

@@ -72,7 +72,7 @@ void main() {
 }
 )";
 
-const char* const splat_fragment = R"(#version 450 core
+const char* const splat_fragment = R"(
 flat in vec4 a, b, e, s, rb;
 flat in vec3 rr, rg, tr, tg, tb;
 uniform vec4 rule;                        // 1 / accuracy, least weight, limit of growth, 1 / unit of squares
@@ -85,17 +85,14 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 d = texelFetch(position_map, pixel, 0).xyz - a.xyz;
   vec3 n = texelFetch(normal_map, pixel, 0).xyz;
-  vec3 turned = n - b.xyz;
-  float eps = sqrt(dot(d, d)) * a.w + sqrt(dot(turned, turned)) * 0.70710678;
-  float w = 1.0 - eps * rule.x;
-  bool valid = w > rule.y && dot(n, b.xyz) > 0.0 && !(dot(d, n + b.xyz) * 0.5 < b.w) && !(dot(d, b.xyz) > rb.w);
-  w = valid ? w * e.w : 0.0;
-  vec3 value = e.rgb + vec3(dot(turned, rr), dot(turned, rg), dot(turned, rb.xyz)) + vec3(dot(d, tr), dot(d, tg), dot(d, tb));
-  // Not max and min: what is not a number becomes 0.
-  value = mix(vec3(0.0), value, greaterThan(value, vec3(0.0)));
-  value = mix(rule.z * e.rgb, value, lessThan(value, rule.z * e.rgb));
+  vec3 turn = n - b.xyz;
+  float left = weight_left(disc_error(d, turn, a.w), rule.x, rule.y);
+  float w = weight_if_lit(left, d, n, b.xyz, b.w, rb.w) * e.w;
+  vec3 value = vec3(carried_light(e.r, turn, rr, d, tr, rule.z * e.r),
+                    carried_light(e.g, turn, rg, d, tg, rule.z * e.g),
+                    carried_light(e.b, turn, rb.xyz, d, tb, rule.z * e.b));
   light = vec4(w * value, w);
-  error = vec4(w * s.rgb, valid ? 1.0 : 0.0);
+  error = vec4(w * s.rgb, w > 0.0 ? 1.0 : 0.0);
   float relative = dot(vec3(0.2126, 0.7152, 0.0722) * rule.w, value);
   spread = vec4(w * w, w * s.w, w * relative * relative, 0.0);
 }
@@ -139,15 +136,10 @@ void main() {
   if (lobe.x < rule.z || lobe.x >= rule.w) return;
   vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
   vec3 n = texelFetch(normal_map, pixel, 0).xyz;
-  vec3 turned = n - normal.xyz;
-  float eps = sqrt(dot(d, d)) * position.w + sqrt(dot(turned, turned)) * 0.70710678;
-  float w = 1.0 - eps * rule.x;
-  if (!(w > rule.y && dot(n, normal.xyz) > 0.0)) return;
-  if (dot(d, n + normal.xyz) * 0.5 < normal.w || dot(d, normal.xyz) > numbers[0].w) return;
-  w *= axis_y.w;
-  float change = axis_x.w * sqrt(dot(d, d));
-  float share = w * (change > 1.0 ? 1.0 / change : 1.0);
-  if (axis_x.w == 0.0) share = 0.0;
+  float left = weight_left(disc_error(d, n - normal.xyz, position.w), rule.x, rule.y);
+  float w = weight_if_lit(left, d, n, normal.xyz, normal.w, numbers[0].w) * axis_y.w;
+  if (!(w > 0.0)) return;
+  float share = axis_x.w > 0.0 ? w * step_share(d, axis_x.w) : 0.0;
   vec3 shares = vec3(w, share * dot(d, axis_x.xyz), share * dot(d, axis_y.xyz));
   int row = int(lobe.x);
   int order = int(max(texelFetch(table, ivec2(0, row), 0).w, texelFetch(table, ivec2(0, row + 1), 0).w));
@@ -267,4 +259,4 @@ void main() {
 }
 )";
 
-}  // namespace phos::splat::shaders
+}  // namespace phos::inline splat::shaders

@@ -11,16 +11,18 @@ extern const char* const scene_fragment;
 extern const char* const masked_fragment;
 /// One rectangle per instance, each with a record.
 extern const char* const splat_vertex;
-/// Weight and extrapolated irradiance of a record at a pixel.
+/// record/weight.inc, as it is. What follows it may call its functions.
+extern const char* const record_weight;
+/// Weight and extrapolated irradiance of a record at a pixel. To be put after #version and record_weight.
 extern const char* const splat_fragment;
 /// One rectangle per instance, all of one radiance record.
 extern const char* const gloss_vertex;
 /// Weight of a radiance record at a pixel, and what it sends through the pixel's lobe. To be put after
-/// #version, and a definition of COUNT, the number of coefficients.
+/// #version, record_weight, and a definition of COUNT, the number of coefficients.
 extern const char* const gloss_fragment;
 /// One triangle over the whole picture.
 extern const char* const picture_vertex;
 /// Illuminance of each pixel by one sample of a light, where its shadow map lets it through.
 extern const char* const shadow_fragment;
 
-}  // namespace phos::splat::shaders
+}  // namespace phos::inline splat::shaders

@@ -2,6 +2,7 @@
 // weigh something, added to the picture by 32-bit float blending.
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -47,7 +48,8 @@ constexpr Attribute kAttributes[] = {
 void GlRenderer::Impl::prepare_splat() {
   if (splat_program) return;
   const Gl& gl = context.gl();
-  splat_program = GlProgram(gl, "splat", shaders::splat_vertex, shaders::splat_fragment);
+  const std::string fragment = text("#version 450 core\n", shaders::record_weight, shaders::splat_fragment);
+  splat_program = GlProgram(gl, "splat", shaders::splat_vertex, fragment.c_str());
   splat_instances = make_buffer(gl);
   splat_array = make_vertex_array(gl);
   const GLuint array = splat_array.id();
