@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "file/container.h"
-#include "file/inspect.h"
+#include "file/inspect/inspect.h"
 #include "file/layout.h"
 #include "support/container.h"
 #include "support/run.h"

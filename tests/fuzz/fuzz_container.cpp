@@ -1,7 +1,7 @@
 // Any bytes: the container reader answers with its contents or with an Error of one line, and nothing else.
 #include "file/container.h"
 #include "file/hash.h"
-#include "file/inspect.h"
+#include "file/inspect/inspect.h"
 #include "reading.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Descriptions, CSV and PLY of a container.
-#include "file/inspect.h"
+#include "file/inspect/inspect.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "file/inspect.h"
+#include "file/inspect/inspect.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/origin.h"
-#include "file/inspect.h"
+#include "file/inspect/inspect.h"
 #include "file/limits.h"
 #include "file/kinds/shape_pattern.h"
 
