@@ -20,7 +20,7 @@ TEST(Sense, StatesNoErrorInsideOfSolids) {
         "f 9 12 11 10\nf 5 6 7 8\nf 5 9 10 6\nf 6 10 11 7\nf 7 11 12 8\nf 8 12 9 5\n"
         "usemtl lamp\nf 13 14 15 16\n");
   spill(points, "x,y,z,nx,ny,nz\n2,0.1,2,0,1,0\n0,0.5,0,0,1,0\n");
-  const Run r = run_tool({"sense", scene, "--exact", "--samples", "256", "--points", points});
+  const auto r = run_tool({"sense", scene, "--exact", "--samples", "256", "--points", points});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.err.find("1 sensors are inside of solids or behind walls (the first is number 1)"),
             std::string::npos)
