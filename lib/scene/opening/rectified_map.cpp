@@ -47,11 +47,6 @@ double cell_sr(int column, int row) {
       corner_sr(u[1], v[1]) - corner_sr(u[0], v[1]) - corner_sr(u[1], v[0]) + corner_sr(u[0], v[0]), 0.0);
 }
 
-double texel_sr(const Environment& light, int row) {
-  const double step = kHalfTurn / light.height();
-  return 2 * kHalfTurn / light.width() * (std::cos(row * step) - std::cos((row + 1) * step));
-}
-
 double luminous(const Rgb& c) { return static_cast<double>(luminance(c)); }
 
 /// The cell [k, k + 1] in which a function that does not fall, over cells lo to hi, reaches a value.
@@ -94,24 +89,6 @@ RectifiedMap::RectifiedMap(const Environment& light, const Axes& axes)
       cell_lx[row * kCells + static_cast<std::size_t>(i)] = cd_m2 * cell_sr(i, j);
     }
   });
-  // Bright texels may be smaller than cells: each puts what it has above the rest into its own.
-  for (int row = 0; row < light.height() && light.has_spots(); ++row) {
-    for (int column = 0; column < light.width(); ++column) {
-      const std::size_t texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(light.width()) +
-                                static_cast<std::size_t>(column);
-      const double above = luminous(light.texels()[texel]) - spot_cd_m2;
-      if (!(above > 0)) continue;
-      const DVec3 direction(light.middle(column, row));
-      const double y = glm::dot(direction, axes_.y);
-      if (!(y > kLeastCosine)) continue;
-      const int i = std::min(static_cast<int>(cells_of(std::atan2(glm::dot(direction, axes_.x), y))),
-                             kCells - 1),
-                j = std::min(static_cast<int>(cells_of(std::atan2(glm::dot(direction, axes_.z), y))),
-                             kCells - 1);
-      cell_lx[static_cast<std::size_t>(j) * kCells + static_cast<std::size_t>(i)] +=
-          above * texel_sr(light, row);
-    }
-  }
   for (int j = 0; j < kCells; ++j) {
     double along = 0;
     for (int i = 0; i < kCells; ++i) {
