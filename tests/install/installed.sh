@@ -48,7 +48,7 @@ for program in "$prefix"/bin/*; do
   source "$prefix/share/bash-completion/completions/$name" || wrong "$name has no completion"
   complete_words "$name" --
   told=$("$program" --options-json | jq -r '.options[] | select(.kind != "input" and .kind != "inputs") | "--" + .name')
-  diff <(printf '%s\n' "${COMPREPLY[@]}" | sort -u) <(printf '%s\n' "$told" --help --version --man --options-json | sort -u) >&2 ||
+  diff <(printf '%s\n' "${COMPREPLY[@]}" | sort -u) <(printf '%s\n' "$told" --help --version --man --options-json | grep . | sort -u) >&2 ||
     wrong "$name: completion (<) and options (>) differ"
   number=$((number + 1))
 done

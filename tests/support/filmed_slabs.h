@@ -35,11 +35,20 @@ inline Json waxed() {
   return m;
 }
 
+/// A diffuse half.
+inline Json grey() {
+  Json m;
+  m["name"] = "grey";
+  m["extras"]["phos"]["brdf"] = "lambert";
+  m["extras"]["phos"]["kd"] = Json::Array{0.5, 0.5, 0.5};
+  return m;
+}
+
 /// Two grey slabs that face each other, a lamp between them, and a camera that sees both.
 struct Slabs : Animated {
   Slabs() {
-    slab("floor", 4, 0, 0, 0);
-    slab("ceiling", 4, 0, 2, 0);
+    slab("floor", 4, 0, 0, 0, grey());
+    slab("ceiling", 4, 0, 2, 0, grey());
     lamp_node = lamp("lamp", "point", 100, 0, 1, 0);
     eye = camera("eye");
     animate(eye, "translation", {0, 16}, {0, 1, 3, 0, 1, 3});

@@ -44,7 +44,7 @@ TEST(FileKinds, HaveNamesAndRowsOfTheirOwn) {
         EXPECT_EQ(row.meaning.find('|'), std::string::npos) << row.name;
         EXPECT_EQ(row.check.words.empty(), row.check.rule == NumberCheck::Rule::any) << row.name;
         EXPECT_TRUE(std::regex_match(
-            std::string(row.shape), std::regex(R"(([0-9]+|rgb|xyz|(K\.)?[A-Za-z_]+(\+1|\^2)?)(,(?!$)|$))+)")))
+            std::string(row.shape), std::regex(R"((([0-9]+|rgb|xyz|(K\.)?[A-Za-z_]+(\+1|\^2)?)(,(?!$)|$))+)")))
             << row.name << ' ' << row.shape;
       }
     }

@@ -30,7 +30,7 @@ double window_sr() {
 /// A sky that is three times as bright in the zenith as at the horizon (CIE overcast), dark below.
 Environment overcast() {
   return map_of(256, [](int, int row) {
-    const double sine = std::cos((row + 0.5) / 128 * std::numbers::pi);
+    const double sine = std::cos((row + 0.5) / 256 * std::numbers::pi);
     return Rgb(sine > 0 ? static_cast<float>(1000 * (1 + 2 * sine)) : 0.f);
   });
 }

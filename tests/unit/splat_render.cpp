@@ -171,7 +171,7 @@ TEST(Render, IlluminanceGoesOnOverABlackHalf) {
     sum[0] += static_cast<double>(lux[black]), sum[1] += static_cast<double>(lux[grey]);
     ++pairs;
   }
-  EXPECT_GT(pairs, 10);
+  EXPECT_GT(pairs, 5);
   EXPECT_NEAR(sum[0] / sum[1], 1, 0.05);
 }
 

@@ -118,7 +118,10 @@ const std::map<std::string, SoundFile>& sound_files() {
   return all;
 }
 
-std::string path_of(const std::string& name) { return test::scratch("damage") + "/" + name; }
+std::string path_of(const std::string& name) {
+  static const std::string folder = test::scratch("damage");
+  return folder + "/" + name;
+}
 
 Container written(const std::string& name) {
   sound_files().at(name).write(path_of(name), test::irradiance_provenance());

@@ -30,6 +30,11 @@ PortalLight::PortalLight(const Environment& light, std::span<const Portal> porta
                          std::shared_ptr<const PortalSight> sight, std::span<const Blind> blinds)
     : light_(&light), sight_(std::move(sight)), blind_(blinds.begin(), blinds.end()) {
   for (const Portal& p : portals) piece_.emplace_back(p), add_maps(piece_.back());
+  for (const Blind& blind : blind_) {
+    const Frame& frame = blind.slats().frame;
+    const DVec3 x(frame.x), y(frame.y), z(frame.z);
+    blind_sides_.push_back({map_of({x, z, y}), map_of({x, -z, y})});
+  }
   least_cd_m2_ = kLeastLuminance * static_cast<float>(light.map_lx()) / (4 * kPi);
   stray_ = light.has_spots() ? kStrayOfSpots : kStray;
 }
@@ -59,13 +64,26 @@ PortalLight::SeenMap PortalLight::seen_map(std::size_t piece, const Vec3& from) 
   const Portal& portal = piece_[piece].portal;
   const DVec3 to_corner = DVec3(portal.corner) - DVec3(from);
   const bool along = glm::dot(to_corner, DVec3(piece_[piece].normal)) > 0;
-  SeenMap seen;
-  seen.map = along ? sides_[piece].along : sides_[piece].against;
-  if (!seen.map) return seen;
-  seen.box = seen.map->box(to_corner, to_corner + DVec3(portal.edge[0]) + DVec3(portal.edge[1]));
-  seen.light_lx = seen.map->light_lx(seen.box);
-  if (!(seen.light_lx > 0)) seen.map = nullptr;
-  return seen;
+  const RectifiedMap* map = along ? sides_[piece].along : sides_[piece].against;
+  if (!map) return {};
+  return seen_map(map, map->box(to_corner, to_corner + DVec3(portal.edge[0]) + DVec3(portal.edge[1])));
+}
+
+/// A gap is a box of directions, by its slopes.
+PortalLight::SeenMap PortalLight::seen_map(std::size_t blind, const Blind::Gap& gap) const {
+  const RectifiedMap* map = gap.towards_z ? blind_sides_[blind].along : blind_sides_[blind].against;
+  if (!map) return {};
+  // The map's axes may be those of another rectangle of this orientation: turned by quarters.
+  const Frame& frame = blind_[blind].slats().frame;
+  const DVec3 across = DVec3(gap.towards_z ? frame.z : -frame.z);
+  return seen_map(map, map->box(across + gap.u[0] * DVec3(frame.x) + gap.v[0] * DVec3(frame.y),
+                                across + gap.u[1] * DVec3(frame.x) + gap.v[1] * DVec3(frame.y)));
+}
+
+PortalLight::SeenMap PortalLight::seen_map(const RectifiedMap* map, const RectifiedMap::Box& box) {
+  const double light_lx = map->light_lx(box);
+  if (!(light_lx > 0)) return {};
+  return {map, box, light_lx};
 }
 
 float PortalLight::promise_lx(const PortalPiece& piece, const Vec3& from) const {
@@ -78,6 +96,7 @@ float PortalLight::promise_lx(const PortalPiece& piece, const Vec3& from) const 
 }
 
 float PortalLight::promise_lx(const SeenGap& seen) const {
+  if (seen.seen.map) return static_cast<float>(seen.seen.light_lx);
   const Vec3 middle = seen.blind->sample(seen.gap, Vec2(0.5f));
   const float cd_m2 = std::max(luminance(light_->map_luminance(middle)), least_cd_m2_);
   return cd_m2 * static_cast<float>(seen.gap.solid_angle_sr());
@@ -116,10 +135,10 @@ PortalLight::Chances PortalLight::chances(const Vec3& from) const {
   static thread_local std::vector<SeenMap> map;
   static thread_local std::vector<Blind::Gap> seen_gap;
   promise.assign(piece_.size(), 0), map.resize(piece_.size()), gap.clear();
-  for (const Blind& blind : blind_) {
+  for (std::size_t b = 0; b < blind_.size(); ++b) {
     seen_gap.clear();
-    blind.gaps_from(from, seen_gap);
-    for (const Blind::Gap& g : seen_gap) gap.push_back({&blind, g});
+    blind_[b].gaps_from(from, seen_gap);
+    for (const Blind::Gap& g : seen_gap) gap.push_back({&blind_[b], g, seen_map(b, g)});
   }
   const std::span<const float> seen = sight_ ? sight_->from(from) : std::span<const float>();
   Chances c;
@@ -161,6 +180,14 @@ std::size_t PortalLight::choose(const Chances& c, float u, float& rest) {
   return last;
 }
 
+/// Of one gap, per sr.
+double PortalLight::density(const SeenGap& seen, const Vec3& direction, bool certain) {
+  if (!seen.seen.map) return seen.blind->density(seen.gap, direction, certain);
+  return certain || seen.seen.map->holds(seen.seen.box, direction)
+             ? seen.seen.map->density(seen.seen.light_lx, direction)
+             : 0;
+}
+
 /// Of one piece, per sr.
 double PortalLight::density(std::size_t k, const Vec3& from, const Vec3& direction, const Chances& c,
                             bool certain) const {
@@ -186,11 +213,9 @@ float PortalLight::density(const Vec3& from, const Vec3& direction, const Chance
     if (c.promise[k] > 0)
       aimed += static_cast<double>(c.promise[k]) * this->density(k, from, direction, c, k == certain);
   for (std::size_t k = 0; k < c.gap.size(); ++k) {
-    const SeenGap& seen = c.gap[k];
     const std::size_t number = piece_.size() + k;
     if (c.promise[number] > 0)
-      aimed += static_cast<double>(c.promise[number]) *
-               seen.blind->density(seen.gap, direction, number == certain);
+      aimed += static_cast<double>(c.promise[number]) * this->density(c.gap[k], direction, number == certain);
   }
   return static_cast<float>(density + (1 - stray) * rest * aimed / static_cast<double>(c.sum));
 }
@@ -219,7 +244,9 @@ Environment::Sample PortalLight::sample(const Vec3& from, const Vec2& u) const {
   const std::size_t chosen = choose(c, y, rest);
   if (chosen >= piece_.size()) {
     const SeenGap& seen = c.gap[chosen - piece_.size()];
-    return sample_of(from, seen.blind->sample(seen.gap, {u.x, rest}), c, chosen);
+    const Vec3 direction = seen.seen.map ? seen.seen.map->sample(seen.seen.box, {u.x, rest})
+                                         : seen.blind->sample(seen.gap, {u.x, rest});
+    return sample_of(from, direction, c, chosen);
   }
   if (const SeenMap& seen = c.map[chosen]; seen.map)
     return sample_of(from, seen.map->sample(seen.box, {u.x, rest}), c, chosen);
