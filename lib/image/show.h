@@ -9,8 +9,9 @@
 
 namespace phos::inline image {
 
-/// Returns the picture, with its lines of equal value, or writes it where `output` ends in .hdr, or its numbers where it ends in .csv. Warns
-/// of pixels of pictures that are not finite, and of lines without a label; `input` is their file.
+/// Returns the picture, with its lines of equal value, or writes it where `output` ends in .hdr, or its
+/// numbers where it ends in .csv. Warns of pixels of pictures that are not finite, and of lines without a
+/// label; `input` is their file.
 std::optional<Picture> show_image(Tool& tool, const Image& image, const std::string& input,
                                   const std::string& output, const LayerPictureOptions& options);
 

@@ -101,8 +101,8 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
 }
 
 PlacementReport extend_cache(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
-                      const RecordOptions& records, const PlacementOptions& placement,
-                      const PlacementSource& source, Counters& counters) {
+                             const RecordOptions& records, const PlacementOptions& placement,
+                             const PlacementSource& source, Counters& counters) {
   const auto by = [&](Candidates candidates) {
     if (source.wanted && placement.place != Place::view)
       candidates = on_materials(rays, source.wanted, std::move(candidates));

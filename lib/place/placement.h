@@ -77,8 +77,8 @@ struct PlacementReport {
 /// Adds records to `cache` (whose own stay as they are, first and unchanged) as the resolved options say; all
 /// but options.part, which is make_part()'s. Same records for any number of threads.
 PlacementReport extend_cache(IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
-                      const RecordOptions& records, const PlacementOptions& placement,
-                      const PlacementSource& source, Counters& counters);
+                             const RecordOptions& records, const PlacementOptions& placement,
+                             const PlacementSource& source, Counters& counters);
 
 /// Adds records until they cover the candidates. They are made in parallel in batches of a size that depends
 /// on nothing but the batches before, and accepted one after another where nothing covers them yet.

@@ -31,7 +31,8 @@ std::vector<SurfaceSample> lit_places(const PhotonMap& photons);
 /// Of what the records of a run are for: of what the camera sees with Place::view; else of where photons
 /// landed, if there are any, or of the points given, or of where light lands on a few thousand paths, and
 /// beside it of what the scene's first camera sees, if it has one: photons may crowd in a lamp shade, and a
-/// camera may look at a house from far. `source` is as of extend_cache(), the options as resolve() leaves them.
+/// camera may look at a house from far. `source` is as of extend_cache(), the options as resolve() leaves
+/// them.
 TypicalDistance typical_distance(const RayScene& rays, const PlacementOptions& placement,
                                  const PlacementSource& source);
 

@@ -43,8 +43,9 @@ TEST(FileKinds, HaveNamesAndRowsOfTheirOwn) {
         EXPECT_FALSE(row.meaning.empty()) << row.name;
         EXPECT_EQ(row.meaning.find('|'), std::string::npos) << row.name;
         EXPECT_EQ(row.check.words.empty(), row.check.rule == NumberCheck::Rule::any) << row.name;
-        EXPECT_TRUE(std::regex_match(
-            std::string(row.shape), std::regex(R"((([0-9]+|rgb|xyz|(K\.)?[A-Za-z_]+(\+1|\^2)?)(,(?!$)|$))+)")))
+        EXPECT_TRUE(
+            std::regex_match(std::string(row.shape),
+                             std::regex(R"((([0-9]+|rgb|xyz|(K\.)?[A-Za-z_]+(\+1|\^2)?)(,(?!$)|$))+)")))
             << row.name << ' ' << row.shape;
       }
     }

@@ -9,8 +9,8 @@
 #include "core/interrupt.h"
 #include "core/origin.h"
 #include "file/inspect/inspect.h"
-#include "file/limits.h"
 #include "file/kinds/shape_pattern.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 
