@@ -15,7 +15,7 @@ namespace phos {
 class Counters {
  public:
   void count(const Event& event, std::uint64_t times = 1) { counts_[std::string(event.name)] += times; }
-  /// What a file says that was counted; another version of the program may have other events.
+  /// A count that stands in a file; another version of the program may have other events.
   void add(const std::string& event, std::uint64_t times = 1) { counts_[event] += times; }
   void merge(const Counters& other) {
     for (const auto& [event, n] : other.counts_) counts_[event] += n;

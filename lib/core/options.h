@@ -30,7 +30,7 @@ enum class Adopted {
   site,      ///< what the scene stands under: from each cache that is read (adopt_site())
 };
 
-/// What files hold of an option, and give back.
+/// How files record an option, and whether they give it back.
 struct InFiles {
   InFiles(Recorded r = Recorded::yes, Adopted a = Adopted::no) : recorded(r), adopted(a) {}
   InFiles(Adopted a) : InFiles(Recorded::yes, a) {}

@@ -28,7 +28,7 @@ PlaceLight light_of(std::span<const Hemisphere> passes, const RecordOptions& res
 /// Adds the light of lamp samples at a place of unit normal n; `samples` of each area light were taken.
 /// Gradients are the samples' own (docs/methods.md#b4: an area light moves as a surface does, a point light
 /// by 3 w / d, a directional one not at all): blind to shadow edges. The harmonic distances become
-/// those of all light, each part by its luminance.
+/// the distances of all light, each part by its luminance.
 void add_lamps(std::span<const LampSample> lamps, int samples, const Luminaires& lights, const Vec3& n,
                const RecordOptions& resolved, PlaceLight& light);
 

@@ -138,7 +138,7 @@ void declare_gather_options(Options& options, RecordOptions& r) {
                   Adopted::estimate);
   options.choice<RadiusRule>(
       "radius", r.radius, kRadii,
-      "radius from the harmonic mean distance of surroundings, from the less of it and of the "
+      "radius from the harmonic mean distance of surroundings, from the shorter of this and the "
       "harmonic mean distance that the light comes from, or from the least distance",
       Adopted::estimate);
 }

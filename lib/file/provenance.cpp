@@ -125,7 +125,7 @@ std::string another_scene(const Json& then, const Json& now, const std::string& 
   if (!differ(then, now, "geometry") || !differ(then, now, "materials")) return "";
   const Json::Object *nodes_then = nodes_of(then), *nodes_now = nodes_of(now);
   if (!nodes_then || !nodes_now)
-    return differ(then, now, "lights") ? text("geometry, materials and lights are not those of ", now_path)
+    return differ(then, now, "lights") ? text("geometry, materials and lights differ from ", now_path)
                                        : "";
   const auto stayed =
       static_cast<std::size_t>(std::count_if(nodes_then->begin(), nodes_then->end(), [&](const auto& node) {
@@ -134,7 +134,7 @@ std::string another_scene(const Json& then, const Json& now, const std::string& 
       }));
   if (2 * stayed >= std::min(nodes_then->size(), nodes_now->size())) return "";
   const std::string had = nodes_beside(*nodes_then, *nodes_now), has = nodes_beside(*nodes_now, *nodes_then);
-  if (had.empty() && has.empty()) return text("geometry, materials and nodes are not those of ", now_path);
+  if (had.empty() && has.empty()) return text("geometry, materials and nodes differ from ", now_path);
   return text(had.empty() ? "" : "with " + had, had.empty() || has.empty() ? "" : "; ",
               has.empty() ? "" : text(now_path, " has ", has));
 }

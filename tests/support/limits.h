@@ -1,4 +1,4 @@
-// tests/extremes/LIMITS.md: for each quantity the range in which it is right, written by the tests that found
+// docs/reference/measured-limits.md: for each quantity the range in which it is right, written by the tests that found
 // it. A test program takes --update, which writes its lines anew.
 #pragma once
 
@@ -24,7 +24,7 @@ struct Limit {
   bool noisy = false;           ///< what is stated comes on top of the standard error of the estimate
 };
 
-inline std::string limits_path() { return std::string(PHOS_SOURCE) + "/tests/extremes/LIMITS.md"; }
+inline std::string limits_path() { return std::string(PHOS_SOURCE) + "/docs/reference/measured-limits.md"; }
 
 /// Half as much again, then up to the next of 1, 2, 5 times a power of ten: the same on other machines.
 inline double stated_error(double measured) {
@@ -113,12 +113,12 @@ inline void expect_limit(const Limit& limit) {
     const bool same = page[2] == own[2] && page[3] == own[3] && page[5] == own[5] &&
                       error.starts_with("noise") == limit.noisy && limit.error <= stated &&
                       stated <= 20 * limit.error;
-    EXPECT_TRUE(same) << "LIMITS.md says\n"
+    EXPECT_TRUE(same) << "measured-limits.md says\n"
                       << line << "\nand this run found\n"
                       << line_of(limit) << "\n(run with --update if that is meant)";
     return;
   }
-  ADD_FAILURE() << "LIMITS.md has no line for " << limit.quantity << " along " << limit.along
+  ADD_FAILURE() << "measured-limits.md has no line for " << limit.quantity << " along " << limit.along
                 << ": run this program with --update";
 }
 

@@ -303,13 +303,13 @@ TEST(RequireSameScene, NamesAnotherScene) {
                       R"(hall.glb has node "door"); rerun)"),
             std::string::npos);
   EXPECT_NE(said(scene("2", {"bed", "chair", "desk", "lamp", "wall"}))
-                .find("(geometry, materials and nodes are not those of hall.glb)"),
+                .find("(geometry, materials and nodes differ from hall.glb)"),
             std::string::npos);
   Json edited = p.scene_parts;
   edited["geometry"] = "2", edited["materials"] = "2", edited["lights"] = "2", edited["nodes"]["lamp"] = "2";
   EXPECT_NE(said(edited).find("hall.glb has changed since: node \"lamp\" moved"), std::string::npos);
   Json many = scene("2", {});
-  EXPECT_NE(said(many).find("(geometry, materials and lights are not those of hall.glb)"), std::string::npos);
+  EXPECT_NE(said(many).find("(geometry, materials and lights differ from hall.glb)"), std::string::npos);
 }
 
 TEST(ContainerDeathTest, OurOwnMistakesAreCaught) {

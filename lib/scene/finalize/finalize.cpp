@@ -146,7 +146,7 @@ Bounds bounds_of(const Scene& scene, bool with_area) {
   return bounds;
 }
 
-/// Between these, estimates hold (tests/extremes/LIMITS.md); beyond, squares of slopes and of distances begin
+/// Between these, estimates hold (docs/reference/measured-limits.md); beyond, squares of slopes and of distances begin
 /// to be lost. What has no size at this time is not looked at.
 void require_size(const Scene& scene) {
   constexpr float kLeast_m = 1e-9f, kMost_m = 1e10f;

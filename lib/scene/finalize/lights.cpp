@@ -63,7 +63,7 @@ void fill_openings(Scene& scene) {
   }
 }
 
-/// From here on estimates hold (tests/extremes/LIMITS.md): what paths share is lumens, lux is lumens over
+/// From here on estimates hold (docs/reference/measured-limits.md): what paths share is lumens, lux is lumens over
 /// squares of lengths, and its slopes over cubes. Below, floats begin to lose some of it.
 void require_power(Scene& scene) {
   constexpr double kLeast_lm = 1e-24, kLeastSlope = 1e-33;  // lm, lm/m3

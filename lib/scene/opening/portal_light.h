@@ -8,17 +8,16 @@
 #include "scene/opening/blind.h"
 #include "scene/opening/portal_piece.h"
 #include "scene/opening/portal_sight.h"
-#include "scene/opening/rectified_map.h"
 #include "scene/sky/environment.h"
 
 namespace phos::inline scene {
 
-/// Directions for a point that sees little of the environment: through a portal, by the map's luminance where
-/// the portal is a rectangle (RectifiedMap), else uniform over its solid angle; or through a gap of a blind,
-/// in the same way; chosen by the light that comes through it to that place (through portals behind blinds a
-/// tenth as often as through their gaps); towards the sun, where a portal lies before it; and one in ten (one
-/// in two of a map with bright spots) as Environment::sample() has them, so that no light is lost that comes
-/// by another way. One density of all of them: unbiased whatever the portals. Const, usable from any thread.
+/// Directions for a point that sees little of the environment: uniform over the solid angle of a portal, or
+/// of a gap of a blind, chosen by about the light that comes through it to that place (through portals behind
+/// blinds a tenth as often as through their gaps); towards the sun, where a portal lies before it; and one in
+/// ten (one in two of a map with bright spots) as Environment::sample() has them, so that no light is lost
+/// that comes by another way. One density of all of them: unbiased whatever the portals. Const, usable from
+/// any thread.
 class PortalLight {
  public:
   /// The environment must outlive it.
@@ -36,39 +35,23 @@ class PortalLight {
   float promise_lx(const Vec3& from) const;
 
  private:
-  // The map as a piece shows it to a place.
-  struct SeenMap {
-    const RectifiedMap* map = nullptr;  // null: the piece is no rectangle, or shows nothing
-    RectifiedMap::Box box;
-    double light_lx = 0;
-  };
   struct SeenGap {
     const Blind* blind = nullptr;
     Blind::Gap gap;
-    SeenMap seen;
   };
   struct Chances {
     float sun = 0, stray = 1;
     float sum = 0;  // of the promises, lx
     // Of each piece, then of each gap that is seen; good until the thread asks again.
     std::span<const float> promise;
-    std::span<const SeenMap> map;  // of each piece
     std::span<const SeenGap> gap;
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
   Chances chances(const Vec3& from) const;
-  void add_maps(const PortalPiece& piece);
-  const RectifiedMap* map_of(const RectifiedMap::Axes& axes);
-  SeenMap seen_map(std::size_t piece, const Vec3& from) const;
-  SeenMap seen_map(std::size_t blind, const Blind::Gap& gap) const;
-  static SeenMap seen_map(const RectifiedMap* map, const RectifiedMap::Box& box);
-  double density(std::size_t piece, const Vec3& from, const Vec3& direction, const Chances& c,
-                 bool certain) const;
   float promise_lx(const PortalPiece& piece, const Vec3& from) const;
   float promise_lx(const SeenGap& seen) const;
   void prefer_gaps(const Vec3& from, std::vector<float>& promise) const;
   float share_behind_blinds(const PortalPiece& piece, const Vec3& from) const;
-  static double density(const SeenGap& seen, const Vec3& direction, bool certain);
   static std::size_t choose(const Chances& c, float u, float& rest);
   /// `certain`: of the promises; the direction goes through that one, whatever its rounding says.
   Environment::Sample sample_of(const Vec3& from, const Vec3& direction, const Chances& c,
@@ -78,14 +61,9 @@ class PortalLight {
   const Environment* light_;
   std::shared_ptr<const PortalSight> sight_;
   std::vector<PortalPiece> piece_;
-  std::vector<std::unique_ptr<const RectifiedMap>> map_;  // one an orientation of rectangles
-  struct Sides {
-    const RectifiedMap *along = nullptr, *against = nullptr;  // seen along the piece's normal, and against it
-  };
-  std::vector<Sides> sides_, blind_sides_;  // of each piece; of each blind, by the z of its frame
   std::vector<Blind> blind_;
   float least_cd_m2_ = 0;  // a piece is not taken for darker
   float stray_ = 0;
 };
 
-}  // namespace phos::inline scene
+}  // namespace phos::scene

@@ -56,7 +56,7 @@ void parse_own(int argc, const char* const* argv) {
   for (const Program& program : all_programs()) names += text(names.empty() ? "" : ", ", short_name(program));
   Options options(kName, kSummary,
                   text("phos PROGRAM is phos-PROGRAM: it is looked for beside phos, then on PATH, gets all "
-                       "arguments, and its exit code is that of phos. Programs: ",
+                       "arguments, and phos ends with its exit code. Programs: ",
                        names,
                        ". phos help lists them with what they read and make, and explains one, or a topic. "
                        "phos doctor says what this machine has of what phos needs."));

@@ -52,7 +52,7 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   };
   if (estimate == Estimate::raster) {
     if (of_radiance)
-      refuse("--estimate", "raster makes irradiance records alone; give --kind radiance gather or hull");
+      refuse("--estimate", "raster makes irradiance records alone; leave --kind radiance out, or give --estimate gather or hull");
     if (look_ahead == LookAhead::reproject) {
       if (given.given("look-ahead"))
         refuse(
