@@ -63,9 +63,9 @@ inline std::vector<std::string> cells_of(const std::string& line) {
 }
 
 inline const char* limits_head() {
-  return "# Limits\n\n"
+  return "# Measured limits\n\n"
          "For each quantity the range in which results are right, how right, and what happens outside. The\n"
-         "tests in this folder sweep until something gives, and write these lines (`--update`); on every "
+         "tests of `tests/extremes` sweep until something gives, and write these lines (`--update`); on every "
          "run\n"
          "each compares its own lines with what it finds. Sizes, powers and offsets are swept one at a time\n"
          "about a room of 2 x 1 x 1.5 m and lamps of some lumens, by powers of two; both ends of the "
