@@ -6,8 +6,10 @@
 //   2. measured once: a measurement is stated here, but no script repeats it;
 //   3. rules of thumb: chosen, and kept because plans that use them met their errors
 //   (docs/benchmarks.md#plans).
-// A line of part 1 is changed by hand, or by the copy of this file that the script writes. Most values are
-// round: they lie in the spread of several scenes, and another scene has another value.
+// Values of part 1 are older than the script, which measures most of them in a simpler way; no full run of it
+// has been made for them. A line of part 1 is changed by hand, or by the copy of this file that the script
+// writes. Most values are round: they lie in the spread of several scenes, and another scene has another
+// value.
 //
 // Not here: powers that follow from mathematics (noise of n independent rays as n^-1, of even ones under an
 // edge as n^-1.5 and n^-2, lone edges as N^-0.5 of N pixels), the settings of the pilot's runs
