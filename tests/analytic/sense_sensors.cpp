@@ -53,7 +53,7 @@ TEST(SensorsAnalytic, AFurnaceThroughItsCache) {
         even_cache("furnace", s.scene, s.checks, static_cast<float>(indirect), 3, Quantity::indirect);
     const Read read = read_sensors_of(s.scene, sensors_at(s.checks), {file}, {});
     EXPECT_EQ(read.report.uncovered, 0u);
-    EXPECT_EQ(read.report.inside, 0u);
+    EXPECT_EQ(read.report.inside.size(), 0u);
     for (const Reading& r : read.readings) {
       EXPECT_NEAR(double(r.indirect_lx), indirect, 1e-4 * indirect);
       EXPECT_LT(std::fabs(double(r.direct_lx) - direct), 4 * double(r.stderr_lx));

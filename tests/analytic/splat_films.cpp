@@ -83,7 +83,7 @@ Film film_of_floor(const std::string& scene, Estimate estimate, const FilmOption
   records.resolve(1.f);
   Counters counters;
   const FilmChains made = make_chains(job, scenes, nullptr, counters);
-  return film_of(made.chains, info_of(job), name_of(records.paths));
+  return film_of(made.chains, info_of(job), records.paths);
 }
 
 /// Mean, over the records of a frame, of what they hold over what is true.

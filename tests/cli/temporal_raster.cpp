@@ -29,7 +29,7 @@ TEST(TemporalRaster, SameBytesOnAnyNumberOfThreads) {
       if (bytes.empty()) bytes = slurp(out);
       EXPECT_EQ(slurp(out), bytes) << lives;
     }
-    const Container file = Container::open(folder + "/" + lives + std::string("1"), "irradiance");
+    const Container file = Container::open(folder + "/" + lives + std::string("1"), FileKind::irradiance);
     const Json parameters = file.provenance().parameters;
     EXPECT_EQ(parameters.find("estimate")->as_string(), "raster");
     EXPECT_EQ(parameters.find("raster-side")->as_integer(), 32);
@@ -42,7 +42,7 @@ TEST(TemporalRaster, OtherFilmsSayNothingOfIt) {
   const std::string film = scratch("raster-none") + "/f.irradiance";
   const test::Run run = temporal(quick({data("cube-in-a-box.glb"), "--frames", "30:31", "-o", film}));
   ASSERT_EQ(run.code, 0) << run.err;
-  const Json parameters = Container::open(film, "irradiance").provenance().parameters;
+  const Json parameters = Container::open(film, FileKind::irradiance).provenance().parameters;
   EXPECT_EQ(parameters.find("raster-side"), nullptr);
   EXPECT_EQ(parameters.find("raster-border"), nullptr);
   EXPECT_EQ(parameters.find("look-ahead")->as_string(), "reproject");
@@ -52,7 +52,7 @@ TEST(TemporalRaster, StaticSceneGetsAnOrdinaryCache) {
   const std::string folder = scratch("raster-still"), out = folder + "/o.irradiance";
   const test::Run run = temporal(drawn({data("cornell-empty.glb"), "--frames", "0:3", "-o", out}));
   ASSERT_EQ(run.code, 0) << run.err;
-  const Container file = Container::open(out, "irradiance");
+  const Container file = Container::open(out, FileKind::irradiance);
   EXPECT_FALSE(file.has("birth"));
   EXPECT_GT(file.vectors("position").size(), 0u);
 }

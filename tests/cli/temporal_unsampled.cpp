@@ -45,7 +45,7 @@ TEST(TemporalUnsampled, FilmsPassItOn) {
     const test::Run made = temporal(asked);
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_NE(made.err.find(kTold), std::string::npos) << made.err;
-    EXPECT_TRUE(Container::open(film, "irradiance").has("birth"));
+    EXPECT_TRUE(Container::open(film, FileKind::irradiance).has("birth"));
     EXPECT_NE(Container::open(film).provenance().extra.find("unsampled"), nullptr);
     const test::Run read = sense(scene, film);
     ASSERT_EQ(read.code, 0) << read.err;

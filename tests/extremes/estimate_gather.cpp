@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "estimate/events.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 #include "place/two_level.h"
 #include "support/gathered.h"

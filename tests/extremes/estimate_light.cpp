@@ -4,6 +4,7 @@
 #include "core/random.h"
 #include "direct/direct_light.h"
 #include "estimate/gather.h"
+#include "photon/events.h"
 #include "support/gathered.h"
 #include "support/limits.h"
 #include "support/records.h"

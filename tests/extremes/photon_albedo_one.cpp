@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "photon/events.h"
 #include "photon/trace.h"
 #include "scene/report/lint.h"
 #include "support/scenes.h"

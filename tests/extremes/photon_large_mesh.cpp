@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "photon/events.h"
 #include "photon/trace.h"
 #include "support/scenes.h"
 

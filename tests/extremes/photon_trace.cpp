@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "photon/events.h"
 #include "photon/trace.h"
 #include "support/scenes.h"
 

@@ -219,7 +219,7 @@ class CalibratedScene {
                          std::uint64_t seed) const {
     IrradianceCache cache;
     cache.accuracy = options.accuracy;
-    cache.quantity = options.paths == Quantity::all ? "all" : "indirect";
+    cache.quantity = options.paths;
     Counters counters;
     place_records(cache, estimator, *lit.rays, options, {},
                   photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);

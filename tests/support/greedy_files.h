@@ -115,7 +115,7 @@ inline std::string exr(std::int32_t side, const std::string& more = "", bool til
 }
 
 /// A cache's file of no rows whose header says this more.
-inline std::string cache_of(const std::string& kind, const Json& extra,
+inline std::string cache_of(FileKind kind, const Json& extra,
                             const std::vector<std::pair<std::string, Shape>>& columns) {
   Provenance p;
   p.kind = kind, p.tool = "test", p.extra = extra;
@@ -137,7 +137,7 @@ inline std::string brdf_of_much() {
   table["order"] = 30, table["albedo"] = 0.5;
   Json extra;
   extra["materials"] = Json::Array{table};
-  return cache_of("brdf", extra, {{"0.coefficients", {1, 900, 3}}});
+  return cache_of(FileKind::brdf, extra, {{"0.coefficients", {1, 900, 3}}});
 }
 
 inline std::string film_of_much() {
@@ -145,13 +145,13 @@ inline std::string film_of_much() {
   film["frames"] = Json::Array{0, 2147483646}, film["temporal_accuracy"] = 0.1, film["max_life"] = 10;
   film["fade"] = 2147483646, film["gradients"] = "none", film["scene_hash"] = Json::Array{"a"};
   extra["film"] = film, extra["accuracy"] = 0.3, extra["quantity"] = "all";
-  return cache_of("irradiance", extra, {{"position", {0, 3}}});
+  return cache_of(FileKind::irradiance, extra, {{"position", {0, 3}}});
 }
 
 inline std::string radiance_of_much() {
   Json extra;
   extra["accuracy"] = 0.3, extra["order"] = 30;
-  return cache_of("radiance", extra, {{"position", {1000, 3}}, {"coefficients", {1, 3, 900}}});
+  return cache_of(FileKind::radiance, extra, {{"position", {1000, 3}}, {"coefficients", {1, 3, 900}}});
 }
 
 inline std::string photons_of_much() {
@@ -162,7 +162,7 @@ inline std::string photons_of_much() {
   for (const char* sum : {"emitted_units", "stored_units", "escaped_units", "absorbed_units"})
     totals[sum] = Json::Array{INT64_MAX, INT64_MAX, INT64_MAX};
   extra["totals"] = totals;
-  return cache_of("photons", extra, {{"position", {2, 3}}, {"flux", {2, 3}}});
+  return cache_of(FileKind::photons, extra, {{"position", {2, 3}}, {"flux", {2, 3}}});
 }
 
 inline std::string container(const std::string& shape, std::uint64_t end) {

@@ -132,7 +132,7 @@ TEST(Container, ProvenanceReadsBack) {
   SampleColumns().writer().write(path, p);
   const Provenance q = Container::open(path).provenance();
   EXPECT_EQ(to_metadata(q), to_metadata(p));
-  EXPECT_EQ(q.kind, "photons");
+  EXPECT_EQ(q.kind, FileKind::photons);
   EXPECT_EQ(q.algorithm, 3);
   EXPECT_EQ(q.parameters, p.parameters);
   EXPECT_EQ(q.inputs, p.inputs);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "photon/events.h"
 #include "photon/photon_file.h"
 #include "photon/trace.h"
 #include "support/scenes.h"

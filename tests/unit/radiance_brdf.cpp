@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "radiance/brdf/lobe_projection.h"
 #include "radiance/brdf/table.h"
+#include "radiance/events.h"
 #include "scene/material/bsdf.h"
 #include "support/one_material.h"
 #include "support/reflections.h"

@@ -78,7 +78,8 @@ TEST(Topics, SayWhatTheTablesHold) {
   EXPECT_NE(limits.find("  2^28        pixels of a picture. Beyond: exit code 2"), std::string::npos)
       << limits;
   const std::string events = find_topic("events")->text();
-  for (const Event& event : all_events()) EXPECT_NE(events.find(event.name), std::string::npos) << event.name;
+  for (const Event* event : all_events())
+    EXPECT_NE(events.find(event->name), std::string::npos) << event->name;
   const std::string options = find_topic("options")->text();
   for (const char* option : {"--threads", "--seed", "--output", "--reuse", "@FILE"})
     EXPECT_NE(options.find(option), std::string::npos) << options;

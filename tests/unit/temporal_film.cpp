@@ -164,7 +164,7 @@ FilmRecord still(std::int32_t birth, std::int32_t end, std::uint32_t chain = 0) 
 }
 
 Film film_of(TemporalGradients gradients, std::vector<FilmRecord> records) {
-  return {film_info(gradients), "indirect", std::move(records)};
+  return {film_info(gradients), Quantity::indirect, std::move(records)};
 }
 
 TEST(CacheAt, HasThoseThatLiveThen) {

@@ -9,8 +9,17 @@
 #include "core/facts/programs.h"
 #include "core/text/markdown.h"
 #include "core/text/wrap.h"
+// All events that programs declare: those whose headers are read here.
+#include "estimate/events.h"
 #include "file/tool.h"
+#include "image/events.h"
+#include "photon/events.h"
+#include "place/events.h"
+#include "radiance/events.h"
+#include "reference/events.h"
+#include "splat/events.h"
 #include "stage/front/limits.h"
+#include "temporal/events.h"
 
 namespace phos::stage {
 namespace {
@@ -50,10 +59,10 @@ std::string events() {
                       "code 5 where one comes more often than chance allows for its share.",
                       0) +
                   "\n\n";
-  for (const Event& event : all_events()) {
-    std::string words = allowed(event);
-    if (!event.remedy.empty()) words += text("; else ", event.remedy);
-    s += list_entry(std::string(event.name), words, 52);
+  for (const Event* event : all_events()) {
+    std::string words = allowed(*event);
+    if (!event->remedy.empty()) words += text("; else ", event->remedy);
+    s += list_entry(std::string(event->name), words, 52);
   }
   return s;
 }
@@ -141,8 +150,8 @@ const HelpTopic* find_topic(std::string_view name) {
 
 std::string event_table() {
   std::vector<std::vector<std::string>> rows;
-  for (const Event& event : all_events())
-    rows.push_back({std::string(event.name), allowed(event), std::string(event.remedy)});
+  for (const Event* event : all_events())
+    rows.push_back({std::string(event->name), allowed(*event), std::string(event->remedy)});
   return markdown_table({"event", "allowed", "remedy"}, rows);
 }
 
