@@ -1,6 +1,7 @@
 #include "plan/direct.h"
 
 #include "core/error.h"
+#include "plan/calibration.h"
 
 namespace phos::inline plan {
 namespace {
@@ -20,8 +21,8 @@ std::string figures(const Prediction& p) {
 }
 
 bool pays(const Prediction& cached, const Prediction& traced, const PlanGoal& goal) {
-  return goal.error ? cached.seconds.value < kLeastGain * traced.seconds.value
-                    : cached.error() < kLeastGain * traced.error();
+  return goal.error ? cached.seconds.value < calibration::kLeastGain * traced.seconds.value
+                    : cached.error() < calibration::kLeastGain * traced.error();
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ LampCount count_lamps(const Scene& scene) {
 PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect which, const LampCount& lamps,
                        const std::function<Pilot(const PlanTask&)>& pilot, Needs& needs) {
   if (which != PlanDirect::automatic) return way_of(task, which == PlanDirect::cached, goal, pilot);
-  if (task.lux || lamps.lamps < kManyLamps) {
+  if (task.lux || lamps.lamps < calibration::kManyLamps) {
     const char* why =
         task.lux ? "sensors send shadow rays in any case" : "not tried: few lamps take few shadow rays";
     needs.unwanted.push_back({kWhat, why});

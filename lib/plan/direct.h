@@ -17,12 +17,6 @@ struct LampCount {
   std::size_t facets = 0;  ///< of all area lights
 };
 LampCount count_lamps(const Scene& scene);
-/// From so many lamps on a plan tries both ways; with fewer there is little to save.
-inline constexpr std::size_t kManyLamps = 4;
-/// Light in the records is kept where it is predicted to take less than this part of the time (or, where
-/// seconds are asked for, to leave less than this part of the error). The pilot is too small to see all of
-/// its shadow edges: in a hall of ten lamps it promised half of the time, and took more.
-inline constexpr double kLeastGain = 1.0 / 3;
 
 enum class PlanDirect { automatic, cached, traced };
 
@@ -33,8 +27,9 @@ struct PlannedWay {
   Plan plan;
 };
 /// Plans light straight from the lamps by shadow rays, in the records, or (automatic, for a picture alone of
-/// many lamps) both ways, and keeps the records by kLeastGain. A way that cannot reach the goal gives place
-/// to the other; throws as make_plan() where none can. Says in `needs` why. `pilot` runs the pilot of a task.
+/// many lamps) both ways, and keeps the records by kLeastGain (plan/calibration.h). A way that cannot reach
+/// the goal gives place to the other; throws as make_plan() where none can. Says in `needs` why. `pilot` runs
+/// the pilot of a task.
 PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect which, const LampCount& lamps,
                        const std::function<Pilot(const PlanTask&)>& pilot, Needs& needs);
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "file/folder.h"
+#include "plan/calibration.h"
 #include "scene/limits.h"
 #include "scene/opening/find_portals.h"
 #include "scene/rays.h"
@@ -43,7 +44,7 @@ void declare_options(Options& options, PlanOptions& p) {
       {{"auto", PlanDirect::automatic}, {"cached", PlanDirect::cached}, {"traced", PlanDirect::traced}},
       text("light straight from the lamps: in the records, or by shadow rays; auto tries both for a picture "
            "with ",
-           kManyLamps,
+           calibration::kManyLamps,
            " lamps of an extent or more (the environment is one), takes "
            "twice the pilot, and keeps the records where they promise a third of the time or of the error"));
   options.choice<PlanRecords>(

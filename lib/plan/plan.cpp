@@ -5,16 +5,12 @@
 
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
+#include "plan/calibration.h"
 
 namespace phos::inline plan {
 namespace {
 
-/// What the terms leave out, relative standard deviation: of a mean square, and of a time. (Errors of 45
-/// plans' first rounds, over the predicted: 0.90 to 1.23 and, once, 1.5, with the pilot's doubts in it.)
-constexpr double kErrorDoubt = 0.15, kTimeDoubt = 0.15;
-/// At 0.5 gaps a pixel wide can be lost, which no small pilot shows (a box of 200 pixels: eight times the
-/// bias of 0.4), and as much noise is had for no fewer rays.
-const std::vector<double> kAccuracies = {0.4, 0.28, 0.2, 0.14, 0.1};
+const std::vector<double> kAccuracies = {calibration::kCoarsestAccuracy, 0.28, 0.2, 0.14, 0.1};
 constexpr double kOtherErrors[] = {0.2, 0.1, 0.05, 0.02, 0.01};
 
 std::vector<double> doubling(double first, double last) {
@@ -50,9 +46,9 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
   // From half of what the pilot's least cache has.
   groups.push_back({{Knob::photons}, {half_doubling(10000, 1e8)}});
-  // What sensors read of two rings is up to twice as noisy as three and more foretell, and saves no time.
-  const std::vector<double> rays =
-      task.by_photons ? std::vector<double>{1} : rays_of_rings(task.lux ? 3 : 2, 16384);
+  const std::vector<double> rays = task.by_photons
+                                       ? std::vector<double>{1}
+                                       : rays_of_rings(task.lux ? calibration::kSensorRings : 2, 16384);
   KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, rays}};
   records.derived = {Knob::records, Knob::read};
   records.derive = [count = pilot.records](Knobs& k) {
@@ -79,13 +75,13 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
 
 /// The same settings with more rays from pixels and sensors, as make_plan() promises.
 Prediction with_enough_rays(const PlanTask& task, const Pilot& pilot, Prediction p) {
-  const double most_s = (1 + kNextToNothing) * p.seconds.value;
+  const double most_s = (1 + calibration::kNextToNothing) * p.seconds.value;
   std::vector<Knob> kinds;
   if (task.image) kinds = {Knob::light_rays, Knob::edge_samples};
   if (task.image && task.gloss) kinds.push_back(Knob::gloss_rays);
   if (task.lux) kinds.push_back(Knob::sensor_rays);
   for (const Knob kind : kinds)
-    while (2 * p.knobs[at(kind)] <= kEnoughRays) {
+    while (2 * p.knobs[at(kind)] <= calibration::kEnoughRays) {
       Knobs k = p.knobs;
       k[at(kind)] *= 2;
       const Prediction more = predict(task, pilot, k);
@@ -149,7 +145,7 @@ Prediction within(const PlanTask& task, const Pilot& pilot, const std::vector<Pl
 
 double Prediction::error() const { return largest(*this, &Interval::value); }
 double Prediction::error_high() const { return largest(*this, &Interval::high); }
-double Prediction::error_to_meet() const { return error() + kSurety * (error_high() - error()); }
+double Prediction::error_to_meet() const { return error() + calibration::kSurety * (error_high() - error()); }
 double Prediction::error_low() const { return largest(*this, &Interval::low); }
 
 std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot, std::span<const Knob> kept,
@@ -174,9 +170,9 @@ std::vector<PlanPoint> front_of(const PlanTask& task, const Pilot& pilot, std::s
 Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs) {
   Prediction p;
   p.knobs = knobs;
-  p.seconds = pilot.time.predict(knobs, kTimeDoubt);
-  if (task.image) p.image = root(pilot.image_error->predict(knobs, kErrorDoubt));
-  if (task.lux) p.lux = root(pilot.lux_error->predict(knobs, kErrorDoubt));
+  p.seconds = pilot.time.predict(knobs, calibration::kTimeDoubt);
+  if (task.image) p.image = root(pilot.image_error->predict(knobs, calibration::kErrorDoubt));
+  if (task.lux) p.lux = root(pilot.lux_error->predict(knobs, calibration::kErrorDoubt));
   return p;
 }
 
@@ -186,19 +182,19 @@ std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,
   std::optional<Prediction> found =
       first_that(task, pilot, front, error, [&](const Prediction& p) { return p.error_to_meet() <= error; });
   // Likely to meet it, but at a price that only a pilot's doubt would make one pay: the best guess has to do.
-  constexpr double kDearest = 3;
   const auto any = [](const Prediction&) { return true; };
-  std::optional<Prediction> guess = first_that(task, pilot, front, kMargin * error, any);
+  std::optional<Prediction> guess = first_that(task, pilot, front, calibration::kMargin * error, any);
   if (!guess && !found && predict(task, pilot, front.back().knobs).error_low() <= error) {
     // What no setting mends may be nothing, for all that the pilot can tell.
     std::vector<double> less;
     if (task.image) less.push_back(unmended(*pilot.image_error));
     if (task.lux) less.push_back(unmended(*pilot.lux_error));
-    guess = first_that(task, pilot, front, kMargin * error, any, less);
+    guess = first_that(task, pilot, front, calibration::kMargin * error, any, less);
     const std::optional<Prediction> barely = first_that(task, pilot, front, error, any);
-    if (guess && barely && barely->seconds.value <= kDearest * guess->seconds.value) guess = barely;
+    if (guess && barely && barely->seconds.value <= calibration::kDearest * guess->seconds.value)
+      guess = barely;
   }
-  if (guess && (!found || found->seconds.value > kDearest * guess->seconds.value)) {
+  if (guess && (!found || found->seconds.value > calibration::kDearest * guess->seconds.value)) {
     found = guess;
     if (wide) *wide = true;
   }

@@ -55,10 +55,10 @@ Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs)
 /// without what no setting mends (or, if that is not much dearer, the whole of it by the best guess); and a
 /// warning. Pictures of few rays have rare bright pixels, which a small pilot seldom shows: these settings
 /// then get more rays from pixels and sensors, up to kEnoughRays of a kind, as far as kNextToNothing of the
-/// time pays for all of them. With seconds: the least error whose time, likewise, is within them. Throws
-/// Error(usage) where no settings reach the error or keep the time, naming what can be had.
+/// time pays for all of them. (These numbers: plan/calibration.h.) With seconds: the least error whose time,
+/// likewise, is within them. Throws Error(usage) where no settings reach the error or keep the time, naming
+/// what can be had.
 Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal);
-inline constexpr double kMargin = 0.8, kSurety = 0.85, kEnoughRays = 16, kNextToNothing = 0.1;
 
 /// The same for an error alone; nothing if it is out of reach. `wide`: set where kMargin had to do.
 std::optional<Prediction> cheapest(const PlanTask& task, const Pilot& pilot,

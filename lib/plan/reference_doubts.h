@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/json.h"
+#include "plan/calibration.h"
 #include "scene/report/light_ways.h"
 
 namespace phos::inline plan {
@@ -16,13 +17,9 @@ class ReferenceDoubts {
   /// Of one more run, over so many places.
   void add(const Json& stats, double places);
   /// Have too many places too few bright paths? More samples may mend that.
-  bool too_few_bright() const { return untrusted_share_ > kFewUntrusted; }
+  bool too_few_bright() const { return untrusted_share_ > calibration::kFewUntrusted; }
   /// For people, one each; none: what the references say can be trusted.
   std::vector<std::string> lines() const;
-
-  /// As many are flagged where the interval is still good (Pareto tails of index 2.5 and above,
-  /// docs/methods.md#g6-4).
-  static constexpr double kFewUntrusted = 0.1;
 
  private:
   std::vector<LightWay> unsampled_;

@@ -7,16 +7,14 @@
 #include "core/interrupt.h"
 #include "file/folder.h"
 #include "file/write_text.h"
+#include "plan/calibration.h"
 #include "plan/runner.h"
 #include "plan/text.h"
 
 namespace phos::inline plan {
 namespace {
 
-constexpr double kTighter = 0.85;  ///< of the error aimed at, after a miss
-constexpr double kPatience = 4;    ///< times the usual seconds for references, where those cannot judge
-constexpr double kClear = 0.7;     ///< of the error asked for: what references should tell from none
-constexpr double kNear = 3;        ///< standard errors of a measured error, to what was asked for
+constexpr double kPatience = 4;  ///< times the usual seconds for references, where those cannot judge
 
 /// Makes a guess of these parts say `found`: see correct().
 void agree(std::span<Posynomial* const> parts, const Knobs& knobs, std::size_t guess, double found) {
@@ -27,7 +25,7 @@ void agree(std::span<Posynomial* const> parts, const Knobs& knobs, std::size_t g
   }
   for (Posynomial* p : parts) {
     if (found < predicted || mendable == 0) {
-      if (predicted > 0) p->scale(guess, std::max(found / predicted, 0.1));
+      if (predicted > 0) p->scale(guess, std::max(found / predicted, calibration::kLeastShrinking));
       continue;
     }
     for (std::size_t i = 0; i < p->terms().size(); ++i)
@@ -100,9 +98,9 @@ bool PlanRound::judged(double asked) const {
 }
 
 double times_as_many(const MeasuredError& e, double asked) {
-  const double resolution = e.resolution.value_or(0), doubt = kNear * e.rmse_stderr.value_or(0);
+  const double resolution = e.resolution.value_or(0), doubt = calibration::kNear * e.rmse_stderr.value_or(0);
   double times = 1;
-  if (resolution > kClear * asked) times = std::pow(resolution / (0.5 * asked), 2);
+  if (resolution > calibration::kClear * asked) times = std::pow(resolution / (0.5 * asked), 2);
   if (std::fabs(e.relative_rmse - asked) < doubt) times = std::max(times, 4.0);
   return times;
 }
@@ -135,8 +133,8 @@ std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, dou
   std::vector<std::vector<PlanPoint>> fronts;
   for (const auto& kept : {std::vector<Knob>{}, {Knob::photons}, {Knob::photons, Knob::accuracy}})
     fronts.push_back(front_of(task, pilot, kept, there));
-  const double first = error * std::pow(kTighter, static_cast<double>(rounds.size()));
-  for (double aim = first; aim > 0.2 * error; aim *= kTighter) {
+  const double first = error * std::pow(calibration::kTighter, static_cast<double>(rounds.size()));
+  for (double aim = first; aim > 0.2 * error; aim *= calibration::kTighter) {
     std::optional<Prediction> best;
     for (const std::vector<PlanPoint>& front : fronts) {
       std::optional<Prediction> p = cheapest(task, pilot, front, aim);

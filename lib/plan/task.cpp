@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "plan/calibration.h"
+
 namespace phos::inline plan {
 namespace {
 
@@ -29,13 +31,6 @@ Words estimated(const PlanTask& task, const Knobs& k) {
   if (!task.by_photons) add(words, {"--rays", knob_word(k, Knob::rays)});
   return words;
 }
-
-/// Of accuracy times the typical distance: smallest radius of records of a picture, so that what they leave
-/// out falls with their noise. On Sponza, 400 pixels wide, 0.057 of the distance leaves 4.5e-4, 2.7e-4
-/// and 1.9e-4 of the mean's square, in mean square, by 7.7, 8.6 and 12.1 s of records of accuracy 0.4, 0.28
-/// and 0.14; half of that radius 2.1e-4, 1.4e-4 and 1.4e-4 by 8.9, 10.1 and 13.1 s; the noise of their 128
-/// rays is 14e-4, 7e-4 and 4e-4.
-constexpr double kLeastRadius = 1 / 8.;
 
 }  // namespace
 
@@ -65,8 +60,9 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   if (task.cached_direct)
     add(words, {"--direct", "cached", "--footprint", "adaptive"});
   else if (task.typical_m > 0)
-    add(words, {"--min-radius",
-                shortest(static_cast<float>(kLeastRadius * knobs[at(Knob::accuracy)]) * task.typical_m)});
+    add(words,
+        {"--min-radius", shortest(static_cast<float>(calibration::kLeastRadius * knobs[at(Knob::accuracy)]) *
+                                  task.typical_m)});
   if (task.pixels_of_final < 1)
     add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
   return {"phos-irradiance", words, out};

@@ -5,15 +5,12 @@
 
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
+#include "plan/calibration.h"
 
 namespace phos::inline plan {
 namespace {
 
-/// Of a picture or table that is right to 5 %.
-constexpr double kError = 0.05, kPhotons = 1e6, kPhotonsAlone = 4e6, kAccuracy = 0.28;
-constexpr double kRays = 1600, kEdgeSamples = 16, kLightRays = 64, kGlossRays = 64, kSensorRays = 256;
-/// Powers of the error with which photons and rays grow, and accuracy shrinks.
-constexpr double kOfPhotons = 1.5, kOfRays = 1, kOfSamples = 1.5, kOfAccuracy = 0.5;
+namespace c = calibration;
 
 double power_of_two(double v, double least, double most) {
   return std::clamp(std::exp2(std::round(std::log2(v))), least, most);
@@ -29,22 +26,25 @@ double whole_rings(double rays) {
 }  // namespace
 
 Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps) {
-  const double finer = kError / error;
+  const double finer = c::kUsualError / error;
   const auto times = [&](double usual, double power) { return usual * std::pow(finer, power); };
   Knobs k{};
-  const double photons = times(task.by_photons ? kPhotonsAlone : kPhotons, kOfPhotons);
+  const double photons =
+      times(task.by_photons ? c::kUsualPhotonsAlone : c::kUsualPhotons, c::kUsualPhotonsFinerError);
   k[at(Knob::photons)] = std::clamp(std::round(photons / 1e4) * 1e4, 5e4, 5e7);
-  k[at(Knob::accuracy)] = std::clamp(std::round(100 * times(kAccuracy, -kOfAccuracy)) / 100, 0.1, 0.4);
-  k[at(Knob::rays)] = whole_rings(times(kRays, kOfRays));
+  k[at(Knob::accuracy)] =
+      std::clamp(std::round(100 * times(c::kUsualAccuracy, -c::kUsualAccuracyFinerError)) / 100, 0.1, 0.4);
+  k[at(Knob::rays)] = whole_rings(times(c::kUsualRays, c::kUsualRaysFinerError));
   k[at(Knob::read)] = records_read(k[at(Knob::accuracy)]);
   const double samples = error > 0.03 ? 4 : power_of_two(times(4, 1), 4, 64);
   k[at(Knob::pixel_samples)] = samples;
-  k[at(Knob::edge_samples)] = power_of_two(times(kEdgeSamples, 1), samples, 256);
-  k[at(Knob::light_rays)] = power_of_two(
-      times(kLightRays, kOfSamples) / std::sqrt(static_cast<double>(std::max<std::size_t>(lamps, 1))),
-      samples, 4096);
-  k[at(Knob::gloss_rays)] = task.gloss ? power_of_two(times(kGlossRays, kOfSamples), samples, 4096) : 1;
-  k[at(Knob::sensor_rays)] = power_of_two(times(kSensorRays, kOfSamples), 16, 65536);
+  k[at(Knob::edge_samples)] = power_of_two(times(c::kUsualEdgeSamples, 1), samples, 256);
+  k[at(Knob::light_rays)] = power_of_two(times(c::kUsualLightRays, c::kUsualSamplesFinerError) /
+                                             std::sqrt(static_cast<double>(std::max<std::size_t>(lamps, 1))),
+                                         samples, 4096);
+  k[at(Knob::gloss_rays)] =
+      task.gloss ? power_of_two(times(c::kUsualGlossRays, c::kUsualSamplesFinerError), samples, 4096) : 1;
+  k[at(Knob::sensor_rays)] = power_of_two(times(c::kUsualSensorRays, c::kUsualSamplesFinerError), 16, 65536);
   return k;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
+#include "plan/calibration.h"
 #include "plan/direct.h"
 #include "plan/run.h"
 #include "plan/text.h"
@@ -122,7 +123,7 @@ TEST(StudyPlan, MeetsTheErrorAtTheLeastCost) {
     for (const PlanPoint& p : front_of(picture(), pilot)) {
       const Prediction q = predict(picture(), pilot, p.knobs);
       EXPECT_TRUE(q.error_to_meet() > asked ||
-                  (1 + kNextToNothing) * q.seconds.value >= plan.chosen.seconds.value);
+                  (1 + calibration::kNextToNothing) * q.seconds.value >= plan.chosen.seconds.value);
     }
   }
 }

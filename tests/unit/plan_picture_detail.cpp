@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/random.h"
+#include "plan/calibration.h"
 #include "plan/pilot/picture_detail.h"
 
 namespace phos {
@@ -51,7 +52,7 @@ TEST(PictureDetail, OfSmoothLightShrinksFastest) {
 }
 
 TEST(PictureDetail, OfGrainStays) {
-  EXPECT_EQ(power(grain, 0), kLeastDetailPower);
+  EXPECT_EQ(power(grain, 0), calibration::kLeastDetailPower);
   EXPECT_LT(power([](double x, double y) { return grain(x, y) + 0.02 * edge(x, y); }, 0.1), 0.2);
 }
 
@@ -84,7 +85,7 @@ TEST(PictureDetail, SamplesDifferByWhatLiesWithinPixels) {
 }
 
 TEST(PictureDetail, OfNothingIsNotKnown) {
-  EXPECT_EQ(power([](double, double) { return 1.0; }, 0), kLeastDetailPower);
+  EXPECT_EQ(power([](double, double) { return 1.0; }, 0), calibration::kLeastDetailPower);
 }
 
 }  // namespace

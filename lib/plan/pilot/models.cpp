@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "file/csv.h"
+#include "plan/calibration.h"
 #include "plan/pilot/pilot.h"
 #include "record/irradiance_cache.h"
 
@@ -11,21 +12,15 @@ namespace {
 
 using K = Knob;
 
-constexpr double kRoom = 1.25;  ///< records have, at least, over those that were counted
-
 Posynomial sum_of(std::vector<Monomial> terms) { return Posynomial(std::move(terms)); }
 
-/// What the coarse cache blurs near edges and contacts: a strip as wide as its zones. Sponza, 400 pixels
-/// wide, 40,000 to 10 million photons: what falls with them goes as their number to a power of -0.58.
-const Monomial kZoneBlur{"blur of photons' zones", {{K::photons, -0.5}}};
+/// What the coarse cache blurs near edges and contacts: a strip as wide as its zones.
+const Monomial kZoneBlur{"blur of photons' zones", {{K::photons, calibration::kZoneBlurPhotons}}};
 const Monomial kInterpolation{"interpolation between records", {{K::accuracy, 2}}};
-/// Records that a place reads share their noise, less than in proportion to their number. Five scenes, 64
-/// rays, accuracies 0.56 to 0.1: what noise is left goes as that number to a power of -0.7 to -0.9, and from
-/// 0.2 down, where places read no more of them, it stays.
-const std::pair<Knob, double> kBlended{K::read, -0.8};
+const std::pair<Knob, double> kBlended{K::read, calibration::kNoiseRead};
 const Monomial kPhotonNoise{"noise of photons", {{K::photons, -1}}};
 /// Of records of photons alone: a zone that has as many as it may hold has no more where there are more.
-const Monomial kZoneNoise{"noise of full zones", {{K::photons, -0.1}}};
+const Monomial kZoneNoise{"noise of full zones", {{K::photons, calibration::kFullZonePhotons}}};
 constexpr const char* kTextures = "textures and shadows within pixels";
 const Monomial kUnmended{"what no setting mends", {}};
 
@@ -38,7 +33,7 @@ double RecordCount::at(double a) const {
 }
 
 RecordCount count_of(double a, double n, double finer, double more, double most) {
-  RecordCount count{n, a, 0, std::max(most, kRoom * std::max(n, more))};
+  RecordCount count{n, a, 0, std::max(most, calibration::kRecordRoom * std::max(n, more))};
   const auto odds = [&](double records) { return records / (count.most - records); };
   if (n > 0 && more > n) count.power = std::log(odds(more) / odds(n)) / std::log(a / finer);
   return count;
@@ -60,11 +55,9 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   // Samples at edges share the rays of their pixel: what each adds falls with the square of its own few, its
   // share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under an
   // edge, whose mean varies as n^-1.5. Where a surface curves, each sample of a pixel sees that edge
-  // elsewhere, and its few rays find it as independent ones do. staircase2's chrome, mean squares in 10^-4:
-  // one sample of 4, 16, 64, 128 rays 84, 13, 1.3, 0.3; 32 samples that share 32, 128, 256 rays 9.2, 1.6,
-  // 0.75; 128 that share 128 3.4. Half shadows narrower than a pixel of the pilot: of four scenes, 92 and 400
-  // pixels wide, the noise at 400 is 0.35 to 0.78 of that at 92.
-  const std::pair<Knob, double> narrow{K::pixels, -0.1};
+  // elsewhere, and its few rays find it as independent ones do. Half shadows may be narrower than a pixel of
+  // the pilot.
+  const std::pair<Knob, double> narrow{K::pixels, calibration::kShadowNoisePixels};
   std::vector<Monomial> direct = {
       {"noise of shadow rays", {narrow, {K::light_rays, -1}}},
       {"noise of shadow rays, fast part", {narrow, {K::light_rays, -2}}},
@@ -73,7 +66,7 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
   if (task.gloss) {
     direct.push_back({"noise of lamps that gloss rays find", {{K::gloss_rays, -1.5}}});
     direct.push_back({"noise of lamps that gloss rays find, curved surfaces",
-                      {{K::gloss_rays, -1}, {K::pixel_samples, 0.4}}});
+                      {{K::gloss_rays, -1}, {K::pixel_samples, calibration::kCurvedGlossSamples}}});
     gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
              {"noise of edges in gloss", {{K::gloss_rays, -1.5}}},
              {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}},
@@ -107,13 +100,12 @@ void add_missed_detail(PlanModel& image_error, double detail, double sampled, do
 
 PlanModel lux_error_model(const PlanTask& task) {
   // Each sensor has a record, and reads its neighbours' too: as many as lie within the accuracy that it reads
-  // at, whose square read x accuracy^2 is. What 0.25 leaves of 0.5's blending is 1.04 (a box with two blocks)
-  // to 1.9 (an empty one) times the noise.
+  // at, whose square read x accuracy^2 is.
   const auto reading = [](double power) {
     return std::vector<std::pair<Knob, double>>{{K::read, power}, {K::accuracy, 2 * power}};
   };
   const auto rays = [&](double power) {
-    std::vector<std::pair<Knob, double>> powers = reading(-0.3);
+    std::vector<std::pair<Knob, double>> powers = reading(calibration::kSensorNoiseReading);
     powers.emplace_back(K::rays, power);
     return powers;
   };
@@ -132,19 +124,19 @@ PlanModel time_model(const PlanTask& task) {
   std::vector<Monomial> records = {
       {"start", {}}, {"places", {{K::pixels, 1}}}, {"records", {{K::records, 1}}}};
   if (!task.by_photons) records.push_back({"their rays", {{K::records, 1}, {K::rays, 1}}});
-  model.part = {{"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
-                {"coarse records",
-                 // Many photons lie in zones that have one already: up to 1.3 million, seconds follow their
-                 // number to a power of 0.47 (Sponza) to 0.66 (Cornell box).
-                 sum_of({{"start", {}}, {"coarse records", {{K::photons, 0.5}}}})},
-                {"records", sum_of(records)}};
+  model.part = {
+      {"photons", sum_of({{"start", {}}, {"photons", {{K::photons, 1}}}})},
+      {"coarse records",
+       sum_of({{"start", {}}, {"coarse records", {{K::photons, calibration::kCoarseSecondsPhotons}}}})},
+      {"records", sum_of(records)}};
   if (task.image) {
-    std::vector<Monomial> terms = {{"start", {}},
-                                   {"pixels", {{K::pixels, 1}}},
-                                   {"scene, drawn for each pixel sample", {{K::pixel_samples, 1}}},
-                                   {"pixel samples", {{K::pixels, 1}, {K::pixel_samples, 1}}},
-                                   {"edges", {{K::pixels, 0.75}, {K::edge_samples, 1}}},
-                                   {"shadow rays", {{K::pixels, 1}, {K::light_rays, 1}}}};
+    std::vector<Monomial> terms = {
+        {"start", {}},
+        {"pixels", {{K::pixels, 1}}},
+        {"scene, drawn for each pixel sample", {{K::pixel_samples, 1}}},
+        {"pixel samples", {{K::pixels, 1}, {K::pixel_samples, 1}}},
+        {"edges", {{K::pixels, calibration::kEdgeSecondsPixels}, {K::edge_samples, 1}}},
+        {"shadow rays", {{K::pixels, 1}, {K::light_rays, 1}}}};
     if (task.gloss) terms.push_back({"gloss rays", {{K::pixels, 1}, {K::gloss_rays, 1}}});
     model.part.emplace_back("picture", sum_of(terms));
   }

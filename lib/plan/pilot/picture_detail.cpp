@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "plan/calibration.h"
 
 namespace phos::inline plan {
 namespace {
@@ -47,8 +48,8 @@ double detail_power(const Image& a, const Image& b) {
                   a.has_layer("emission") ? a.rgb("emission") : std::vector<Rgb>(a.pixels(), Rgb(0)),
                   a.width(), a.height()};
   const double small = within_blocks(pair, 2), large = within_blocks(pair, 4);
-  if (!(small > 0) || !(large > small)) return kLeastDetailPower;
-  return std::clamp(0.5 * std::log2(large / small - 1), kLeastDetailPower, 1.0);
+  if (!(small > 0) || !(large > small)) return calibration::kLeastDetailPower;
+  return std::clamp(0.5 * std::log2(large / small - 1), calibration::kLeastDetailPower, 1.0);
 }
 
 double differs_within_pixels(const Image& few, const Image& more, const std::string& layer) {

@@ -12,9 +12,8 @@ namespace phos::inline plan {
 /// textures and mouldings that go on below a pixel. Taken from how much the pixels of blocks of 2 x 2 and of
 /// 4 x 4 differ in a pair of pictures of one view (from products of the two, so that their noise is not in
 /// it), lamps left out: if the mean square within a square of side b goes as b^2h, the second is 2^2h + 1
-/// times the first. From kLeastDetailPower (nothing is known, or detail is everywhere) to 1.
+/// times the first. From calibration::kLeastDetailPower (nothing is known, or detail is everywhere) to 1.
 double detail_power(const Image& a, const Image& b);
-inline constexpr double kLeastDetailPower = 0.125;
 
 /// Mean square by which a layer of two pictures differs, over that of its mean in the second: with few and
 /// with more samples in each pixel, what the few miss of what lies within pixels. 0 where it is dark.

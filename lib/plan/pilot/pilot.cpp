@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "file/atomic_file.h"
+#include "plan/calibration.h"
 #include "plan/pilot/runs.h"
 
 namespace phos::inline plan {
@@ -27,15 +28,11 @@ constexpr Samples kSamples[] = {{1, 1, 2, 128}, {1, 1, 256, 4},   {1, 16, 16, 16
 constexpr Samples kInGloss[] = {{1, 1, 2, 2}, {32, 64, 256, 64}};
 constexpr Samples kFine = {32, 64, 32, 32};
 constexpr Samples kTimed[] = {{1, 16, 8, 4}, {4, 16, 8, 4}};  ///< at the full size
-/// For records, as far as they go: of 8,000 in Sponza at a = 0.5 and 21,000 at 0.25, a power foretells 72,000
-/// at 0.1, with this bound it is 47,000; there are 46,000. Sibenik, at 0.14: 69,000, 58,000, 56,000.
-constexpr double kPlacesOfAPixel = 0.8;
 constexpr double kSensorRays[] = {4, 64};
 constexpr double kReferenceSamples = 32;  ///< of the first, of a pixel
 constexpr double kReferencePaths = 4096;  ///< and of a sensor
 constexpr double kMostSamples = 1 << 22;
 constexpr double kReferenceShare = 0.5;  ///< of the pilot's time, for references
-constexpr double kOwnDoubt = 0.1;        ///< relative, of any measured mean square: what the terms leave out
 
 Knobs knobs_of(double photons, double accuracy, int rings) {
   Knobs k{};
@@ -55,7 +52,7 @@ Knobs with(Knobs k, const Samples& s) {
 }
 
 Observation observed(const Knobs& knobs, double value, double sigma) {
-  return {knobs, value, std::hypot(sigma, kOwnDoubt * std::fabs(value)) + 1e-12};
+  return {knobs, value, std::hypot(sigma, calibration::kOwnDoubt * std::fabs(value)) + 1e-12};
 }
 
 void fit(PlanModel& model, const std::string& part, const std::vector<Observation>& rows,
@@ -175,8 +172,9 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
                                                         static_cast<double>(cells_of(kCountRings)));
   double sampled_detail = 1;
   if (task.image) sampled_detail = runs.time_pictures(with(caches[0], kTimed[0]), with(caches[0], kTimed[1]));
-  const double places = (task.image ? kPlacesOfAPixel * static_cast<double>(task.width * task.height) : 0) +
-                        static_cast<double>(pilot.sensors);
+  const double places =
+      (task.image ? calibration::kPlacesOfAPixel * static_cast<double>(task.width * task.height) : 0) +
+      static_cast<double>(pilot.sensors);
   pilot.records = count_of(kAccuracy[0], counts[0], kAccuracy[1], counts[1], places);
   for (auto& [name, p] : pilot.time.part)
     p.fit(runs.times(name.substr(0, name.find(','))), options.seed + 11);

@@ -7,14 +7,18 @@
 #include "file/atomic_file.h"
 #include "file/csv.h"
 #include "file/write_text.h"
+#include "plan/calibration.h"
 #include "plan/plan.h"
 
 namespace phos::inline plan {
 namespace {
 
 constexpr std::uint64_t kPipelineSeed = 1, kReferenceSeed = 101, kCountSeed = 11;
-constexpr double kTimeDoubt = 0.1;    ///< relative, of one time
-constexpr double kLeastTime = 0.005;  ///< s: what starting a program varies by
+
+/// Standard deviation of one time, s.
+double doubt_of_time(double seconds) {
+  return calibration::kRunTimeDoubt * seconds + calibration::kRunTimeLeast;
+}
 
 std::vector<std::string> quiet(std::vector<std::string> words) {
   words.insert(words.end(), {"--quiet", "--progress", "never"});
@@ -74,7 +78,7 @@ CommandRun PilotRuns::require(const Command& command) const {
 
 CommandRun PilotRuns::timed(const std::string& part, const Knobs& knobs, const Command& command) {
   CommandRun run = require(command);
-  times_[part].push_back({knobs, run.wall_s, kTimeDoubt * run.wall_s + kLeastTime});
+  times_[part].push_back({knobs, run.wall_s, doubt_of_time(run.wall_s)});
   return run;
 }
 
@@ -85,8 +89,8 @@ double PilotRuns::records_run(const Knobs& knobs, const Command& command) {
   Knobs k = knobs;
   k[at(Knob::records)] = number(run.stats, "records_made");
   const double coarse = number(run.stats, "seconds.coarse records"), rest = run.wall_s - coarse;
-  times_["coarse records"].push_back({k, coarse, kTimeDoubt * coarse + kLeastTime});
-  times_["records"].push_back({k, rest, kTimeDoubt * rest + kLeastTime});
+  times_["coarse records"].push_back({k, coarse, doubt_of_time(coarse)});
+  times_["records"].push_back({k, rest, doubt_of_time(rest)});
   return k[at(Knob::records)];
 }
 
