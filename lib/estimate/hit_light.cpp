@@ -10,6 +10,8 @@
 #include "direct/lamp_sampler.h"
 #include "direct/lamp_sequence.h"
 #include "estimate/events.h"
+#include "radiance/tree.h"
+#include "record/tree.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"

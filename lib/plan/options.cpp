@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "file/folder.h"
 #include "scene/limits.h"
-#include "scene/opening/find_portals.h"
+#include "scene/opening/portals_about_rooms.h"
 #include "scene/rays.h"
 
 namespace phos::inline plan {

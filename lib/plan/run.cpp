@@ -7,6 +7,7 @@
 #include "core/interrupt.h"
 #include "file/folder.h"
 #include "file/write_text.h"
+#include "plan/json.h"
 #include "plan/runner.h"
 #include "plan/text.h"
 

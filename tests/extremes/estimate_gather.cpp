@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 #include "place/two_level.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 #include "support/records.h"
 

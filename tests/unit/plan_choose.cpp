@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "plan/direct.h"
+#include "plan/json.h"
 #include "plan/run.h"
 #include "plan/text.h"
 

@@ -1,3 +1,5 @@
+#include "file/inspect/rows.h"
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -9,8 +11,8 @@
 #include "core/interrupt.h"
 #include "core/origin.h"
 #include "file/inspect/inspect.h"
-#include "file/limits.h"
 #include "file/kinds/shape_pattern.h"
+#include "file/limits.h"
 
 namespace phos::inline file {
 

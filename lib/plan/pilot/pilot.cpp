@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "file/atomic_file.h"
+#include "plan/pilot/models.h"
 #include "plan/pilot/runs.h"
 
 namespace phos::inline plan {
