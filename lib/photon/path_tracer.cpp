@@ -16,7 +16,7 @@ constexpr auto kMaxBounces =
     kMostPhotonEvents.as<std::uint32_t>();  // the last that a random stream can number
 // Light that total reflection keeps in glass that absorbs nothing may stay for ever: from so many events on
 // it plays Russian roulette.
-constexpr std::uint32_t kLongInGlass = 16384;
+constexpr std::uint32_t kLongInGlass = 256;
 constexpr float kLongSurvival = 0.98f;
 
 // Without the not-a-number rules of fmax, which cost a call.

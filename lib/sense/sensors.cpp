@@ -54,7 +54,7 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
         for (std::size_t i = begin; i < end; ++i) {
           const auto& [p, normal] = sensors.points[i];
           const SurfacePoint at = receiver(rays.scene(), p, normal);
-          part.inside += inside_solid(rays, at);
+          if (inside_solid(rays, at)) part.inside.push_back(i);
           part.outside += beyond(rays.scene().bounds, p);
           const DirectAt wish = how(i);
           if (!wish.wanted) continue;
@@ -70,7 +70,8 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
         return part;
       },
       [](SensorReport& all, const SensorReport& part) {
-        all.inside += part.inside, all.outside += part.outside;
+        all.inside.insert(all.inside.end(), part.inside.begin(), part.inside.end());
+        all.outside += part.outside;
         all.shadow_rays += part.shadow_rays, all.above_error += part.above_error;
       });
   report.inside = sum.inside, report.outside = sum.outside;

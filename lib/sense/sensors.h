@@ -55,11 +55,13 @@ void declare_options(Options& options, SensorOptions& sensors);
 struct SensorReport {
   std::uint64_t uncovered = 0;     ///< sensors that no record of the caches covers
   std::uint64_t records_made = 0;  ///< for those
-  std::uint64_t inside = 0;        ///< sensors inside of solids: rays from there mostly meet back faces
-  std::uint64_t outside = 0;       ///< sensors beyond the scene's bounds
-  std::uint64_t shadow_rays = 0;   ///< of direct light
-  std::uint64_t above_error = 0;   ///< sensors whose direct light is less well known than asked for
-  Counters counters;               ///< numerical events of the new records
+  /// Sensors inside of solids, in order: rays from there mostly meet back faces. No standard error holds
+  /// there.
+  std::vector<std::size_t> inside{};
+  std::uint64_t outside = 0;      ///< sensors beyond the scene's bounds
+  std::uint64_t shadow_rays = 0;  ///< of direct light
+  std::uint64_t above_error = 0;  ///< sensors whose direct light is less well known than asked for
+  Counters counters;              ///< numerical events of the new records
   std::vector<std::uint8_t>
       covered;  ///< of each sensor: by a record of the caches; empty where none is asked
 

@@ -82,7 +82,7 @@ void report_on(Tool& tool, const std::string& summary_path, const Sensors& senso
   if (open_lx) add_daylight_factors(summary, *open_lx);
   summary["misses"] = report.uncovered;
   summary["records_made"] = report.records_made;
-  summary["sensors_inside_solids"] = report.inside;
+  summary["sensors_inside_solids"] = report.inside.size();
   summary["sensors_outside"] = report.outside;
   summary["shadow_rays"] = report.shadow_rays;
   summary["sensors_above_error"] = report.above_error;
@@ -104,7 +104,10 @@ void report_on(Tool& tool, const std::string& summary_path, const Sensors& senso
         text("direct light of ", report.above_error, " sensors is known less well than --error asks: pilots ",
              "foretell it roughly, and no lamp gets more than ", DirectReader::kMostRays,
              " rays (--light-samples can be more; --portals auto finds a sky behind windows with fewer)"));
-  if (report.inside > 0) tool.warn(text(report.inside, " sensors are inside of solids or behind walls"));
+  if (!report.inside.empty())
+    tool.warn(text(report.inside.size(),
+                   " sensors are inside of solids or behind walls (the first is number ", report.inside[0],
+                   "): no standard error is stated for them"));
   if (report.outside > 0) tool.warn(text(report.outside, " sensors are outside of the scene's bounds"));
 }
 
@@ -153,6 +156,7 @@ void run(Tool& tool, SenseCommand& asked) {
   }
   tool.counters().merge(report.counters);
   if (!asked.exact) leave_out_errors(tool, files, ways, caustics, sense, report, readings);
+  for (const std::size_t i : report.inside) readings[i].stderr_lx = std::numeric_limits<float>::quiet_NaN();
   const auto timer = tool.time("write");
   write_text(tool.output().empty() ? "/dev/stdout" : tool.output(),
              sensor_csv(sensors, readings, open_lx, scene.bands));
