@@ -50,12 +50,11 @@ fi
 headless=$(find lib -name '*.cpp' | sort | while read -r source; do
   [[ -f ${source%.cpp}.h ]] && continue
   case $source in
-    *_avx2.cpp | *_plain.cpp) header=${source%_*}.h ;;            # what core/processor.h chooses between
-    lib/file/tool_*.cpp) header=lib/file/tool.h ;;                # Tool
-    lib/scene/material/bsdf_*.cpp) header=lib/scene/material/bsdf.h ;;  # Bsdf
-    lib/scene/material/merl_*.cpp) header=lib/scene/material/merl.h ;;  # MerlBrdf
-    lib/splat/gl/renderer_*.cpp) header=lib/splat/gl/renderer.h ;;      # GlRenderer
-    lib/temporal/film/maker_*.cpp) header=lib/temporal/film/maker.h ;;  # FilmMaker
+    *_avx2.cpp | *_plain.cpp) header=${source%_*}.h ;; # variants
+    # parts of Tool, Bsdf, MerlBrdf, GlRenderer and FilmMaker
+    lib/file/tool_*.cpp | lib/scene/material/bsdf_*.cpp | lib/scene/material/merl_*.cpp | lib/splat/gl/renderer_*.cpp | lib/temporal/film/maker_*.cpp)
+      header=${source%_*}.h
+      while [[ ! -f $header && ${header%.h} == *_* ]]; do header=${header%_*}.h; done ;; # maker_by_rate.cpp: maker.h
     lib/scene/finalize/finalize.cpp) header=lib/scene/scene.h ;;
     *) header= ;;
   esac
