@@ -1,6 +1,8 @@
 // phos-info: says what a phos file holds and how it was made.
 #include "stage/info.h"
 
+#include "file/inspect/rows.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-info"),

@@ -1,6 +1,8 @@
 // phos-irradiance: places irradiance records and estimates them.
 #include "stage/irradiance.h"
 
+#include "scene/rays.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(

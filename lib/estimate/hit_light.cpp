@@ -10,6 +10,8 @@
 #include "direct/lamp_sampler.h"
 #include "direct/lamp_sequence.h"
 #include "estimate/events.h"
+#include "radiance/tree.h"
+#include "record/tree.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
 #include "scene/mirror/images.h"
@@ -154,9 +156,11 @@ struct HitLight::Impl {
     float distance_m = kInfinity;
     Vec3 normal{0};
   };
-  Rgb from_any(const Ray& start, Rgb throughput, const RayName& ray, std::uint32_t followed, Worker& worker,
-               Landing* landing = nullptr) const;
+  /// A Walk.
+  Rgb from_any(const Ray& start, const Rgb& throughput, const RayName& ray, std::uint32_t followed,
+               Worker& worker, Landing* landing = nullptr) const;
 
+  struct Walk;
   struct Step;
   std::optional<Rgb> recorded(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                               std::int64_t bounces_left, Worker& worker) const;
@@ -385,101 +389,158 @@ Rgb HitLight::Impl::from_images(const SurfacePoint& point, const Bsdf& bsdf, con
 /// A walk over glossy surfaces, mirrors and glass, that at each reads lamps and cache for its Lambert part.
 /// What the start's straight line sees of lamps is left out. Every other light is counted once: unbiased but
 /// for the cache.
-Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ray, std::uint32_t followed,
-                             Worker& worker, Landing* landing) const {
-  const std::uint64_t item = ray.key();
-  RandomStream random(seed, Stage::specular, item);
-  Way way(rays, start);
+struct HitLight::Impl::Walk {
+  const Impl& light;
+  Worker& worker;
+  const std::uint64_t item;
+  const std::uint32_t followed;
+  RandomStream random;
+  Way way;
+  Vec3 wo;
+  Rgb throughput;
+  std::int64_t left;
+  Rgb sum{0};
+  /// The last event: where the way began, and how it was chosen. None yet: the record's own.
+  std::optional<SurfacePoint> from{};
+  Step last{};
+  /// Flat mirrors since the record, or a place that was followed: lamps have images in them there.
+  std::vector<std::pair<std::uint32_t, bool>> mirrors{};
+  bool by_images;
+  /// So far by mirrors and glass alone: what lamps send so is caustic light.
+  bool mirrors_alone = true;
+  const bool count_all;
+
+  Walk(const Impl& impl, const Ray& start, const Rgb& part, const RayName& ray, std::uint32_t places,
+       Worker& own_worker)
+      : light(impl),
+        worker(own_worker),
+        item(ray.key()),
+        followed(places),
+        random(impl.seed, Stage::specular, item),
+        way(impl.rays, start),
+        wo(-start.direction),
+        throughput(part),
+        left(impl.bounces),
+        by_images(!impl.images.empty() && (places == 0 || impl.source.lacks_images)),
+        count_all(impl.counts_lamps_in_mirrors(places)) {}
+
+  /// Does light straight from a lamp count, where the walk finds one?
+  bool counts_lamps() const { return from && (count_all || !mirrors_alone); }
+  /// Have lamps an image in the mirrors of the walk, so that their light there is told already?
+  bool told_by_image() const;
+  void add_lambert(const SurfacePoint& at, const Vec3& towards, const Rgb& f, std::uint32_t number);
+  Step shade(const SurfacePoint& point, std::uint32_t reflection);
+  bool survives(std::uint32_t reflection);
+  void turn(const SurfacePoint& point, const Step& step);
+  void add_background();
+  void add_emitted(const SurfacePoint& next);
+  Rgb run(Landing* landing);
+};
+
+bool HitLight::Impl::Walk::told_by_image() const {
+  if (!by_images) return false;
+  std::int32_t chain = MirrorPlanes::kNone;
+  for (auto m = mirrors.rbegin(); m != mirrors.rend(); ++m) {
+    chain = light.lights.mirrors().follow(chain, m->first, m->second);
+    if (chain == MirrorPlanes::kNone) return false;
+  }
+  return true;
+}
+
+/// Light of the cache and of lamps, through a diffuse lobe f.
+void HitLight::Impl::Walk::add_lambert(const SurfacePoint& at, const Vec3& towards, const Rgb& f,
+                                       std::uint32_t number) {
+  const bool cached = light.reads_cache(left);
+  if (cached) sum += light.indirect(at, towards, f, {item, followed, number}, followed, worker);
+  if (cached && light.source.holds_direct) return;
+  ArrivingLight arriving;
+  light.lamps.sample(at, {random.uniform(), random.uniform(), random.uniform()}, arriving);
+  if (positive(arriving.lux)) sum += f * arriving.lux * light.arriving(arriving);
+}
+
+/// Adds the light at a point that is read there; the step chosen there.
+HitLight::Impl::Step HitLight::Impl::Walk::shade(const SurfacePoint& point, std::uint32_t reflection) {
+  Bsdf bsdf = way.bsdf(point);
+  Step step;
+  const std::optional<Rgb> gloss =
+      bsdf.has_gloss() ? light.recorded(point, bsdf, wo, left, worker) : std::nullopt;
+  if (gloss)
+    sum += throughput * *gloss;
+  else
+    bsdf.look_from(wo);
+  light.choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
+  if (bsdf.has_diffuse()) add_lambert(point, wo, throughput * bsdf.diffuse_reflectance() / kPi, reflection);
+  if (bsdf.transmits_diffusely()) {
+    const SurfacePoint there = point.other_side();
+    add_lambert(there, -wo, throughput * bsdf.diffuse_transmittance() / kPi, reflection | kOtherSide);
+    sum += throughput * light.from_images(there, bsdf.other_side(), -wo, left, false, random);
+  }
+  if (bsdf.has_gloss())
+    sum += throughput * light.gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
+  sum += throughput * light.from_images(point, bsdf, wo, left, gloss.has_value(), random);
+  return step;
+}
+
+/// Russian roulette, after a reflection.
+bool HitLight::Impl::Walk::survives(std::uint32_t reflection) {
+  if (reflection + 1 < kRouletteFrom) return true;
+  const float survival = std::min(kMostSurvival, max_component(glm::abs(throughput)));
+  if (!(random.uniform() < survival)) return false;
+  throughput /= survival;
+  return true;
+}
+
+/// Begins a new way, by an event.
+void HitLight::Impl::Walk::turn(const SurfacePoint& point, const Step& step) {
+  by_images = by_images && step.mirror;
+  if (by_images) mirrors.emplace_back(point.triangle, point.front);
+  from = point, last = step;
+  mirrors_alone = mirrors_alone && !(step.density > 0);
+  way = Way(light.rays, {point.leave(step.direction), step.direction});
+  wo = -step.direction;
+}
+
+/// Light of the environment, where the walk leaves the scene.
+void HitLight::Impl::Walk::add_background() {
+  if (!counts_lamps()) return;
+  sum += throughput * light.beyond(*from, last);
+  if (told_by_image()) sum -= throughput * sun_luminance(light.scene, -wo);
+}
+
+/// Light of a lamp that the walk finds, weighted against gloss_of_lamp().
+void HitLight::Impl::Walk::add_emitted(const SurfacePoint& next) {
+  const Rgb emitted = counts_lamps() ? emitted_luminance(light.scene, next, wo) : Rgb(0);
+  const std::int32_t lamp = positive(emitted) ? light.lights.light_of(next.triangle) : -1;
+  if (lamp < 0 || told_by_image()) return;
+  float weight = 1;
+  if (last.density > 0) {
+    const auto i = static_cast<std::size_t>(lamp);
+    const float cos_light = std::fabs(glm::dot(next.geometric_normal, last.direction));
+    const float other = light.lamps.probability(*from, i) *
+                        light.lights.density(i, from->position, next.triangle, next.distance_m, cos_light);
+    weight = last.density / (last.density + other);
+  }
+  sum += throughput * emitted * weight;
+}
+
+Rgb HitLight::Impl::Walk::run(Landing* landing) {
   SurfacePoint point;
   if (!way.next(point)) return Rgb(0);
-  Vec3 wo = -start.direction;
-  Rgb sum(0);
-  std::int64_t left = bounces;
-  // The last event: where the way began, and how it was chosen. None yet: the record's own.
-  std::optional<SurfacePoint> from;
-  Step last;
-  // Flat mirrors since the record, or a place that was followed: lamps have images in them there.
-  std::vector<std::pair<std::uint32_t, bool>> mirrors;
-  bool by_images = !images.empty() && (followed == 0 || source.lacks_images);
-  const auto has_image = [&] {
-    std::int32_t chain = MirrorPlanes::kNone;
-    for (auto m = mirrors.rbegin(); m != mirrors.rend(); ++m) {
-      chain = lights.mirrors().follow(chain, m->first, m->second);
-      if (chain == MirrorPlanes::kNone) return false;
-    }
-    return true;
-  };
-  // So far by mirrors and glass alone: what lamps send so is caustic light.
-  bool mirrors_alone = true;
-  const bool count_all = counts_lamps_in_mirrors(followed);
   for (std::uint32_t reflection = 0;; ++reflection) {
     if (landing && !from) landing->distance_m = point.distance_m, landing->normal = point.geometric_normal;
     random.start_bounce(reflection);
-    Bsdf bsdf = way.bsdf(point);
-    Step step;
-    const std::optional<Rgb> gloss =
-        bsdf.has_gloss() ? recorded(point, bsdf, wo, left, worker) : std::nullopt;
-    if (gloss)
-      sum += throughput * *gloss;
-    else
-      bsdf.look_from(wo);
-    choose_step(bsdf, wo, bsdf.has_gloss() && !gloss, random, step);
-    const auto add_lambert = [&](const SurfacePoint& at, const Vec3& towards, const Rgb& f,
-                                 std::uint32_t number) {
-      const bool cached = reads_cache(left);
-      if (cached) sum += indirect(at, towards, f, {item, followed, number}, followed, worker);
-      if (cached && source.holds_direct) return;
-      ArrivingLight light;
-      lamps.sample(at, {random.uniform(), random.uniform(), random.uniform()}, light);
-      if (positive(light.lux)) sum += f * light.lux * arriving(light);
-    };
-    if (bsdf.has_diffuse()) add_lambert(point, wo, throughput * bsdf.diffuse_reflectance() / kPi, reflection);
-    if (bsdf.transmits_diffusely()) {
-      const SurfacePoint there = point.other_side();
-      add_lambert(there, -wo, throughput * bsdf.diffuse_transmittance() / kPi, reflection | kOtherSide);
-      sum += throughput * from_images(there, bsdf.other_side(), -wo, left, false, random);
-    }
-    if (bsdf.has_gloss()) sum += throughput * gloss_of_lamp(point, bsdf, wo, step.gloss_probability, random);
-    sum += throughput * from_images(point, bsdf, wo, left, gloss.has_value(), random);
+    const Step step = shade(point, reflection);
     if (!step.taken) break;
-
     throughput *= step.weight;
-    if (reflection + 1 >= kRouletteFrom) {
-      const float survival = std::min(kMostSurvival, max_component(glm::abs(throughput)));
-      if (!(random.uniform() < survival)) break;
-      throughput /= survival;
-    }
-    if (!step.straight) {
-      by_images = by_images && step.mirror;
-      if (by_images) mirrors.emplace_back(point.triangle, point.front);
-      from = point, last = step;
-      mirrors_alone = mirrors_alone && !(step.density > 0);
-      way = Way(rays, {point.leave(step.direction), step.direction});
-      wo = -step.direction;
-    }
+    if (!survives(reflection)) break;
+    if (!step.straight) turn(point, step);
     SurfacePoint next;
     if (!way.next(next)) {
-      if (from && (count_all || !mirrors_alone)) {
-        sum += throughput * beyond(*from, last);
-        if (by_images && has_image()) sum -= throughput * sun_luminance(scene, -wo);
-      }
+      add_background();
       if (landing && !from) landing->distance_m = kInfinity, landing->normal = wo;
       break;
     }
-    const bool counts = from && (count_all || !mirrors_alone);
-    const Rgb emitted = counts ? emitted_luminance(scene, next, wo) : Rgb(0);
-    const std::int32_t lamp = positive(emitted) ? lights.light_of(next.triangle) : -1;
-    if (lamp >= 0 && !(by_images && has_image())) {
-      float weight = 1;
-      if (last.density > 0) {
-        const auto i = static_cast<std::size_t>(lamp);
-        const float cos_light = std::fabs(glm::dot(next.geometric_normal, last.direction));
-        const float other = lamps.probability(*from, i) *
-                            lights.density(i, from->position, next.triangle, next.distance_m, cos_light);
-        weight = last.density / (last.density + other);
-      }
-      sum += throughput * emitted * weight;
-    }
+    add_emitted(next);
     if (!step.straight) {
       if (left == 1) break;
       if (left > 0) --left;
@@ -492,6 +553,11 @@ Rgb HitLight::Impl::from_any(const Ray& start, Rgb throughput, const RayName& ra
     point = next;
   }
   return sum;
+}
+
+Rgb HitLight::Impl::from_any(const Ray& start, const Rgb& throughput, const RayName& ray,
+                             std::uint32_t followed, Worker& worker, Landing* landing) const {
+  return Walk(*this, start, throughput, ray, followed, worker).run(landing);
 }
 
 HitLight::HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

@@ -15,6 +15,7 @@
 #include "estimate/record_options.h"
 #include "radiance/gloss_cache.h"
 #include "record/far_records.h"
+#include "record/tree.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
 

@@ -7,6 +7,7 @@
 #include "core/origin.h"
 #include "core/sampling.h"
 #include "estimate/harmonics/light_sums.h"
+#include "estimate/hemisphere/ray_gradients.h"
 #include "estimate/radiance_error.h"
 #include "estimate/record_of.h"
 #include "hsh/rotation.h"

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/origin.h"
+#include "estimate/hemisphere/ray_gradients.h"
 
 namespace phos::inline estimate {
 namespace {

@@ -5,6 +5,8 @@
 #include "core/sampling.h"
 #include "core/sequence_error.h"
 #include "estimate/events.h"
+#include "radiance/tree.h"
+#include "record/tree.h"
 #include "scene/mirror/images.h"
 
 namespace phos::inline estimate {

@@ -13,6 +13,7 @@
 #include "file/kinds/sound.h"
 #include "file/layout.h"
 #include "file/mapped_file.h"
+#include "file/provenance.h"
 
 namespace phos::inline file {
 

@@ -9,6 +9,7 @@
 
 #include "file/container.h"
 #include "file/limits.h"
+#include "file/provenance.h"
 
 namespace phos::inline file {
 

@@ -1,3 +1,5 @@
+#include "file/provenance.h"
+
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>

@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "hsh/turn/hsh_turn.h"
 #include "hsh/turn/kernel.h"
-#include "hsh/turn/turn.h"
+#include "hsh/turn/sh_turn.h"
 
 namespace phos::inline hsh {
 namespace {

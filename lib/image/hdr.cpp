@@ -1,10 +1,11 @@
+#include "image/hdr.h"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "core/error.h"
-#include "image/formats.h"
 #include "image/primaries.h"
 
 namespace phos::inline image {

@@ -9,7 +9,10 @@
 #include "core/parallel.h"
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
-#include "image/formats.h"
+#include "image/exr/decode.h"
+#include "image/exr/encode.h"
+#include "image/hdr.h"
+#include "image/png.h"
 
 namespace phos::inline image {
 

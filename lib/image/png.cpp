@@ -1,7 +1,8 @@
+#include "image/png.h"
+
 #include <png.h>
 
 #include "core/error.h"
-#include "image/formats.h"
 
 namespace phos::inline image {
 

@@ -45,16 +45,4 @@ Json bounds_to_json(std::span<const Vec3> position);
 void append(Photons& to, const Photons& from);
 void append(Flights& to, const FlightColumns& from);
 
-/// Every shard of one run, each once, in any order.
-struct MergedShards {
-  Photons photons;  ///< in path order
-  PhotonTotals totals;
-  Provenance provenance;  ///< of the whole run
-};
-/// Throws Error(mismatch) for shards of different runs, a shard given twice, or one that is missing (naming
-/// it); Error(bad_input) for damaged files and for files that are no shards.
-MergedShards read_shards(const std::vector<std::string>& paths);
-/// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
-std::string key_of_merged(const std::vector<std::string>& paths);
-
 }  // namespace phos::inline photon

@@ -147,8 +147,4 @@ class PhotonMap {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A shard: photons in path order, no tree. `shard` is "i/n".
-void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
-                 const std::string& shard, Provenance provenance);
-
 }  // namespace phos::inline photon

@@ -1,4 +1,5 @@
-// Shards: the parts of one run, and their union.
+#include "photon/photon_shards.h"
+
 #include "core/error.h"
 #include "file/shards.h"
 #include "photon/photon_file.h"

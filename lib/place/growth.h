@@ -11,6 +11,7 @@
 #include "estimate/record_options.h"
 #include "place/neighbour_clamp.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 
 namespace phos::inline place {
 

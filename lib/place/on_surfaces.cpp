@@ -1,4 +1,5 @@
-// Records on every surface.
+#include "place/on_surfaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -14,6 +15,7 @@
 #include "place/growth.h"
 #include "place/parallel_maker.h"
 #include "place/placement.h"
+#include "place/placement_options.h"
 #include "place/refinement.h"
 #include "place/surface_sides.h"
 

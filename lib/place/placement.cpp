@@ -11,6 +11,7 @@
 #include "place/events.h"
 #include "place/growth.h"
 #include "place/parallel_maker.h"
+#include "place/placement_options.h"
 
 namespace phos::inline place {
 namespace {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "place/modes.h"
 
 namespace phos::inline place {
 namespace {

@@ -11,7 +11,9 @@
 #include "estimate/estimator.h"
 #include "estimate/radiance_record.h"
 #include "estimate/record_options.h"
+#include "place/modes.h"
 #include "place/placement.h"
+#include "place/placement_options.h"
 #include "radiance/cache.h"
 #include "radiance/gloss_tables.h"
 

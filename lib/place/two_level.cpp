@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "estimate/density.h"
 #include "place/placement.h"
+#include "record/tree.h"
 
 namespace phos::inline place {
 namespace {

@@ -10,6 +10,7 @@
 #include "photon/photon_noise.h"
 #include "radiance/gloss_cache.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "scene/rays.h"
 
 namespace phos::inline place {

@@ -9,7 +9,9 @@
 #include "core/sampling.h"
 #include "direct/direct_light.h"
 #include "photon/trace.h"
-#include "place/placement.h"
+#include "place/modes.h"
+#include "place/placement_options.h"
+#include "place/view_candidates.h"
 #include "scene/load.h"
 
 namespace phos::inline place {

@@ -1,4 +1,5 @@
-// Visible points of a picture, coarse to fine.
+#include "place/view_candidates.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,5 @@
-// A plan for programs.
+#include "plan/json.h"
+
 #include "plan/text.h"
 
 namespace phos::inline plan {

@@ -8,7 +8,7 @@
 #include "file/folder.h"
 #include "plan/calibration.h"
 #include "scene/limits.h"
-#include "scene/opening/find_portals.h"
+#include "scene/opening/portals_about_rooms.h"
 #include "scene/rays.h"
 
 namespace phos::inline plan {

@@ -8,6 +8,7 @@
 #include "file/folder.h"
 #include "file/write_text.h"
 #include "plan/calibration.h"
+#include "plan/json.h"
 #include "plan/runner.h"
 #include "plan/text.h"
 

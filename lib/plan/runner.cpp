@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "file/write_text.h"
+#include "study/measure_lux.h"
 
 namespace phos::inline plan {
 namespace {

@@ -17,11 +17,6 @@ std::string prediction_line(const Prediction& prediction);
 std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& pilot, const PlanGoal& goal,
                         const Plan& plan, std::uint64_t seed, const std::string& measured = "");
 
-/// The same for programs: goal, requirements, settings, predictions, models, commands ("{scene}" and
-/// "{folder}" stand for paths).
-Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, const PlanGoal& goal,
-               const Plan& plan, std::uint64_t seed);
-
 /// What is meant by error, for --help and for scripts.
 extern const char* const kErrorMeaning;
 

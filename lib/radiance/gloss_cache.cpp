@@ -1,6 +1,7 @@
 #include "radiance/gloss_cache.h"
 
 #include "hsh/basis.h"
+#include "radiance/tree.h"
 
 namespace phos::inline radiance {
 namespace {

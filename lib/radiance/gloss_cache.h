@@ -6,6 +6,7 @@
 
 #include "radiance/cache.h"
 #include "radiance/gloss_tables.h"
+#include "radiance/tree.h"
 
 namespace phos::inline radiance {
 

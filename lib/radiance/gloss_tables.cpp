@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text/quantity.h"
+#include "radiance/brdf/projection.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/models.h"
 

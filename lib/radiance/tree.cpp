@@ -1,4 +1,5 @@
-// Interpolation between radiance records.
+#include "radiance/tree.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,6 +7,7 @@
 #include "hsh/rotation.h"
 #include "radiance/cache.h"
 #include "radiance/lobe_dot.h"
+#include "record/tree.h"
 
 namespace phos::inline radiance {
 namespace {

@@ -1,5 +1,7 @@
 #include "record/far_records.h"
 
+#include "record/tree.h"
+
 namespace phos::inline record {
 
 const RecordTree& FarRecords::wide(std::size_t i, RecordTree::Widen widen) const {

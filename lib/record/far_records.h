@@ -7,6 +7,8 @@
 
 #include "record/irradiance_cache.h"
 
+#include "record/tree.h"
+
 namespace phos::inline record {
 
 /// Looks beyond the records' reach: to twice as far, then to four times. What is found is less exact than the

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "core/error.h"
+#include "record/tree.h"
 
 namespace phos::inline record {
 

@@ -1,5 +1,7 @@
 // Octree of records after Ward, Rubinstein, Clear (1988): a record hangs in every cell of about its own size
 // that its zone of influence touches, so that a query walks one path from the root.
+#include "record/tree.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

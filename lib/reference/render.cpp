@@ -11,6 +11,7 @@
 #include "reference/events.h"
 #include "reference/moments.h"
 #include "reference/passes.h"
+#include "reference/render_options.h"
 #include "reference/sample_shares.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/sharp_materials.h"

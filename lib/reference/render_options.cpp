@@ -1,4 +1,5 @@
-#include "reference/render.h"
+#include "reference/render_options.h"
+
 #include "scene/limits.h"
 #include "scene/picture.h"
 

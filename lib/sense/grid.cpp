@@ -13,6 +13,7 @@
 #include "direct/direct_light.h"
 #include "scene/inside_solid.h"
 #include "sense/limits.h"
+#include "sense/sensor_points.h"
 
 namespace phos::inline sense {
 namespace {

@@ -1,4 +1,5 @@
-// Sensors from text.
+#include "sense/sensor_points.h"
+
 #include <iostream>
 #include <istream>
 #include <iterator>

@@ -1,4 +1,5 @@
-// What sensors read, as text: a table, and a summary.
+#include "sense/sensor_table.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -15,6 +15,7 @@
 #include "place/two_level.h"
 #include "place/typical_distance.h"
 #include "radiance/cache.h"
+#include "record/tree.h"
 #include "scene/inside_solid.h"
 
 namespace phos::inline sense {

@@ -14,6 +14,7 @@
 #include "core/json.h"
 #include "place/candidates.h"
 #include "record/index.h"
+#include "record/tree.h"
 #include "scene/lamp/luminaires.h"
 
 namespace phos::inline sense {
@@ -26,11 +27,6 @@ struct Sensors {
   std::optional<double> level_m;      ///< of a workplane, in the world
   DVec3 origin_m{0};                  ///< of the scene: points are counted from there, tables are not
 };
-
-/// Sensors from a text file (parse_points), "-" is stdin; `origin_m` is the scene's.
-Sensors read_sensors(const std::string& path, const DVec3& origin_m = DVec3(0));
-/// The same from text; `where` is its name in messages.
-Sensors parse_sensors(std::string_view text, const std::string& where, const DVec3& origin_m = DVec3(0));
 
 struct Reading {
   float illuminance_lx = 0, stderr_lx = 0;
@@ -123,21 +119,5 @@ struct Whole {
 std::vector<Reading> read_light_exactly(const Sensors& sensors, const RayScene& rays,
                                         const Luminaires& lights, std::span<const Whole> whole,
                                         const SensorOptions& options, SensorReport& report);
-
-/// id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx and a line for each sensor, shortest numbers, in
-/// pieces that follow each other. With the illuminance in the open also
-/// daylight_factor_percent,daylight_factor_stderr_percent: E and stderr as shares of it. In bands, E and all
-/// else are of the light in the triplet's bands, and there is band_K_of_N_lx for each of them (K from 1),
-/// their shares of E.
-std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Reading> readings,
-                                    std::optional<double> open_lx = std::nullopt,
-                                    const BandTriplet& bands = {});
-
-/// number, mean_lx, min_lx, max_lx, U0 = min/mean, Ud = min/max (absent where everything is dark or there is
-/// no sensor).
-Json summarise(std::span<const Reading> readings);
-
-/// A summary (which may also hold the level_m of a workplane) in a line for people.
-std::string summary_line(const Json& summary);
 
 }  // namespace phos::inline sense

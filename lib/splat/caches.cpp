@@ -1,6 +1,7 @@
 #include "splat/caches.h"
 
 #include "core/error.h"
+#include "radiance/brdf/file.h"
 #include "temporal/film/inputs.h"
 
 namespace phos::inline splat {

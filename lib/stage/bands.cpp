@@ -7,7 +7,9 @@
 #include "file/mapped_file.h"
 #include "image/image.h"
 #include "image/image_provenance.h"
-#include "scene/spectral/join_bands.h"
+#include "scene/spectral/join_parts.h"
+#include "scene/spectral/join_pictures.h"
+#include "scene/spectral/join_readings.h"
 
 namespace phos::stage {
 namespace {

@@ -4,6 +4,8 @@
 
 #include "file/atomic_file.h"
 #include "radiance/brdf/bases.h"
+#include "radiance/brdf/file.h"
+#include "radiance/brdf/projection.h"
 #include "radiance/brdf/report.h"
 #include "scene/report/describe.h"
 

@@ -1,6 +1,8 @@
 #include "stage/info.h"
 
 #include "file/atomic_file.h"
+#include "file/inspect/inspect.h"
+#include "file/inspect/rows.h"
 
 namespace phos::stage {
 namespace {

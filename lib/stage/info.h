@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "file/inspect/inspect.h"
+#include "file/inspect/rows.h"
 #include "file/tool.h"
 
 namespace phos::stage {

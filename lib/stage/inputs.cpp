@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "file/hash.h"
 #include "file/mapped_file.h"
+#include "temporal/film/file.h"
 #include "temporal/film/inputs.h"
 
 namespace phos::stage {

@@ -6,7 +6,7 @@
 
 #include "estimate/record_options.h"
 #include "file/tool.h"
-#include "place/placement.h"
+#include "place/placement_options.h"
 #include "scene/load.h"
 
 namespace phos::stage {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "photon/photon_file.h"
 #include "photon/photon_map.h"
+#include "photon/photon_shards.h"
 #include "place/parts.h"
 
 namespace phos::stage {

@@ -6,6 +6,7 @@
 #include "core/text/quantity.h"
 #include "photon/events.h"
 #include "photon/photon_map.h"
+#include "photon/photon_shards.h"
 #include "scene/rays.h"
 #include "scene/sky/access.h"
 

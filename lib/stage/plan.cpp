@@ -6,6 +6,7 @@
 #include "file/write_text.h"
 #include "place/typical_distance.h"
 #include "plan/direct.h"
+#include "plan/json.h"
 #include "plan/run.h"
 #include "plan/text.h"
 #include "plan/usual.h"

@@ -5,6 +5,7 @@
 
 #include "estimate/record_ways.h"
 #include "file/adoption.h"
+#include "place/modes.h"
 #include "place/points_on_surfaces.h"
 #include "place/radiance_report.h"
 #include "place/read_points.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "file/tool.h"
-#include "place/placement.h"
+#include "place/placement_options.h"
 #include "place/radiance_placement.h"
 #include "radiance/gloss_tables.h"
 #include "scene/load.h"

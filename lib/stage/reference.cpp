@@ -9,6 +9,7 @@
 #include "image/without_errors.h"
 #include "reference/events.h"
 #include "reference/measure_points.h"
+#include "reference/render.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "file/tool.h"
-#include "reference/render.h"
+#include "reference/render_options.h"
 #include "scene/load.h"
 
 namespace phos::stage {

@@ -5,6 +5,7 @@
 #include "radiance/gloss_report.h"
 #include "scene/luminaire/photometric_file.h"
 #include "scene/report/describe.h"
+#include "scene/report/describe_text.h"
 #include "scene/report/lint.h"
 
 namespace phos::stage {

@@ -9,6 +9,7 @@
 #include "scene/motion/film.h"
 #include "scene/sky/daylight.h"
 #include "sense/daylight_factor.h"
+#include "sense/sensor_table.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "temporal/film/inputs.h"

@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "image/image_provenance.h"
 #include "image/without_errors.h"
+#include "radiance/brdf/projection.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
 #include "scene/rays.h"

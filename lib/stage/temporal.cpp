@@ -2,10 +2,12 @@
 
 #include "estimate/record_ways.h"
 #include "place/typical_distance.h"
+#include "radiance/brdf/file.h"
 #include "radiance/gloss_report.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
+#include "temporal/film/file.h"
 #include "temporal/film/inputs.h"
 #include "temporal/film/report.h"
 

@@ -1,3 +1,5 @@
+#include "study/measure_lux.h"
+
 #include <algorithm>
 #include <cmath>
 

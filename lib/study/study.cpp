@@ -6,8 +6,11 @@
 #include "file/write_text.h"
 #include "scene/note.h"
 #include "study/html/page.h"
+#include "study/results/csv.h"
+#include "study/results/json.h"
 #include "study/results/plots.h"
 #include "study/results/results.h"
+#include "study/results/runs.h"
 #include "study/spec/check.h"
 
 namespace phos::inline study {

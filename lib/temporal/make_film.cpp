@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "place/modes.h"
 
 namespace phos::inline temporal {
 namespace {

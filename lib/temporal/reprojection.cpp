@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/sampling.h"
+#include "estimate/hemisphere/ray_gradients.h"
 
 namespace phos::inline temporal {
 namespace {

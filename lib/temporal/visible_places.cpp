@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "place/view_candidates.h"
+#include "record/tree.h"
 #include "scene/load.h"
 #include "scene/picture.h"
 

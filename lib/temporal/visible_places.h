@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "place/placement.h"
+#include "place/placement_options.h"
+#include "record/tree.h"
 #include "temporal/frame_light.h"
 
 namespace phos::inline temporal {

@@ -7,6 +7,7 @@
 #include "estimate/hemisphere/footprint_fit.h"
 #include "record/footprint_columns.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "support/environment.h"
 #include "support/gathered.h"
 #include "support/golden_table.h"

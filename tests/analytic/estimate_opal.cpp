@@ -4,6 +4,7 @@
 
 #include "estimate/shading.h"
 #include "place/two_level.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 #include "support/opal.h"
 #include "support/records.h"

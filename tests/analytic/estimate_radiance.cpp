@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/radiance_gather.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 #include "support/radiance_scenes.h"
 

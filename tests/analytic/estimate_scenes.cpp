@@ -4,6 +4,8 @@
 
 #include "support/records.h"
 
+#include "record/tree.h"
+
 namespace phos {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "estimate/radiance_density.h"
 #include "estimate/radiance_gather.h"
+#include "place/modes.h"
 #include "place/radiance_placement.h"
 #include "place/two_level.h"
 #include "radiance/gloss_cache.h"

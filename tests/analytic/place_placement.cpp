@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "place/on_surfaces.h"
 #include "place/surface_sides.h"
 #include "support/estimators.h"
 #include "support/scenes.h"

@@ -6,7 +6,8 @@
 
 #include "core/random.h"
 #include "photon/trace.h"
-#include "place/placement.h"
+#include "place/modes.h"
+#include "place/placement_options.h"
 #include "place/typical_distance.h"
 #include "support/scenes.h"
 

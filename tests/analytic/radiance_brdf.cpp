@@ -7,6 +7,7 @@
 #include "hsh/projection.h"
 #include "hsh/rotation.h"
 #include "radiance/brdf/lobe_projection.h"
+#include "radiance/brdf/projection.h"
 #include "radiance/brdf/table.h"
 #include "scene/material/bsdf.h"
 #include "support/golden_table.h"

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "support/scenes.h"
 
 namespace phos::test {

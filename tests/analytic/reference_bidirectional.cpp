@@ -8,6 +8,7 @@
 #include "core/sampling.h"
 #include "reference/bidirectional_points.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/reference.h"
 #include "support/scenes.h"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "scene/load.h"
 
 namespace {

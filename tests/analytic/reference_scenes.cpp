@@ -8,6 +8,7 @@
 #include "core/sampling.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/cutouts.h"
 #include "support/reference.h"
 #include "support/scenes.h"

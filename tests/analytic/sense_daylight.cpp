@@ -5,6 +5,7 @@
 #include "direct/direct_light.h"
 #include "scene/opening/find_portals.h"
 #include "sense/daylight_factor.h"
+#include "sense/sensor_table.h"
 #include "support/daylight.h"
 
 namespace phos::test {

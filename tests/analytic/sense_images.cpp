@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/shading.h"
+#include "record/tree.h"
 #include "sense/sensors.h"
 #include "support/gathered.h"
 #include "support/one_material.h"

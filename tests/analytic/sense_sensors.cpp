@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "sense/grid.h"
+#include "sense/sensor_table.h"
 #include "support/cutouts.h"
 #include "support/sensors.h"
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "estimate/shading.h"
+#include "record/tree.h"
 #include "scene/lamp/form.h"
 #include "scene/picture.h"
 #include "splat/direct/edge_light.h"
 #include "splat/direct/interleaved.h"
+#include "splat/gl/renderer.h"
 #include "support/daylight.h"
 #include "support/splat_scenes.h"
 

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "hsh/projection.h"
+#include "radiance/brdf/projection.h"
 #include "splat/direct/environment_harmonics.h"
 #include "splat/picture/render.h"
 #include "support/environment.h"

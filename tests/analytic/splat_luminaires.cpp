@@ -3,7 +3,9 @@
 
 #include "direct/direct_light.h"
 #include "estimate/shading.h"
+#include "record/tree.h"
 #include "splat/direct/interleaved.h"
+#include "splat/gl/renderer.h"
 #include "support/luminaires.h"
 #include "support/splat_scenes.h"
 

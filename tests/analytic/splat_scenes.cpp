@@ -4,6 +4,8 @@
 
 #include "support/splat_scenes.h"
 
+#include "splat/gl/renderer.h"
+
 namespace phos::test {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "record/tree.h"
 #include "support/records.h"
 
 namespace phos {

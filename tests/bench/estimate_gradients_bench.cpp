@@ -3,6 +3,8 @@
 
 #include "support/gradient_scenes.h"
 
+#include "estimate/hemisphere/ray_gradients.h"
+
 namespace phos {
 namespace {
 

@@ -6,6 +6,8 @@
 #include "estimate/radiance_gather.h"
 #include "hsh/conversion.h"
 #include "hsh/rotation.h"
+#include "radiance/brdf/projection.h"
+#include "radiance/tree.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 #include "support/radiance_records.h"

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "hsh/conversion.h"
 #include "hsh/rotation.h"
-#include "hsh/turn/turn.h"
+#include "hsh/turn/hsh_turn.h"
 
 namespace phos {
 namespace {

@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "estimate/radiance_gather.h"
+#include "place/modes.h"
 #include "place/radiance_placement.h"
 #include "place/two_level.h"
+#include "place/view_candidates.h"
 #include "radiance/gloss_cache.h"
 #include "support/records.h"
 

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "radiance/brdf/lobe_projection.h"
+#include "radiance/brdf/projection.h"
 #include "radiance/brdf/table.h"
 #include "support/one_material.h"
 #include "support/reflections.h"

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "core/parallel.h"
+#include "record/tree.h"
+#include "sense/sensor_table.h"
 #include "support/sensors.h"
 
 namespace phos::test {

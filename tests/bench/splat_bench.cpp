@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
+#include "splat/gl/renderer.h"
 #include "splat/tiles.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/gloss_scenes.h"
 #include "support/splat_records.h"
 

@@ -5,6 +5,8 @@
 
 #include "support/films.h"
 
+#include "temporal/film/file.h"
+
 namespace phos::test {
 namespace {
 

@@ -7,6 +7,7 @@
 #include "estimate/events.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 #include "place/two_level.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 #include "support/records.h"
 

@@ -4,6 +4,7 @@
 
 #include "estimate/radiance_gather.h"
 #include "radiance/gloss_cache.h"
+#include "radiance/tree.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 #include "support/quad.h"

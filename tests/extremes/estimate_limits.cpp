@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "record/tree.h"
 #include "support/hand_photons.h"
 #include "support/records.h"
 

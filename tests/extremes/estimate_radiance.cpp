@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "estimate/radiance_gather.h"
+#include "radiance/tree.h"
 #include "support/gathered.h"
 #include "support/radiance_records.h"
 #include "support/radiance_scenes.h"

@@ -7,7 +7,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "image/formats.h"
+#include "image/exr/decode.h"
+#include "image/exr/encode.h"
+#include "image/hdr.h"
+#include "image/png.h"
 #include "support/run.h"
 
 namespace phos {

@@ -3,7 +3,7 @@
 // with less memory.
 #include <random>
 
-#include "image/formats.h"
+#include "image/exr/encode.h"
 #include "support/little_memory.h"
 #include "support/run.h"
 

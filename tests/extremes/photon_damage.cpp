@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "photon/photon_file.h"
+#include "photon/photon_shards.h"
 #include "photon/tree/kd_tree.h"
 #include "support/complaint.h"
 #include "support/hand_photons.h"

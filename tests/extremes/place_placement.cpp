@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "place/modes.h"
+#include "place/placement_options.h"
 #include "support/estimators.h"
 #include "support/scenes.h"
 #include "support/surface_points.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/radiance_gather.h"
+#include "place/modes.h"
 #include "place/radiance_report.h"
 #include "support/gathered.h"
 #include "support/glossy_room.h"

@@ -5,6 +5,7 @@
 #include "core/float_traps.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/scenes.h"
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/sweep.h"
 
 namespace phos::test {

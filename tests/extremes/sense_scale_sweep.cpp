@@ -5,6 +5,7 @@
 #include "direct/direct_light.h"
 #include "estimate/radiance_gather.h"
 #include "record/footprint.h"
+#include "record/tree.h"
 #include "sense/sensors.h"
 #include "support/daylight.h"
 #include "support/gathered.h"

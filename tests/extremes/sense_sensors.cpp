@@ -4,6 +4,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "sense/grid.h"
+#include "sense/sensor_points.h"
+#include "sense/sensor_table.h"
 #include "support/sensors.h"
 
 namespace phos::test {

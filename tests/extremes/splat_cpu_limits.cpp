@@ -1,7 +1,7 @@
 // The CPU splatter where a radius, a gradient or a picture is at its limit.
 #include <gtest/gtest.h>
 
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 

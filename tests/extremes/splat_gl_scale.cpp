@@ -3,7 +3,8 @@
 
 #include <cstdlib>
 
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 

@@ -6,6 +6,7 @@
 #include "radiance/check.h"
 #include "record/check.h"
 #include "splat/gl/hemisphere_raster.h"
+#include "splat/gl/renderer.h"
 #include "splat/picture/render.h"
 #include "support/raster.h"
 #include "support/splat_records.h"

@@ -11,6 +11,7 @@
 
 #include "support/complaint.h"
 #include "support/films.h"
+#include "temporal/film/file.h"
 
 namespace phos {
 namespace {

@@ -5,13 +5,18 @@
 #include <filesystem>
 
 #include "core/random.h"
-#include "image/formats.h"
+#include "image/exr/encode.h"
+#include "image/hdr.h"
+#include "image/png.h"
 #include "photon/photon_map.h"
+#include "photon/photon_shards.h"
 #include "place/parts.h"
+#include "radiance/brdf/file.h"
 #include "radiance/brdf/table.h"
 #include "support/films.h"
 #include "support/gltf.h"
 #include "support/run.h"
+#include "temporal/film/file.h"
 #include "temporal/journal.h"
 
 namespace phos {

@@ -1,4 +1,5 @@
 // Lobes of materials.
+#include "radiance/brdf/file.h"
 #include "radiance/brdf/table.h"
 #include "reading.h"
 

@@ -2,6 +2,7 @@
 #include "file/container.h"
 #include "file/hash.h"
 #include "file/inspect/inspect.h"
+#include "file/inspect/rows.h"
 #include "reading.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Pictures of light: OpenEXR.
-#include "image/formats.h"
+#include "image/exr/decode.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

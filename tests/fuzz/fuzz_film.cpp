@@ -1,6 +1,6 @@
 // Records of films, and the cache that they are at a frame.
 #include "reading.h"
-#include "temporal/film/cache.h"
+#include "temporal/film/file.h"
 
 namespace {
 

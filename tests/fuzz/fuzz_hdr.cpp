@@ -1,5 +1,5 @@
 // Pictures of light: Radiance .hdr.
-#include "image/formats.h"
+#include "image/hdr.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

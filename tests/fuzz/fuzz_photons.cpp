@@ -1,6 +1,6 @@
 // A map of photons, with its kd-tree, or a shard of one: what a stage that gathers photons reads.
-#include "photon/photon_file.h"
 #include "photon/photon_map.h"
+#include "photon/photon_shards.h"
 #include "reading.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Pictures to look at: PNG.
-#include "image/formats.h"
+#include "image/png.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

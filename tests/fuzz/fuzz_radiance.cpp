@@ -1,5 +1,6 @@
 // Radiance records.
 #include "radiance/cache.h"
+#include "radiance/tree.h"
 #include "reading.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,6 +2,7 @@
 # Checks of the sources themselves: check_tree.sh ROOT
 #   one name, one type    no two headers of lib define a type of the same name (the one-definition rule)
 #   one module, one space a file of lib/x opens the namespace phos::x and no other but for forward declarations; core's types stand in phos
+#   header and source      every source of lib has a header of its name beside it, but for those listed below
 #   folders of one idea   no folder of lib holds more than 40 sources
 set -euo pipefail
 cd "$1"
@@ -42,6 +43,26 @@ crowded=$(find lib \( -name '*.h' -o -name '*.cpp' -o -name '*.inc' \) -printf '
 if [[ -n $crowded ]]; then
   echo "folders of more than 40 sources:"
   echo "$crowded"
+  failed=1
+fi
+# Sources without a header of their own: variants of one header by instruction set, parts of one class, and finalize(),
+# which scene/scene.h declares.
+headless=$(find lib -name '*.cpp' | sort | while read -r source; do
+  [[ -f ${source%.cpp}.h ]] && continue
+  case $source in
+    *_avx2.cpp | *_plain.cpp) header=${source%_*}.h ;; # variants
+    # parts of Tool, Bsdf, MerlBrdf, GlRenderer and FilmMaker
+    lib/file/tool_*.cpp | lib/scene/material/bsdf_*.cpp | lib/scene/material/merl_*.cpp | lib/splat/gl/renderer_*.cpp | lib/temporal/film/maker_*.cpp)
+      header=${source%_*}.h
+      while [[ ! -f $header && ${header%.h} == *_* ]]; do header=${header%_*}.h; done ;; # maker_by_rate.cpp: maker.h
+    lib/scene/finalize/finalize.cpp) header=lib/scene/scene.h ;;
+    *) header= ;;
+  esac
+  [[ -n $header && -f $header ]] || echo "  $source"
+done)
+if [[ -n $headless ]]; then
+  echo "sources without a header of the same name:"
+  echo "$headless"
   failed=1
 fi
 exit $failed

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/radiance_gather.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "estimate/hemisphere/ray_gradients.h"
 #include "photon/hull.h"
 #include "support/golden.h"
 #include "support/golden_table.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "record/tree.h"
 #include "support/hand_photons.h"
 #include "support/records.h"
 

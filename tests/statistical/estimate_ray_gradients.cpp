@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "estimate/hemisphere/ray_gradients.h"
 #include "support/golden_table.h"
 #include "support/gradient_scenes.h"
 

@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "place/two_level.h"
+#include "record/tree.h"
 #include "support/hand_photons.h"
 #include "support/records.h"
 #include "support/zone_borders.h"

@@ -3,6 +3,7 @@
 
 #include "reference/moments.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/scenes.h"
 
 namespace {

@@ -4,6 +4,7 @@
 #include "reference/moments.h"
 #include "reference/point_irradiance.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/scenes.h"
 
 namespace {

@@ -14,6 +14,8 @@
 #include "file/csv.h"
 #include "place/two_level.h"
 #include "radiance/cache.h"
+#include "radiance/tree.h"
+#include "record/tree.h"
 #include "scene/load.h"
 #include "sense/sensors.h"
 #include "support/records.h"

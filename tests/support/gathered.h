@@ -8,6 +8,7 @@
 #include "core/float_traps.h"
 #include "estimate/gather.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "support/scenes.h"
 
 namespace phos::test {

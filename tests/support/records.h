@@ -6,6 +6,7 @@
 #include "estimate/density.h"
 #include "photon/trace.h"
 #include "place/placement.h"
+#include "place/placement_options.h"
 #include "support/golden_table.h"
 #include "support/scenes.h"
 

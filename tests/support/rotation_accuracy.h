@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "hsh/basis.h"
 #include "hsh/quadrature.h"
-#include "hsh/turn/turn.h"
+#include "hsh/turn/hsh_turn.h"
 
 namespace phos::test {
 

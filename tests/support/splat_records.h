@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 #include "record/irradiance_cache.h"
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
 
 namespace phos::test {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
 #include "support/records.h"
 
 namespace phos::test {

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "scene/rays.h"
 
 namespace phos::test {

@@ -7,6 +7,7 @@
 #include "direct/lamp_sampler.h"
 #include "estimate/record_of.h"
 #include "place/two_level.h"
+#include "record/tree.h"
 #include "support/gathered.h"
 
 namespace phos {

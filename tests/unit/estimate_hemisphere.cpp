@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimate/hemisphere/ray_gradients.h"
 #include "support/gradient_scenes.h"
 #include "support/scenes.h"
 

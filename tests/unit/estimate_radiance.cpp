@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "estimate/radiance_gather.h"
+#include "radiance/brdf/projection.h"
+#include "radiance/tree.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 #include "support/radiance_records.h"

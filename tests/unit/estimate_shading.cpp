@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/shading.h"
+#include "record/tree.h"
 #include "support/one_material.h"
 #include "support/scenes.h"
 

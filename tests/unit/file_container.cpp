@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "file/atomic_file.h"
 #include "file/json_parse.h"
+#include "file/provenance.h"
 #include "support/container.h"
 #include "support/run.h"
 

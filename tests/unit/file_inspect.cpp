@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "file/inspect/rows.h"
 #include "support/container.h"
 #include "support/run.h"
 

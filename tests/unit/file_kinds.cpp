@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "file/kinds/page.h"
 #include "file/kinds/shape_pattern.h"
+#include "file/kinds/tables.h"
 #include "file/kinds/tensor_io.h"
 #include "support/complaint.h"
 #include "support/run.h"

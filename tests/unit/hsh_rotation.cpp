@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "hsh/projection.h"
+#include "hsh/turn/hsh_turn.h"
 #include "hsh/turn/kernel.h"
-#include "hsh/turn/turn.h"
 #include "support/golden_table.h"
 
 namespace phos {

@@ -10,7 +10,10 @@
 #include "core/json.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "image/formats.h"
+#include "image/exr/decode.h"
+#include "image/exr/encode.h"
+#include "image/hdr.h"
+#include "image/png.h"
 #include "image/primaries.h"
 #include "support/run.h"
 

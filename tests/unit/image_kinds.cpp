@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "image/formats.h"
+#include "image/exr/decode.h"
+#include "image/exr/encode.h"
+#include "image/hdr.h"
 #include "image/primaries.h"
 #include "support/complaint.h"
 #include "support/run.h"

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "photon/photon_file.h"
+#include "photon/photon_shards.h"
 #include "photon/trace.h"
 #include "support/run.h"
 #include "support/scenes.h"

@@ -9,6 +9,9 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "place/growth.h"
+#include "place/modes.h"
+#include "place/on_surfaces.h"
+#include "radiance/tree.h"
 #include "support/glossy_room.h"
 #include "support/radiance_records.h"
 

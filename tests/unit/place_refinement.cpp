@@ -7,7 +7,10 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "place/on_surfaces.h"
 #include "place/placement.h"
+#include "place/placement_options.h"
+#include "record/tree.h"
 #include "support/scenes.h"
 
 namespace phos {

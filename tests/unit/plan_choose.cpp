@@ -9,6 +9,7 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "plan/calibration.h"
 #include "plan/direct.h"
+#include "plan/json.h"
 #include "plan/run.h"
 #include "plan/text.h"
 

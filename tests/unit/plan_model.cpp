@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "plan/fit.h"
+#include "plan/pilot/models.h"
 #include "plan/pilot/pilot.h"
 
 namespace phos {

@@ -5,7 +5,9 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "radiance/brdf/file.h"
 #include "radiance/brdf/lobe_projection.h"
+#include "radiance/brdf/projection.h"
 #include "radiance/brdf/table.h"
 #include "radiance/events.h"
 #include "scene/material/bsdf.h"

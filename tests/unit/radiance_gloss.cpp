@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "radiance/brdf/projection.h"
 #include "radiance/gloss_cache.h"
+#include "radiance/tree.h"
 #include "scene/material/bsdf.h"
 #include "support/one_material.h"
 #include "support/quad.h"

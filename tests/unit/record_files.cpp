@@ -4,6 +4,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "record/irradiance_cache.h"
+#include "record/tree.h"
 #include "support/records.h"
 #include "support/run.h"
 

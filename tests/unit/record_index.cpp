@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "record/index.h"
+#include "record/tree.h"
 #include "support/indexed_file.h"
 
 namespace phos::test {

@@ -3,7 +3,9 @@
 
 #include "radiance/cache.h"
 #include "radiance/gloss_cache.h"
+#include "radiance/tree.h"
 #include "record/far_records.h"
+#include "record/tree.h"
 
 namespace phos {
 namespace {

@@ -3,6 +3,8 @@
 
 #include "reference/render.h"
 
+#include "reference/render_options.h"
+
 namespace phos::test {
 
 TEST(ReferenceMemory, GrowsWithPixelsAndMethod) {

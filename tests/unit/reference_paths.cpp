@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "reference/bidirectional_points.h"
 #include "reference/render.h"
+#include "reference/render_options.h"
 #include "support/scenes.h"
 
 namespace {

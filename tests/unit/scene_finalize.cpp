@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "scene/load.h"
 #include "scene/report/describe.h"
+#include "scene/report/describe_text.h"
 #include "scene/report/lint.h"
 #include "support/run.h"
 

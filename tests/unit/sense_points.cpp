@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "place/placement.h"
 #include "place/read_points.h"
+#include "sense/sensor_points.h"
 #include "sense/sensors.h"
 #include "support/complaint.h"
 #include "support/run.h"

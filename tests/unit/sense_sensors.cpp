@@ -8,6 +8,7 @@
 #include "direct/direct_light.h"
 #include "scene/inside_solid.h"
 #include "sense/grid.h"
+#include "sense/sensor_table.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/random.h"
+#include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
-#include "splat/splatter.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 

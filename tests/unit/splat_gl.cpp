@@ -4,7 +4,8 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "splat/splatter.h"
+#include "splat/cpu/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 

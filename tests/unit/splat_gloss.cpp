@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "splat/cpu/gloss_kernel.h"
-#include "splat/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/gloss_view.h"
 
 namespace phos {

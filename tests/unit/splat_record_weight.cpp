@@ -7,8 +7,9 @@
 
 #include "core/random.h"
 #include "splat/cpu/gloss_kernel.h"
+#include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
-#include "splat/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/scenes.h"
 
 namespace phos {

@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "scene/lamp/luminaires.h"
-#include "splat/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/scenes.h"
 
 namespace phos {

@@ -5,8 +5,9 @@
 #include <cstring>
 
 #include "core/random.h"
+#include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
-#include "splat/splatter.h"
+#include "splat/gl/renderer.h"
 #include "support/gloss_view.h"
 #include "support/splat_records.h"
 

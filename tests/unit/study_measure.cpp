@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "study/measure_lux.h"
 #include "support/run.h"
 
 namespace phos {

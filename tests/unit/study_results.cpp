@@ -8,7 +8,9 @@
 
 #include "file/csv.h"
 #include "study/html/text.h"
+#include "study/results/csv.h"
 #include "study/results/plots.h"
+#include "study/results/runs.h"
 
 namespace phos {
 namespace {

@@ -6,12 +6,15 @@
 #include <map>
 #include <set>
 
+#include "file/kinds/tables.h"
 #include "file/kinds/tensor_io.h"
 #include "photon/photon_map.h"
+#include "radiance/brdf/file.h"
 #include "radiance/brdf/table.h"
 #include "record/footprint.h"
 #include "support/complaint.h"
 #include "support/films.h"
+#include "temporal/film/file.h"
 
 namespace phos {
 namespace {

@@ -11,6 +11,7 @@
 #include "support/golden_table.h"
 #include "support/run.h"
 #include "temporal/change.h"
+#include "temporal/film/file.h"
 #include "temporal/film/inputs.h"
 
 namespace phos {

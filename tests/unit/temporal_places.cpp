@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "place/view_candidates.h"
+#include "record/tree.h"
 #include "support/filmed_slabs.h"
 #include "temporal/make_film.h"
 

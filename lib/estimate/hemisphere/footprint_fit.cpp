@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/hemisphere/ray_gradients.h"
 #include "record/weight.h"
 
 namespace phos::inline estimate {

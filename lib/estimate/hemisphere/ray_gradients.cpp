@@ -1,4 +1,5 @@
-// Gradients of irradiance from a hemisphere of rays (docs/methods.md#b).
+#include "estimate/hemisphere/ray_gradients.h"
+
 #include <algorithm>
 #include <cmath>
 

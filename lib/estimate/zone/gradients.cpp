@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "estimate/hemisphere/hemisphere.h"
+#include "estimate/hemisphere/ray_gradients.h"
 
 namespace phos::inline estimate {
 namespace {

@@ -1,3 +1,5 @@
+#include "file/inspect/rows.h"
+
 #include <algorithm>
 #include <bit>
 #include <charconv>

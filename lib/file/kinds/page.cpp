@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "file/kinds/shape_pattern.h"
+#include "file/kinds/tables.h"
 
 namespace phos::inline file {
 

@@ -1,4 +1,6 @@
 // The tables: pure data.
+#include "file/kinds/tables.h"
+
 #include "file/kinds/tensor_row.h"
 
 namespace phos::inline file {

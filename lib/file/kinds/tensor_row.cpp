@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "file/kinds/tables.h"
+
 namespace phos::inline file {
 
 namespace {

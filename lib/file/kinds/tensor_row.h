@@ -72,8 +72,6 @@ struct KindRow {
   std::span<const TensorGroup> groups;
 };
 
-/// In order of FileKind.
-std::span<const KindRow> all_kinds();
 const KindRow& row_of(FileKind kind);
 
 /// A tensor's row in the table of its kind; null: there is none.

@@ -1,3 +1,5 @@
+#include "hsh/turn/hsh_turn.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -6,7 +8,7 @@
 #include "hsh/basis.h"
 #include "hsh/conversion.h"
 #include "hsh/quadrature.h"
-#include "hsh/turn/turn.h"
+#include "hsh/turn/sh_turn.h"
 
 namespace phos::inline hsh {
 namespace {

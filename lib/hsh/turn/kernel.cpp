@@ -1,6 +1,7 @@
 #include "hsh/turn/kernel.h"
 
 #include "core/processor.h"
+#include "hsh/turn/hsh_turn.h"
 
 namespace phos::inline hsh {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hsh/turn/turn.h"
+#include "hsh/turn/hsh_turn.h"
 
 namespace phos::inline hsh {
 

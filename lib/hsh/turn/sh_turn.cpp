@@ -1,9 +1,9 @@
-// Wigner's d^l(beta) by its recurrence over l, and from it the matrices of real harmonics.
+#include "hsh/turn/sh_turn.h"
+
 #include <cmath>
 #include <numbers>
 
 #include "hsh/basis.h"
-#include "hsh/turn/turn.h"
 
 namespace phos::inline hsh {
 namespace {

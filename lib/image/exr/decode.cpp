@@ -1,3 +1,5 @@
+#include "image/exr/decode.h"
+
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -17,7 +19,6 @@
 #include "core/parallel.h"
 #include "image/exr/header.h"
 #include "image/exr/memory.h"
-#include "image/formats.h"
 #include "image/primaries.h"
 
 namespace phos::inline image {

@@ -1,3 +1,5 @@
+#include "image/exr/encode.h"
+
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -11,7 +13,6 @@
 #include "core/error.h"
 #include "image/exr/memory.h"
 #include "image/exr/zip.h"
-#include "image/formats.h"
 #include "image/primaries.h"
 
 namespace phos::inline image {

@@ -1,10 +1,10 @@
-// The terms of a pilot's models, and figures that follow from them.
+#include "plan/pilot/models.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "file/csv.h"
 #include "plan/calibration.h"
-#include "plan/pilot/pilot.h"
 #include "record/irradiance_cache.h"
 
 namespace phos::inline plan {

@@ -8,6 +8,7 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "file/atomic_file.h"
 #include "plan/calibration.h"
+#include "plan/pilot/models.h"
 #include "plan/pilot/runs.h"
 
 namespace phos::inline plan {

@@ -1,4 +1,5 @@
-// The `.brdf` file.
+#include "radiance/brdf/file.h"
+
 #include "core/error.h"
 #include "file/kinds/tensor_io.h"
 #include "hsh/basis.h"

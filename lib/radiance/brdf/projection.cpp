@@ -1,4 +1,5 @@
-// From reflection models to tables of coefficients.
+#include "radiance/brdf/projection.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

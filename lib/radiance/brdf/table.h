@@ -58,16 +58,6 @@ struct BrdfTable {
   bool used(std::size_t entry) const;
 };
 
-/// Projects the glossy part of one material (its textures at their mean, said in `note`). A lobe that is too
-/// intricate for the quadrature is marked "trace", whatever the options. Parallel; the same numbers on any
-/// number of threads. Counted, per entry: lobes too intricate for the quadrature, albedo
-/// above 1. Throws Error(usage) for options out of range.
-BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTableOptions& options,
-                       Counters& counters);
-
-/// Materials that need a table: glossy ones that cover some surface.
-std::vector<std::uint32_t> glossy_materials(const Scene& scene);
-
 /// A table in figures; over the directions above the horizon.
 struct BrdfSummary {
   int least_order = 0, greatest_order = 0;  ///< of what is not traced
@@ -101,10 +91,5 @@ class BrdfLookup {
   void blend(const Around& around, const Vec3& wo, int order, std::vector<float>& out) const;
   const BrdfTable& table_;
 };
-
-/// The `.brdf` file. No table: an empty file ("nothing glossy here").
-void write_brdf(const std::string& path, std::span<const BrdfTable> tables, Provenance provenance);
-/// Throws Error(bad_input) for a damaged file (checksums verified) or one of another kind.
-std::vector<BrdfTable> read_brdf(const Container& file);
 
 }  // namespace phos::inline radiance

@@ -1,11 +1,12 @@
-#include "scene/finalize/finalize.h"
-
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "scene/finalize/hash.h"
+#include "scene/finalize/lights.h"
 #include "scene/load_mesh.h"
 #include "scene/material/models.h"
+#include "scene/scene.h"
 
 namespace phos::inline scene {
 namespace {

@@ -1,3 +1,5 @@
+#include "scene/finalize/hash.h"
+
 #include <array>
 #include <map>
 #include <set>
@@ -5,7 +7,6 @@
 
 #include "core/origin.h"
 #include "file/hash.h"
-#include "scene/finalize/finalize.h"
 #include "scene/luminaire/photometry.h"
 #include "scene/material/merl.h"
 #include "scene/material/models.h"

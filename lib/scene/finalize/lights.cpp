@@ -1,9 +1,10 @@
+#include "scene/finalize/lights.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/json.h"
-#include "scene/finalize/finalize.h"
 #include "scene/sky/environment.h"
 #include "scene/texture/texture.h"
 

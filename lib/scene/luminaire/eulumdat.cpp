@@ -1,4 +1,6 @@
 // EULUMDAT (Stockmar 1990): one value to a line, in a fixed order.
+#include "scene/luminaire/eulumdat.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 // IES LM-63: the standard file of photometric data of North America, in its editions of 1986, 1991, 1995,
 // 2002 and 2019. Numbers are free of lines; keywords stand above TILT=, one to a line.
+#include "scene/luminaire/ies.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -10,6 +10,8 @@
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
 #include "scene/gltf/uri.h"
+#include "scene/luminaire/eulumdat.h"
+#include "scene/luminaire/ies.h"
 #include "scene/luminaire/photometric_lines.h"
 
 namespace phos::inline scene {

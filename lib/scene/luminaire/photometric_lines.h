@@ -41,11 +41,6 @@ struct CandelaList {
                             std::vector<std::string>& warnings) const;
 };
 
-PhotometricFile parse_ies(std::string_view bytes, const std::string& where, const ReadBeside& beside);
-PhotometricFile parse_eulumdat(std::string_view bytes, const std::string& where);
-/// Name of the file that TILT= names; "" where none.
-std::string ies_tilt_file(std::string_view bytes);
-
 /// Planes of a half or a quarter of the circle, mirrored into all of it. `azimuth_deg` ascends and ends where
 /// the mirrors stand; `row[i]` is the plane of the file that node i shows.
 struct Planes {

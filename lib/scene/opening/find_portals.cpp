@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "core/sampling.h"
 #include "core/text/comma_list.h"
+#include "scene/opening/portals_about_rooms.h"
 #include "scene/sky/access.h"
 
 namespace phos::inline scene {

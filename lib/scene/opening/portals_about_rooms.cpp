@@ -1,4 +1,5 @@
-#include "scene/opening/find_portals.h"
+#include "scene/opening/portals_about_rooms.h"
+
 #include "scene/opening/openings.h"
 #include "scene/opening/room_box.h"
 #include "scene/opening/waist.h"

@@ -34,7 +34,5 @@ inline constexpr const char* kCausticPhotons = "caustic photons";
 
 /// Everything phos-scene tells, with the findings of the lint.
 Json describe_scene(const Scene& scene, const std::vector<Finding>& findings);
-/// The same for people, from describe_scene's answer.
-std::string describe_text(const Json& description);
 
 }  // namespace phos::inline scene

@@ -1,8 +1,10 @@
+#include "scene/report/describe_text.h"
+
 #include <algorithm>
 #include <cstdio>
 
 #include "core/error.h"
-#include "scene/report/describe.h"
+#include "core/vector.h"
 
 namespace phos::inline scene {
 namespace {

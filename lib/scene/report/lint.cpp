@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "scene/finalize/finalize.h"
+#include "scene/finalize/lights.h"
 #include "scene/inside_solid.h"
 #include "scene/lamp/spot_cone.h"
 #include "scene/load.h"

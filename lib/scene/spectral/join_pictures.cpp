@@ -1,3 +1,5 @@
+#include "scene/spectral/join_pictures.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -6,7 +8,6 @@
 #include "core/parallel.h"
 #include "image/image_provenance.h"
 #include "scene/spectral/bands.h"
-#include "scene/spectral/join_bands.h"
 #include "scene/spectral/join_parts.h"
 
 namespace phos::inline scene {

@@ -1,3 +1,5 @@
+#include "scene/spectral/join_readings.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "file/atomic_file.h"
 #include "file/csv.h"
 #include "scene/spectral/colour_rendering.h"
-#include "scene/spectral/join_bands.h"
 #include "scene/spectral/join_parts.h"
 
 namespace phos::inline scene {

@@ -7,9 +7,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/processor.h"
+#include "radiance/tree.h"
 #include "splat/cpu/gloss_kernel.h"
+#include "splat/cpu/splatter.h"
 #include "splat/gl/gloss_rows.h"
-#include "splat/splatter.h"
 #include "splat/tiles.h"
 
 namespace phos::inline splat {

@@ -1,3 +1,5 @@
+#include "splat/cpu/splatter.h"
+
 #include "splat/cpu/splatter_kernel.h"
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/processor.h"
-#include "splat/splatter.h"
 #include "splat/tiles.h"
 
 namespace phos::inline splat {

@@ -11,6 +11,7 @@
 #include "hsh/limits.h"
 #include "hsh/quadrature.h"
 #include "hsh/rotation.h"
+#include "radiance/brdf/projection.h"
 
 namespace phos::inline splat {
 

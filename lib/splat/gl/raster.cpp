@@ -10,6 +10,7 @@
 #include "scene/shading_frame.h"
 #include "splat/gbuffer_pixel.h"
 #include "splat/gl/renderer.h"
+#include "splat/gl/renderer_impl.h"
 #include "splat/projection.h"
 
 namespace phos::inline splat {

@@ -1,6 +1,7 @@
 #include "splat/gl/renderer.h"
 
 #include "core/error.h"
+#include "splat/gl/renderer_impl.h"
 
 namespace phos::inline splat {
 

@@ -1,55 +1,46 @@
-// What the OpenGL sources of this module share.
+// Drawing over a G-buffer through OSMesa: pictures, irradiance and radiance records, shadow maps.
 #pragma once
 
-#include <map>
+#include <memory>
+#include <span>
+#include <vector>
 
-#include "splat/gl/mesh.h"
-#include "splat/gl/raster.h"
-#include "splat/projection.h"
-#include "splat/splatter.h"
+#include "record/irradiance_cache.h"
+#include "splat/cpu/gloss_splatter.h"
+#include "splat/cpu/splatter.h"
+#include "splat/gbuffer.h"
 
 namespace phos::inline splat {
 
-/// Textures of one picture size, and what draws into them. Made when a size is first asked for.
-struct GlPictureTarget {
-  int width = 0, height = 0;
-  GlObject position, normal, facet;            // of the G-buffer
-  GlObject light, error, spread, framebuffer;  // RGBA32F
-  GlObject with_spread;                        // framebuffer of all three
-};
+/// OpenGL 4.5 core through OSMesa (llvmpipe). One context per object, used from the thread that made it.
+class GlRenderer {
+ public:
+  /// Throws Error(bad_input) if no context can be had, saying what is missing and that --splat cpu needs
+  /// none.
+  explicit GlRenderer(const Scene& scene);
+  ~GlRenderer();
+  GlRenderer(const GlRenderer&) = delete;
+  GlRenderer& operator=(const GlRenderer&) = delete;
 
-/// Side of the tiles that records are cut down to.
-inline constexpr int kSplatTile = 32;
-/// A rectangle of pixels in the coordinates of OpenGL's viewport: x0, y0, x1, y1.
-inline Vec4 in_viewport(const PixelRect& rect, int width, int height) {
-  const float x = 2.f / static_cast<float>(width), y = 2.f / static_cast<float>(height);
-  return {static_cast<float>(rect.x0) * x - 1, static_cast<float>(rect.y0) * y - 1,
-          static_cast<float>(rect.x1) * x - 1, static_cast<float>(rect.y1) * y - 1};
-}
+  /// Rasterised, with textures for the albedo; agrees with trace_gbuffer but for edges.
+  GBuffer rasterise(const Camera& camera, int width, int height, const Vec2& subpixel);
+  /// Instanced quads bounding each record's sphere of influence, additive RGBA32F blending.
+  SplatBuffer splat(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
+                    const Camera& camera);
+  /// As splat_gloss_on_cpu(). Lobes of isotropic tables are looked up and combined with records pixel by
+  /// pixel; the CPU draws what else there is (anisotropic and coated lobes, mapped normals, turned records),
+  /// and tells which records reach where.
+  GlossBuffer splat_gloss(const GlossCache& cache, double accuracy, const RayScene& rays,
+                          const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
+  /// Direct illuminance by shadow maps (preview): per pixel, lx, visibility included. Area lights by
+  /// `light_samples` points each, point lights by six faces.
+  std::vector<Rgb> direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size);
+  const char* description() const;  ///< renderer and version, for --stats
 
-struct GlRenderer::Impl {
-  explicit Impl(const Scene& s) : scene(s), mesh(context.gl(), s) {}
-  ~Impl() { context.make_current(); }
-
-  GlRasterTarget& raster_target(int width, int height);
-  /// With the G-buffer's positions and normals uploaded.
-  GlPictureTarget& picture_target(const GBuffer& gbuffer);
-  /// Draws are added to light and error (and spread) from now on, with the G-buffer's textures at hand.
-  void bind_for_sum(const GlPictureTarget& target, bool spread = false) const;
-  void prepare_splat();
-  /// The program that draws radiance records of an order, made when it is first asked for.
-  GlProgram& gloss_program(int order);
-  void read(const GlObject& texture, std::vector<Vec4>& pixels) const;
-
-  const Scene& scene;
-  GlContext context;  // outlives everything below
-  GlMesh mesh;
-  GlRasterTarget raster;
-  GlPictureTarget picture;
-  GlProgram splat_program, shadow_program;
-  std::map<int, GlProgram> gloss_programs;  // by order
-  GlObject empty_array, splat_array, splat_instances;
-  GlObject gloss_array, gloss_rects, gloss_record;
+ private:
+  struct Impl;
+  struct ShadowPass;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace phos::inline splat

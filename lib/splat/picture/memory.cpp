@@ -5,7 +5,6 @@
 #include "splat/direct/interleaved.h"
 #include "splat/gbuffer.h"
 #include "splat/picture/layers.h"
-#include "splat/splatter.h"
 
 namespace phos::inline splat {
 namespace {

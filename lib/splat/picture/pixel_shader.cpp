@@ -1,5 +1,6 @@
 #include "splat/picture/pixel_shader.h"
 
+#include "radiance/tree.h"
 #include "splat/events.h"
 
 namespace phos::inline splat {

@@ -11,15 +11,17 @@
 #include "core/progress.h"
 #include "file/atomic_file.h"
 #include "hsh/limits.h"
+#include "record/tree.h"
 #include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/picture.h"
 #include "splat/cpu/gloss_splatter.h"
+#include "splat/cpu/splatter.h"
 #include "splat/direct/interleaved.h"
+#include "splat/gl/renderer.h"
 #include "splat/picture/edge_shader.h"
 #include "splat/picture/edges.h"
 #include "splat/picture/pixel_shader.h"
-#include "splat/splatter.h"
 
 namespace phos::inline splat {
 

@@ -1,4 +1,4 @@
-#include "study/html/text.h"
+#include "study/html/assets.h"
 
 namespace phos::inline study {
 

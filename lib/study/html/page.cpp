@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/options.h"
 #include "core/text/markup.h"
+#include "study/html/assets.h"
 #include "study/html/pictures.h"
 #include "study/html/text.h"
 

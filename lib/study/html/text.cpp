@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/text/markup.h"
-#include "image/formats.h"
+#include "image/png.h"
 
 namespace phos::inline study {
 

@@ -25,8 +25,4 @@ std::string interval_text(const MeanInterval& i, double scale = 1);
 std::string number_cell(double sort_by, const std::string& words);
 std::string bytes_text(double bytes);
 
-/// What index.html holds between <style> and between <script>.
-extern const char* const kPageStyle;
-extern const char* const kPageScript;
-
 }  // namespace phos::inline study

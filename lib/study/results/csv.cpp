@@ -1,3 +1,5 @@
+#include "study/results/csv.h"
+
 #include <cmath>
 
 #include "study/results/results.h"

@@ -1,5 +1,8 @@
+#include "study/results/json.h"
+
 #include "core/options.h"
 #include "study/results/results.h"
+#include "study/results/runs.h"
 
 namespace phos::inline study {
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "study/results/pareto.h"
+#include "study/results/runs.h"
 
 namespace phos::inline study {
 

@@ -7,31 +7,11 @@
 
 #include "study/measure.h"
 #include "study/results/effects.h"
+#include "study/results/runs.h"
 #include "study/run.h"
 #include "study/statistics.h"
 
 namespace phos::inline study {
-
-/// What a result takes: every stage that leads to it, each once.
-struct ChainCost {
-  double wall_s = 0, cpu_s = 0;
-  double peak_bytes = 0;  ///< of the stage that takes most
-  double file_bytes = 0;  ///< of the files between the scene and the result
-};
-
-/// A picture or a table of lux, of one setting and one seed.
-struct Judgement {
-  MeasuredError error;
-  ChainCost cost;
-  /// The first setting that ends in this very file (lux does not depend on the camera, nor a picture on
-  /// options of phos-sense). Fronts, effects, plots and tables for people have a result once, as that one's.
-  std::size_t owner = 0;
-};
-struct RunResult {
-  std::size_t setting = 0, seed = 0;
-  std::optional<Judgement> picture, lux;
-  std::string failed;  ///< what a program said; "": nothing did
-};
 
 /// One kind of result of one setting, over its seeds. Intervals are of StudyFile::confidence, for errors with
 /// the noise of the reference in them.
@@ -76,19 +56,10 @@ struct StudyResults {
   std::vector<FactorEffect> picture_effects, lux_effects;
 };
 
-/// Reads pictures and tables and measures them. What failed is left out.
-std::vector<RunResult> measure_runs(const StudyFile& study, const StudyWork& work,
-                                    const StudyJournal& journal, const Failures& failures);
 StudyResults summarise(const StudyFile& study, const StudyWork& work, std::vector<RunResult> runs);
 
 /// Sentences on what the reference cannot tell, and what it would take, and on values that are not finite.
 /// Empty where all is well.
 std::vector<std::string> doubts(const StudyResults& results);
-
-/// A row for each setting. Absent values are empty cells.
-std::string results_csv(const StudyFile& study, const StudyWork& work, const StudyResults& results);
-/// All of it: the study, every run with its costs, points, effects, and the command lines of each point.
-Json results_json(const StudyFile& study, const StudyWork& work, const StudyJournal& journal,
-                  const StudyResults& results);
 
 }  // namespace phos::inline study

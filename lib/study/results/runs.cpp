@@ -1,10 +1,12 @@
+#include "study/results/runs.h"
+
 #include <algorithm>
 #include <map>
 
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "image/image.h"
-#include "study/results/results.h"
+#include "study/measure_lux.h"
 
 namespace phos::inline study {
 

@@ -7,8 +7,9 @@
 #include "image/image_provenance.h"
 #include "image/metrics.h"
 #include "scene/load.h"
+#include "sense/sensor_points.h"
 #include "sense/sensors.h"
-#include "study/measure.h"
+#include "study/measure_lux.h"
 
 namespace phos::inline study {
 

@@ -1,4 +1,5 @@
-// The files of films.
+#include "temporal/film/file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

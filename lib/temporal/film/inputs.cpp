@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "temporal/film/file.h"
 
 namespace phos::inline temporal {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "file/container.h"
+#include "file/provenance.h"
 #include "radiance/cache.h"
 #include "record/irradiance_cache.h"
 #include "scene/scene.h"

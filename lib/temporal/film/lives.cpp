@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/float_traps.h"
+#include "temporal/film/file.h"
 
 namespace phos::inline temporal {
 

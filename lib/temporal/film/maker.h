@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "place/placement.h"
+#include "place/placement_options.h"
 #include "temporal/chain.h"
 #include "temporal/film/options.h"
 #include "temporal/frame_light.h"

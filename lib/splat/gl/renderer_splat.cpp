@@ -7,8 +7,10 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
+#include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
 #include "splat/gl/renderer.h"
+#include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
 #include "splat/tiles.h"
 

@@ -6,8 +6,10 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "hsh/basis.h"
+#include "radiance/tree.h"
 #include "splat/gl/gloss_rows.h"
 #include "splat/gl/renderer.h"
+#include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
 #include "splat/tiles.h"
 

@@ -1,4 +1,4 @@
-// Steps of finalize() (scene.h).
+// The lights of a scene: area, flux, and lamps of emitting surfaces.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,8 +12,7 @@ inline constexpr const char* kFaintLight = "too little for 32-bit numbers, some 
 /// Replaces the area lights by one per emitting instance, and fills area and flux of every light. Needs
 /// bounds.
 void fill_lights(Scene& scene);
-/// Fills hash and parts. Needs everything else.
-void fill_hash(Scene& scene);
+
 /// Mean luminance over a triangle, the emissive texture included, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle);
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <numeric>
 
+#include "place/modes.h"
 #include "temporal/events.h"
 #include "temporal/film/maker.h"
 #include "temporal/visible_places.h"

@@ -13,6 +13,7 @@
 #include "scene/shading_frame.h"
 #include "scene/sky/environment.h"
 #include "splat/gl/renderer.h"
+#include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
 
 namespace phos::inline splat {
