@@ -2,7 +2,8 @@
 # Renders one picture in N bands of wavelength, and computes the light at sensors in these bands. It runs every stage ceil(N / 3) times:
 #   pipelines/bands.sh SCENE FOLDER N [--spectrum NAME=FILE]... [--photons N] [--rays N] [--width W] [--camera NAME] [--samples N]
 #                      [--points CSV] [-- OPTION...]
-# Each OPTION (--sky clear, ...) goes to every stage. The script writes FOLDER/scene.exr and .png and, with --points, FOLDER/scene-lux.csv.
+# Each OPTION (--sky clear, ...) goes to every stage. The script writes FOLDER/scene.exr and .png and, with --points, FOLDER/scene-lux.csv; scene stands
+# for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

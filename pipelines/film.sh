@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Films an animated scene: makes one cache for all frames, a picture of each frame and, where ffmpeg is installed, a video.
 #   pipelines/film.sh SCENE FOLDER [--frames A:B] [--photons N] [--rays N] [--width W] [--camera NAME] [--samples N]
-# Without --frames it films all frames. It writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4.
+# Without --frames, all frames are filmed. The script writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4; scene
+# stands for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

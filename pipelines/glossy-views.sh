@@ -2,7 +2,8 @@
 # Renders a glossy scene from several cameras, one after another. The pictures share one growing cache:
 #   pipelines/glossy-views.sh SCENE FOLDER CAMERA... [--photons N] [--width W] [--accuracy A] [--rays N] [--samples N]
 # Each view adds only the records that earlier views did not make; FOLDER/records.csv counts the records of each view. The pictures are
-# FOLDER/CAMERA.exr and .png, the caches FOLDER/scene.irradiance and .radiance. Only broad gloss is cached (see phos-brdf); other gloss is traced.
+# FOLDER/CAMERA.exr and .png, the caches FOLDER/scene.irradiance and .radiance; scene stands for the name of SCENE without its ending. Only broad gloss
+# is cached (see phos-brdf); other gloss is traced.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Makes a draft, a good and a final picture of one view, from one cache that grows from each picture to the next:
 #   pipelines/quality-ladder.sh SCENE FOLDER [--photons N] [--rays N] [--accuracy A] [--width W] [--camera NAME]
-# The script writes FOLDER/draft.exr, good.exr and final.exr (and .png), the cache FOLDER/scene.irradiance, and the table FOLDER/ladder.csv. The
-# table gives for each picture the number of records, the seconds so far, and the difference from the final picture (root mean square over mean).
+# The script writes FOLDER/draft.exr, good.exr and final.exr (and .png), the cache FOLDER/scene.irradiance (scene stands for the name of SCENE without
+# its ending), and the table FOLDER/ladder.csv. The table gives for each picture the number of records, the seconds so far, and the difference from
+# the final picture (root mean square over mean).
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -3,9 +3,10 @@
 #   pipelines/render.sh SCENE FOLDER [--quality draft|good|final] [--width W] [--camera NAME] [options of the scene, e.g. --sky clear]
 #                       [--photons N] [--accuracy A] [--rays N] [--samples N] [--rounds N]
 # --quality sets the error of the picture over its mean: about 10 % (draft), 5 % (good, the default) or 2 % (final). The options of the second line
-# override the settings that follow from the quality. The programs must be on PATH, or where they were built or installed. The script writes
-# FOLDER/scene.photons, .irradiance (records where the camera looks), .view.irradiance (the same, with records where the picture missed some), .exr,
-# .png and -lux.png (illuminance in false colours).
+# override the settings that follow from the quality: paths from the lamps, accuracy and gathered rays of a record, samples of a pixel, and the most
+# rounds in which missing records are added. The programs must be on PATH, or where they were built or installed. The script writes FOLDER/scene.photons,
+# .irradiance (records where the camera looks), .view.irradiance (the same, with records where the picture missed some), .exr, .png and -lux.png
+# (illuminance in false colours); scene stands for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
