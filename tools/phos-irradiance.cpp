@@ -2,6 +2,7 @@
 #include "stage/irradiance.h"
 
 #include "scene/rays.h"
+#include "splat/gl/choice.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   declare_footprint_options(options, asked.records);
   declare_options(options, asked.placement);
   declare_isa(options, asked.isa);
+  declare_gl(options, asked.gl);
   options.file(
       "at", asked.at,
       "CSV of points (x,y,z,nx,ny,nz) that need records, such as phos-splat --misses writes. Photons "

@@ -1,6 +1,8 @@
 // phos-splat: renders a scene from its caches.
 #include "stage/splat.h"
 
+#include "splat/gl/choice.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-splat"),
@@ -19,6 +21,7 @@ int main(int argc, char** argv) {
       "irradiance and radiance caches of that scene, several are joined; its .brdf file (for radiance, else "
       "lobes are projected here, and for --environment-mode hsh)");
   declare_options(options, asked.render);
+  declare_gl(options, asked.gl);
   declare_options(options, asked.scene);
   tool.takes_frames(asked.scene.frame);
   tool.fresh_each_frame(asked.render);

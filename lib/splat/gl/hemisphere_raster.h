@@ -8,7 +8,7 @@
 
 namespace phos::inline splat {
 
-/// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
+/// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels
 /// each way (raster_plane.h); what each pixel shows is lit like the place where a gathered ray lands. Without
 /// noise but for the lamps' samples: stderr_lx says nothing of what falls between pixels. The near plane lies
 /// at the rounding of positions, so that walls which touch the record are drawn as far as they are told apart

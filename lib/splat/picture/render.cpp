@@ -111,7 +111,7 @@ void declare_options(Options& options, RenderOptions& r) {
                  "with, but no more than 0.5 (radiance records: 0.6)",
                  kPositive);
   options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
-                          "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
+                          "draw the records with OpenGL (--gl) or on the CPU (same picture to 1e-4)");
   options.choice<LeakTest>(
       "leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
       "ray: a record lights a point only if the two can see each other (records are looked up, a ray for "
