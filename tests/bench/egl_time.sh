@@ -7,7 +7,7 @@
 # the driver. BUILD (build/release) is a build folder with -DPHOS_BENCH=ON. Ends with 3 where EGL gives no OpenGL. Needs jq.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-usage() { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+usage() { sed -n '2,7s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 build=$project/build/release repetitions=5
 while (($# > 0)); do
   case $1 in
@@ -20,11 +20,13 @@ bench=$build/tests/splat_bench
 [[ -x $bench ]] || { echo "egl_time.sh: $bench: is not there; cmake -B $build -DPHOS_BENCH=ON, and build splat_bench" >&2; exit 3; }
 
 "$bench" --benchmark_filter='^splat_gl' --benchmark_format=json --benchmark_repetitions="$repetitions" 2>/dev/null | jq -r '
-  # splat_gl/BY_COUNT/COVERAGE/real_time
-  [.benchmarks[] | select(.aggregate_name == "median" or .error_occurred) | . + (.run_name // .name | split("/") |
+  def median: sort | .[length / 2 | floor];
+  # names: splat_gl/BY_COUNT/COVERAGE/real_time
+  [.benchmarks[] | select(.run_type == "iteration") | . + (.run_name | split("/") |
     {by: (.[1] | split("_")[0]), count: (.[1] | split("_")[1]), coverage: (.[2] | tonumber / 10)})] |
   (.[] | select(.error_occurred) | "error \(.by): \(.error_message)"),
-  (group_by([.by, .coverage])[] | select(all(.[]; .error_occurred | not)) | (map({(.count): .real_time}) | add) as $ms |
+  (map(select(.error_occurred | not)) | group_by([.by, .coverage])[] |
+    (group_by(.count) | map({(.[0].count): (map(.real_time) | median)}) | add) as $ms |
     "\(.[0].by) \(.[0].coverage) \($ms["4000"]) \($ms["1"]) \(.[0].label)")' | sort -u | {
   failed=0
   printf '%-7s %10s %10s %12s %10s  %s\n' gl 'coverage %' 'ms a frame' 'of transfer' 'of drawing' driver
