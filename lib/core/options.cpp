@@ -165,7 +165,7 @@ struct Options::Impl {
     if (d.use == FileUse::grown) {
       std::string list;
       for (const std::string& name : names(Adopted::estimate)) list += (list.empty() ? "--" : ", --") + name;
-      if (!list.empty()) s += "; what is not given of these options is taken from it: " + list;
+      if (!list.empty()) s += "; options that are not given are taken from this file: " + list;
     }
     if (!d.choices.empty()) {
       s += " (";
@@ -578,11 +578,12 @@ std::string Options::help() const {
       if (!d.is_input && d.section == section) line(Impl::left(d), impl_->detail(d));
   }
   out += "\nOther:\n";
-  line("-h, --help", "this text");
-  line("--version", "version");
-  line("--man", "the manual page, for man -l -");
-  line("--options-json", "every option with its kind, unit, range, choices and default, for other programs");
-  line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
+  line("-h, --help", "print this text");
+  line("--version", "print the version");
+  line("--man", "print the manual page; phos-X --man | man -l - shows it");
+  line("--options-json",
+       "print every option with its kind, unit, range, choices and default, for other programs");
+  line("@FILE", "read options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!impl_->examples.empty()) out += "\nExamples:\n";
   for (const Example& e : impl_->examples) out += "  " + e.command + "\n      " + wrap(e.what, 6) + "\n";
   out += "\nExit codes:\n";

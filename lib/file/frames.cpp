@@ -58,7 +58,8 @@ std::set<std::string> patterns_in(const std::filesystem::path& folder) {
 }  // namespace
 
 void declare_frames(Options& options, std::string& frames, Recorded recorded) {
-  options.text("frames", frames, "A:B", "frames of the animation, first and last included, or one", recorded);
+  options.text("frames", frames, "A:B", "frames A to B of the animation, both included, or one frame",
+               recorded);
 }
 
 FrameRange parse_frames(const std::string& frames) {

@@ -51,19 +51,20 @@ void aim(Scene& scene, const std::string& portals) {
 void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS",
-                 "when animations are evaluated (default: when those of the caches are, or 0)", {},
+                 "time of the animations (default: the time of the caches that are read, else 0)", {},
                  Adopted::site);
-  options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene", {},
-                 Adopted::site);
+  options.number(
+      "frame", scene.frame, "N",
+      "the time as a frame number, counted from 0, at the frame rate of the scene; instead of --time", {},
+      Adopted::site);
   declare_light_options(options, scene);
 }
 
 void declare_light_options(Options& options, SceneOptions& scene) {
   declare_options(options, scene.luminaires);
-  options.file(
-      "environment", scene.environment,
-      "light from all around: an equirectangular map, twice as wide as high, +Y up, its middle towards "
-      "+Z, Radiance .hdr (x 179 lm/W) or OpenEXR (cd/m2); give it to every stage");
+  options.file("environment", scene.environment,
+               "light from all directions: an equirectangular map, twice as wide as high, with +Y up and +Z "
+               "in the middle; Radiance .hdr (times 179 lm/W) or OpenEXR (cd/m2). Give it to every stage");
   options.number("environment-rotation", scene.environment_rotation_deg, "DEGREES",
                  "turns the environment about +Y, counter-clockwise seen from above (default: 0)",
                  {-360, 360}, Adopted::site);
@@ -71,14 +72,13 @@ void declare_light_options(Options& options, SceneOptions& scene) {
                  "multiplies the luminance of the environment (default: 1)", kPositive, Adopted::site);
   declare_options(options, scene.daylight);
   declare_options(options, scene.bands);
-  options.text(
-      "portals", scene.portals, "auto|NAMES",
-      "aims photons and shadow rays of sky, sun and environment at openings: auto finds those through which "
-      "the sky is seen from within; or names of nodes or materials, comma by comma, whose surfaces fill them "
-      "(panes; commas of names that the scene has part none, nor do \\,). One in ten (where a sky or map has "
-      "bright spots, one shadow ray in two) is not aimed, so "
-      "that no light is lost",
-      {Recorded::if_given, Adopted::site});
+  options.text("portals", scene.portals, "auto|NAMES",
+               "openings that photons and shadow rays of sky, sun and environment are aimed at (default: "
+               "none). auto: the openings through which the sky is seen from within; NAMES: nodes or "
+               "materials whose surfaces fill openings, such as panes, separated by commas (a comma within a "
+               "name of the scene does not separate, nor does \\,). One in ten is not aimed (one shadow ray "
+               "in two where a sky or map has bright spots), so that no light is lost",
+               {Recorded::if_given, Adopted::site});
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {

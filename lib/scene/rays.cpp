@@ -544,16 +544,16 @@ bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point) {
 }
 
 void declare_isa(Options& options, std::string& isa) {
-  options.choice<std::string>("isa", isa,
-                              {{"best", ""},
-                               {"sse2", "sse2"},
-                               {"sse4.2", "sse4.2"},
-                               {"avx", "avx"},
-                               {"avx2", "avx2"},
-                               {"avx512", "avx512"}},
-                              "instruction set of the ray tracer; sse2 gives the same bytes on all x86 "
-                              "processors of one maker (each maker "
-                              "rounds reciprocals in its own way)");
+  options.choice<std::string>(
+      "isa", isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; best: the widest of this machine; sse2: the same bytes on all x86 "
+      "processors of one maker (each maker rounds reciprocals in its own way)");
 }
 
 }  // namespace phos::inline scene

@@ -197,12 +197,14 @@ bool usable(const RayScene& rays, const Vec3& p, const Vec3& up, float margin) {
 
 void declare_options(Options& options, GridOptions& g) {
   options.section("Grid of sensors");
-  options.number("grid", g.spacing_m, "METRES", "distance between the points of a grid", kPositive);
-  options.text("mesh", g.mesh, "NODE", "grid on the front of this node's surfaces");
+  options.number("grid", g.spacing_m, "METRES", "distance between the points of a grid of sensors",
+                 kPositive);
+  options.text("mesh", g.mesh, "NODE", "node whose surfaces carry the grid, on their front");
   options.number("height", g.height_m, "METRES",
-                 "grid on a workplane this far above the floor: the lowest level surface that faces up");
+                 "height of a workplane that carries the grid, above the floor (the lowest level surface "
+                 "that faces up)");
   options.number("margin", g.margin_m, "METRES",
-                 "no points nearer than this to walls beside the workplane, or to the edges of the mesh",
+                 "least distance of the points to walls beside the workplane, or to the edges of the mesh",
                  kNotNegative);
   options.choice<Axis>("up", g.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                        "axis that points up; y in glTF");

@@ -10,21 +10,19 @@ namespace phos::inline scene {
 void declare_options(Options& options, BandOptions& bands) {
   options.integer(
       "bands", bands.number, "N",
-      "computes light in N equal bands of 380 to 780 nm instead of RGB, three of them (--triplet) in each "
-      "run "
-      "of "
-      "all stages; phos-bands joins the results. What has no spectrum gets a smooth one of its RGB colour "
-      "under D65",
+      "number of equal bands of 380 to 780 nm in which light is computed instead of RGB; 0: RGB. Each run of "
+      "the stages computes three bands (--triplet), and phos-bands joins the results. A material or light "
+      "without a spectrum gets a smooth one of its RGB colour under D65",
       {0, Bands::kMost}, {Recorded::if_given, Adopted::site});
   options.integer("triplet", bands.triplet, "K",
-                  "with --bands: bands 3 K - 2 to 3 K. Lux, lumens and cd/m2 are then those of the light in "
-                  "these bands",
+                  "required with --bands: computes bands 3 K - 2 to 3 K. Lux, lumens and cd/m2 then count "
+                  "the light in these bands alone",
                   {1, (Bands::kMost + 2) / 3}, {Recorded::if_given, Adopted::site});
   options.named_files(
       "spectrum", bands.spectra,
-      "with --bands: the reflectance of a material (0 to 1), or the relative power of a light, a luminaire, "
-      "the environment or of what shines of a material or node, whose lumens stay; CSV with the columns "
-      "wavelength_nm,value; several may be given; give them to every stage",
+      "with --bands: gives NAME the spectrum FILE: the reflectance of a material (0 to 1), or the relative "
+      "power of a light, a luminaire, the environment, or the emission of a material or node; lumens stay as "
+      "they are. CSV with the columns wavelength_nm,value; several may be given; give them to every stage",
       Adopted::site);
 }
 
