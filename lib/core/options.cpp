@@ -65,7 +65,8 @@ T parse_number(const std::string& name, const std::string& s, const Range& range
   const char* begin = s.data() + (s.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, s.data() + s.size(), v);
   if (error != std::errc() || end != s.data() + s.size() || !std::isfinite(static_cast<double>(v)))
-    reject(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number"));
+    reject(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number",
+                      "; it must be ", limits_text(range).empty() ? "a finite number" : limits_text(range)));
   const auto wide = static_cast<double>(v);
   if (wide < range.lo || wide > range.hi || (range.lo_open && wide == range.lo))
     reject(name, text(s, " is out of range; it must be ", limits_text(range)));
@@ -383,9 +384,11 @@ std::string options_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text(kMost + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (!in && !in.eof())) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+  if (in.bad() || (!in && !in.eof()))
+    throw Error(ExitCode::bad_input, path, "the options file cannot be read; check the path");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMost) throw Error(ExitCode::bad_input, path, "options file is larger than 1 MiB");
+  if (text.size() > kMost)
+    throw Error(ExitCode::bad_input, path, "the options file is larger than 1 MiB; give one option a line");
   return text;
 }
 
@@ -449,7 +452,7 @@ bool Options::parse(int argc, const char* const* argv) {
                   (empty ? "usage: " + impl_->usage() : phos::text(Impl::left(d), " is missing")) + see);
   for (const Declaration& d : impl_->declarations)
     if (!d.other_name.empty() && given(d.name) && given(d.other_name))
-      reject(d.name, phos::text("says what --", d.other_name, " says; give one of the two"));
+      reject(d.name, phos::text("says the same as --", d.other_name, " says; give one of the two"));
   return true;
 }
 
@@ -466,7 +469,7 @@ void Options::adopt(const std::string& name, const Json& value) {
   const bool fits = kind == "flag"                          ? value.is_bool()
                     : kind == "number" || kind == "integer" ? value.is_number()
                                                             : value.is_string();
-  if (!fits) reject(name, "is of another kind");
+  if (!fits) reject(name, "has a value of another kind; make the file that states it again");
   d->set(value.is_string() ? value.as_string() : value.dump());
   d->was_adopted = true;
 }

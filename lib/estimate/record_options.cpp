@@ -55,7 +55,7 @@ void RecordOptions::resolve(TypicalDistance typical) {
   if (*min_radius_m > *max_radius_m) {
     throw Error(
         ExitCode::usage, "--min-radius",
-        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
+        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller value"));
   }
   source_max_radius_m = std::min(*max_radius_m, std::max(most / 4, *min_radius_m));
   if (gather_bounces == 0) {
@@ -64,7 +64,7 @@ void RecordOptions::resolve(TypicalDistance typical) {
   }
   if (footprint != Footprint::circle && estimate != Estimate::gather)
     throw Error(ExitCode::usage, "--footprint",
-                text(name_in(kFootprints, footprint), " follows from gathered rays; give --estimate gather"));
+                text(name_in(kFootprints, footprint), " needs gathered rays; give --estimate gather"));
   if (footprint == Footprint::circle_min) radius = RadiusRule::least;
   if (footprint == Footprint::circle_harmonic) radius = RadiusRule::harmonic;
   using G = GradientMode;
@@ -79,8 +79,8 @@ void RecordOptions::resolve(TypicalDistance typical) {
   std::string names;
   for (const G g : allowed) names += text(names.empty() ? "" : ", ", name_of(g));
   throw Error(ExitCode::usage, "--gradients",
-              text(name_of(gradients), " cannot be had from --estimate ", name_in(kEstimates, estimate),
-                   "; it gives ", names));
+              text(name_of(gradients), " is not available with --estimate ", name_in(kEstimates, estimate),
+                   "; give one of ", names));
 }
 
 void declare_reach_options(Options& options, RecordOptions& r) {

@@ -39,7 +39,7 @@ Shard open_shard(const std::string& path, const ShardKind& kind) {
   shard.name = name->as_string();
   if (!read_share(shard.name, shard.share))
     throw Error(ExitCode::bad_input, path,
-                text("the header does not say which ", kind.word(), " it is; make it again"));
+                text("the header does not say which", kind.word(), " it is; make it again"));
   return shard;
 }
 
@@ -74,7 +74,7 @@ void require_each_once(const std::vector<Shard>& shards, const ShardKind& kind) 
   if (absent > 0)
     throw Error(ExitCode::mismatch, "",
                 text("missing ", kind.word(), absent > 1 ? "s " : " ", missing,
-                     absent > kNamed ? ", ..." : "", " of the run"));
+                     absent > kNamed ? ", ..." : "", " of the run; give all of them"));
 }
 
 }  // namespace

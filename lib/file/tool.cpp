@@ -91,7 +91,7 @@ void Tool::begin() {
   install_interrupt_handler();
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
   if (wants_output_ == Output::required && output_.empty())
-    throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
+    throw Error(ExitCode::usage, "--output", "is empty; name a file for the result");
   require_frames_of_pattern();
   refuse_shared_files();
   if (!stats_path_.empty()) require_writable(stats_path_);

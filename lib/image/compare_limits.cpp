@@ -75,7 +75,7 @@ void CompareLimits::require_measured(bool sequence) const {
       throw Error(ExitCode::usage, option,
                   "is not measured of sequences; leave it out, or compare frames one by one");
     if (!sequence && !kTable[i].measure)
-      throw Error(ExitCode::usage, option, "is of sequences; give --flicker and --frames too");
+      throw Error(ExitCode::usage, option, "needs sequences; give --flicker and --frames too");
   }
 }
 

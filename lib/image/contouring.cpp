@@ -67,8 +67,8 @@ std::string given_contour_option(const Options& options) {
 void check_usage(const ContourOptions& c, bool table) {
   const auto refuse = [](const char* option, const char* why) { throw Error(ExitCode::usage, option, why); };
   if (c.of.empty()) {
-    if (!c.levels.empty()) refuse("--levels", "is of lines of equal value; say of what: --contours NAME");
-    if (c.spacing_m) refuse("--spacing", "is of lines of equal value; say of what: --contours NAME");
+    if (!c.levels.empty()) refuse("--levels", "needs lines of equal value; give --contours NAME too");
+    if (c.spacing_m) refuse("--spacing", "needs lines of equal value; give --contours NAME too");
     return;
   }
   numbers_of(c.levels);

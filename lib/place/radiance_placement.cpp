@@ -65,8 +65,8 @@ void require_same_orders(const RadianceCache& earlier, const GlossTables& tables
     std::string all;
     for (const int order : wanted) all += text(all.empty() ? "" : ", ", order);
     throw Error(ExitCode::mismatch, path,
-                text("holds records of order ", r.order(), ", and materials want ",
-                     all.empty() ? "none" : "those of order " + all,
+                text("holds records of order ", r.order(), ", and materials need ",
+                     all.empty() ? "none" : "order " + all,
                      "; give the .brdf file and --gloss that it was made with, or make a new file without "
                      "--add-to"));
   }

@@ -87,7 +87,7 @@ double read_error(const std::string& word) {
   if (percent) ++end, value /= 100;
   if (end == word.c_str() || *end != '\0' || !(std::isgreater(value, 0) && value <= 1))
     throw Error(ExitCode::usage, "--error",
-                "'" + word + "' is no error; give a share between 0 and 100 %: 5% or 0.05");
+                "\"" + word + "\" is not an error; give a share between 0 and 100 %, like 5% or 0.05");
   return value;
 }
 
@@ -96,7 +96,7 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   if (options.given("error")) goal.error = read_error(p.error);
   if (p.seconds > 0) goal.seconds = p.seconds;
   if (!goal.error && !goal.seconds)
-    throw Error(ExitCode::usage, "", "nothing is asked for; give --error 5% or --seconds 60");
+    throw Error(ExitCode::usage, "", "no goal is given; give --error 5% or --seconds 60");
   if (p.json && p.script) throw Error(ExitCode::usage, "--json", "and --sh exclude each other; give one");
   if (p.run && p.output.empty())
     throw Error(ExitCode::usage, "--run", "needs a folder for its files: -o folder");
@@ -105,11 +105,12 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
     throw Error(ExitCode::usage, "--run",
                 "writes plan.sh and plan.json into its folder; leave out --sh and --json");
   if (p.run && !(p.pilot_s > 0))
-    throw Error(ExitCode::usage, "--pilot-seconds",
-                "0 leaves nothing to correct a run by; leave out --run, or give some seconds");
+    throw Error(
+        ExitCode::usage, "--pilot-seconds",
+        "0 makes no pilot, by which --run corrects the settings; leave out --run, or give some seconds");
   for (const char* name : {"reference-seconds", "rounds"})
     if (!p.run && options.given(name))
-      throw Error(ExitCode::usage, text("--", name), "belongs to --run; leave it out");
+      throw Error(ExitCode::usage, text("--", name), "needs --run; give --run, or leave it out");
   return goal;
 }
 
@@ -143,7 +144,7 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
                   "belongs to a picture; leave it out, or give --quantity both");
   for (const char* name : {"sensors", "grid", "mesh", "workplane", "margin", "up"})
     if (!task.lux && options.given(name))
-      throw Error(ExitCode::usage, text("--", name), "sets out sensors; give --quantity lux or both too");
+      throw Error(ExitCode::usage, text("--", name), "places sensors; give --quantity lux or both too");
   task.camera = p.camera, task.width = p.width, task.height = p.height;
   if (!task.lux) return task;
   if (p.points.empty() && !grid.spacing_m)

@@ -36,7 +36,7 @@ std::string scene_bytes(const std::string& path) {
 void aim(Scene& scene, const std::string& portals) {
   if (!scene.environment)
     throw Error(ExitCode::usage, "--portals",
-                "aims light of a sky, and there is none; give --sky, --sun or --environment");
+                "aims the light of a sky, and the scene has no sky; give --sky, --sun or --environment");
   const RayScene rays(scene);
   scene.portal = find_portals(rays, portals);
   scene.blind = find_blinds(rays);
@@ -83,12 +83,14 @@ void declare_light_options(Options& options, SceneOptions& scene) {
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {
   if (options.time_s && options.frame)
-    throw Error(ExitCode::usage, "--time", "give either --time or --frame");
+    throw Error(ExitCode::usage, "--time", "and --frame set the same time; give one of them");
   if (options.environment.empty() && (options.environment_rotation_deg || options.environment_scale))
-    throw Error(ExitCode::usage, "--environment", "is missing; rotation and scale are of its map");
+    throw Error(
+        ExitCode::usage, "--environment",
+        "is missing: --environment-rotation and --environment-scale change its map; give --environment FILE");
   if (!options.environment.empty() && options.daylight.any())
     throw Error(ExitCode::usage, options.daylight.sky.empty() ? "--sun" : "--sky",
-                "and --environment both say what is beyond the scene; leave one of them out");
+                "and --environment both light the scene from beyond; leave one of them out");
   check(options.bands);
   const Daylight daylight = resolve(options.daylight);
   const std::string bytes = scene_bytes(path);
@@ -100,7 +102,7 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
   } catch (const std::bad_alloc&) {
     throw Error(ExitCode::no_memory, path, "the scene does not fit into memory; use a larger machine");
   } catch (const std::exception& e) {
-    throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
+    throw Error(ExitCode::bad_input, path, text("malformed: ", e.what(), "; export the scene again"));
   }
   if (!options.environment.empty()) {
     EnvironmentFile file = read_environment(options.environment, options.environment_scale.value_or(1),
@@ -147,7 +149,7 @@ std::vector<std::string> scene_files(const std::string& path, const SceneOptions
 std::string how_to_add_to(const Scene& scene) {
   try {
     if (!is_gltf(scene_bytes(scene.path)))
-      return text("add one in ", obj_lights_path(scene.path), " (phos-scene --help has its form)");
+      return text("add one in ", obj_lights_path(scene.path), " (phos-scene --help shows its form)");
   } catch (const Error&) {  // made in memory, or removed since
   }
   return "add one in the modeller";

@@ -171,7 +171,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   // Embree takes no notice of a name it does not know.
   const char* const known[] = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
   if (std::find(std::begin(known), std::end(known), isa) == std::end(known)) {
-    throw Error(ExitCode::usage, "isa",
+    throw Error(ExitCode::usage, "--isa",
                 text("unknown instruction set \"", isa, "\"; use sse2, sse4.2, avx, avx2 or avx512"));
   }
   const std::string config = "isa=" + isa;
@@ -187,7 +187,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   const RTCError error = rtcGetDeviceError(nullptr);
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ExitCode::no_memory, "", "not enough memory to start the ray tracer; use a larger machine");
-  throw Error(ExitCode::usage, isa.empty() ? "" : "isa",
+  throw Error(ExitCode::usage, isa.empty() ? "" : "--isa",
               text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"",
                    " (error ", static_cast<int>(error), "); use one that this machine has, such as sse2"));
 }

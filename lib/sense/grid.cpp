@@ -41,7 +41,7 @@ Ticks ticks(double lo, double hi, double spacing, double margin) {
   if (!(room >= 0)) return {};
   const double cells = std::max(std::floor(room / spacing + 1e-3), 1.0);
   if (cells > kMostPoints) {
-    throw Error(ExitCode::usage, "grid",
+    throw Error(ExitCode::usage, "--grid",
                 text("a spacing of ", shortest(spacing), " m makes too many points; give a larger one"));
   }
   return {0.5 * (lo + hi) - 0.5 * (cells - 1) * spacing, spacing, static_cast<std::size_t>(cells)};
@@ -49,7 +49,7 @@ Ticks ticks(double lo, double hi, double spacing, double margin) {
 
 void require_few(std::size_t columns, std::size_t rows, double spacing) {
   if (static_cast<double>(columns) * static_cast<double>(rows) <= kMostPoints) return;
-  throw Error(ExitCode::usage, "grid",
+  throw Error(ExitCode::usage, "--grid",
               text("a spacing of ", shortest(spacing), " m makes ", columns, " x ", rows,
                    " points; give a larger one"));
 }
@@ -212,11 +212,14 @@ void declare_options(Options& options, GridOptions& g) {
 
 void check(const GridOptions& grid, const std::string& points_path) {
   if (points_path.empty() == !grid.spacing_m)
-    throw Error(ExitCode::usage, "", "give either --points FILE or --grid METRES");
+    throw Error(ExitCode::usage, "",
+                "sensors are missing, or stated twice; give either --points FILE or --grid METRES");
   if (!grid.spacing_m && (!grid.mesh.empty() || grid.height_m || grid.margin_m > 0))
-    throw Error(ExitCode::usage, "points", "--mesh, --height and --margin belong to --grid; leave them out");
+    throw Error(ExitCode::usage, "--points",
+                "--mesh, --height and --margin belong to --grid; leave them out");
   if (grid.spacing_m && grid.mesh.empty() == !grid.height_m)
-    throw Error(ExitCode::usage, "grid", "needs either --mesh NODE or --height METRES");
+    throw Error(ExitCode::usage, "--grid",
+                "needs either --mesh NODE or --height METRES; give one of the two");
 }
 
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays) {
@@ -312,7 +315,7 @@ Sensors mesh_grid(const Scene& scene, const GridOptions& grid) {
     std::string names;
     for (std::size_t i = 0; i < scene.instance.size() && i < 8; ++i)
       names += (i > 0 ? ", " : "") + scene.instance[i].node;
-    throw Error(ExitCode::usage, "mesh",
+    throw Error(ExitCode::usage, "--mesh",
                 text("the scene has no surface of node \"", grid.mesh, "\"; it has ", names,
                      scene.instance.size() > 8 ? ", ..." : ""));
   }

@@ -214,8 +214,8 @@ void SensorCaches::require_light(bool direct, const std::shared_ptr<const Causti
   if (!caustics_) caustics_ = caustics;
   if (!empty() && direct != holds_direct_)
     throw Error(ExitCode::mismatch, name,
-                text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
-                     direct ? "indirect" : "all", "; give caches made with the same --paths"));
+                text("holds ", direct ? "all" : "indirect", " light, and the cache before it holds ",
+                     direct ? "indirect" : "all", " light; give caches made with the same --paths"));
   holds_direct_ = direct;
 }
 

@@ -47,7 +47,7 @@ bool can_state_error(Tool& tool, const std::vector<LightWay>& ways, const Refere
   tell_unsampled(tool, missed, Sampler::path_tracing, samples);
   if (!picture.trusted) {
     tool.stat("untrusted", picture.image.pixels());
-    tool.doubt("too few bright paths make the picture's standard error; raise --samples");
+    tool.doubt("the picture's standard error rests on too few bright paths; raise --samples");
   }
   return missed.empty();
 }

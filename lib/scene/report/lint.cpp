@@ -38,7 +38,7 @@ constexpr Mend kMends[] = {
     {kLightIgnored, "give it an area and an intensity, or remove it"},
     {kAboveOne, "lower kd or ks until kd + ks is at most 1"},
     {kAbsorbsNothing, "lower kd or ks; white paint reflects 0.8"},
-    {kReflectsMuch, "lower it unless it is meant"},
+    {kReflectsMuch, "lower the reflectance, unless it is intended"},
     {kMetalByDefault, "give paint, plaster, wood and stone a metallicFactor of 0"},
 };
 
@@ -247,10 +247,10 @@ class Linter {
         check_measured("material \"" + name + "\"",
                        *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
       } else if (m.reflectance > 1.0001) {
-        note(Note::Level::warning, kAboveOne, ", more than it gets");
+        note(Note::Level::warning, kAboveOne, ", more than it receives");
       } else if (m.reflectance > kAllReflectance && m.diffuse) {
         note(Note::Level::warning, kAbsorbsNothing,
-             ": in a closed room of it light never ends, and has no finite mean");
+             ": in a closed room of this material light never ends, and has no finite mean");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
         note(Note::Level::info, kReflectsMuch, "; white paint reflects 0.8");
       }

@@ -42,13 +42,15 @@ void read_band_word(const std::string& word, const std::string& value, BandOptio
 
 void check(const BandOptions& o) {
   if (!o.any()) {
-    if (o.triplet > 0) throw Error(ExitCode::usage, "--triplet", "is of --bands; give that too");
+    if (o.triplet > 0) throw Error(ExitCode::usage, "--triplet", "needs --bands; give both");
     if (!o.spectra.empty())
-      throw Error(ExitCode::usage, "--spectrum", "is for --bands; RGB has no spectra: give --bands too");
+      throw Error(ExitCode::usage, "--spectrum", "needs --bands, as RGB has no spectra; give both");
     return;
   }
   if (o.number < Bands::kLeast)
-    throw Error(ExitCode::usage, "--bands", text("must be ", Bands::kLeast, " to ", Bands::kMost));
+    throw Error(
+        ExitCode::usage, "--bands",
+        text("is ", o.number, "; it must be ", Bands::kLeast, " to ", Bands::kMost, ", or 0 for RGB"));
   const std::int64_t triplets = (o.number + 2) / 3;
   if (o.triplet < 1)
     throw Error(ExitCode::usage, "--triplet",
@@ -56,7 +58,8 @@ void check(const BandOptions& o) {
                      triplets, " (pipelines/bands.sh makes them all)"));
   if (o.triplet > triplets)
     throw Error(ExitCode::usage, "--triplet",
-                text(o.triplet, " is not there: ", o.number, " bands are ", triplets, " triplets"));
+                text("is ", o.triplet, ", but ", o.number, " bands have ", triplets, " triplets; give 1 to ",
+                     triplets));
 }
 
 }  // namespace phos::inline scene

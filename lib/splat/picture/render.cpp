@@ -178,12 +178,12 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
   if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
-    throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
+    throw Error(ExitCode::usage, "--overlay", "is drawn into the layer beauty; give --layers beauty too");
   if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
     throw Error(ExitCode::usage, "--edge-samples",
-                "sends rays for direct light too; give --direct traced or interleaved");
+                "needs shadow rays for direct light; give --direct traced or interleaved");
   if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
-    throw Error(ExitCode::usage, "--environment-mode", "by harmonics is for --direct traced alone");
+    throw Error(ExitCode::usage, "--environment-mode", "hsh and sh need --direct traced; leave --direct out");
 }
 
 namespace {

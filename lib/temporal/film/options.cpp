@@ -66,17 +66,18 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   if (lives == Lives::midpoint) {
     if (gradients == TemporalGradients::extrapolated)
       refuse("--temporal-gradients",
-             "extrapolated goes with --lives rate, which looks one frame ahead; add that");
+             "extrapolated needs --lives rate, which looks one frame ahead; add that option");
     if (gradients == TemporalGradients::none)
       refuse("--temporal-gradients",
-             "none goes with --lives rate: midpoints are judged by what is interpolated; add that");
+             "none needs --lives rate, as --lives midpoint judges by interpolation; add --lives rate");
     if (given.given("look-ahead"))
-      refuse("--look-ahead", "goes with --lives rate alone; add that, or leave it out");
+      refuse("--look-ahead", "needs --lives rate; add that option, or leave this one out");
   } else if (given.given("checks")) {
-    refuse("--checks", "goes with --lives midpoint alone; leave it out");
+    refuse("--checks", "needs --lives midpoint; leave it out");
   }
   if (gradients == TemporalGradients::extrapolated && look_ahead == LookAhead::none)
-    refuse("--look-ahead", "none knows no gradients; use reproject or trace, or --temporal-gradients none");
+    refuse("--look-ahead",
+           "none has no gradients to extrapolate; use reproject or trace, or --temporal-gradients none");
   if (of_radiance && !given.given("checks")) checks = 2;
 }
 
