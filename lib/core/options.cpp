@@ -452,7 +452,7 @@ bool Options::parse(int argc, const char* const* argv) {
                   (empty ? "usage: " + impl_->usage() : phos::text(Impl::left(d), " is missing")) + see);
   for (const Declaration& d : impl_->declarations)
     if (!d.other_name.empty() && given(d.name) && given(d.other_name))
-      reject(d.name, phos::text("says the same as --", d.other_name, " says; give one of the two"));
+      reject(d.name, phos::text("sets the same as --", d.other_name, "; give one of the two"));
   return true;
 }
 

@@ -39,7 +39,7 @@ Shard open_shard(const std::string& path, const ShardKind& kind) {
   shard.name = name->as_string();
   if (!read_share(shard.name, shard.share))
     throw Error(ExitCode::bad_input, path,
-                text("the header does not say which", kind.word(), " it is; make it again"));
+                text("the header does not say which ", kind.word(), " it is; make it again"));
   return shard;
 }
 

@@ -145,7 +145,7 @@ TEST_F(Adoption, TwoNamesOfOneValueAreNotGivenTogether) {
     ADD_FAILURE();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::usage);
-    EXPECT_STREQ(e.what(), "says what --shape says; give one of the two");
+    EXPECT_STREQ(e.what(), "sets the same as --shape; give one of the two");
   }
 }
 

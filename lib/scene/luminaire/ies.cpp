@@ -369,7 +369,7 @@ class Reader {
     } else if (first == 90 && last == 270) {
       planes.mirror_at_end();
     } else if (first != 0) {
-      fail_range("type C wants them to begin at 0, or to run from 90 to 270");
+      fail_range("type C needs them to begin at 0, or to run from 90 to 270");
     } else if (last == 90) {
       planes.mirror_at_end(), planes.mirror_at_end();
     } else if (last == 180) {
@@ -379,7 +379,7 @@ class Reader {
       for (std::size_t i = 1; i < horizontals_; ++i)
         step = std::max(step, horizontal_deg_[i] - horizontal_deg_[i - 1]);
       if (!(last > 180 && 360 - last >= kLeastStep_deg && 360 - last <= 1.5 * step))
-        fail_range("type C wants them to end at exactly 0, 90, 180 or 360");
+        fail_range("type C needs them to end at exactly 0, 90, 180 or 360");
       warn(text("horizontal angles end at ", last, ": the plane at 360 is taken to be that at 0"));
       planes.azimuth_deg.push_back(360), planes.row.push_back(0);
     }

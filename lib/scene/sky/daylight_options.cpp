@@ -60,8 +60,7 @@ const NumberOption kNumbers[] = {
      {-80, 60}},
     {"ground-albedo",
      "SHARE",
-     "reflectance of the ground below the horizon, which sky and sun light as open ground; 0: black "
-     "(default: 0.2)",
+     "reflectance of the ground below the horizon, which is lit as open ground; 0: black (default: 0.2)",
      &DaylightOptions::ground_albedo,
      {0, 1}},
     {"north",

@@ -34,9 +34,10 @@ std::string overview() {
   for (const Program& program : all_programs()) width = std::max(width, passes(program).size());
   std::string s =
       text(kName, ' ', version(), " - ", kSummary,
-           "\n\nUsage: phos PROGRAM [ARGUMENT]...     phos splat is phos-splat\n       phos help [PROGRAM | "
-           "TOPIC]\n       phos doctor [--json]            checks that this machine has all that phos "
-           "needs\n\nPrograms, in the order of a study, with their inputs and outputs:\n");
+           "\n\nUsage: phos PROGRAM [ARGUMENT]...     phos splat is phos-splat"
+           "\n       phos help [PROGRAM | TOPIC]"
+           "\n       phos doctor [--json]            checks that this machine has all that phos needs"
+           "\n\nPrograms, in the order of a study, with their inputs and outputs:\n");
   for (const Program& program : all_programs()) {
     std::string line = "  " + short_name(program);
     line.resize(14, ' ');
