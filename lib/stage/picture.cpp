@@ -57,7 +57,7 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
   const CsvTable table = parse_csv(bytes, input);
   if (options.x.empty() || options.y.empty())
     throw Error(ExitCode::usage, options.x.empty() ? "--x" : "--y",
-                text("name a column of ", input, ": ", table.names()));
+                text("is missing; give a column of ", input, ": ", table.names()));
   const Plot plot = plot_of(table, options);
   write_plot(tool.output(), plot, plot_svg, plot_picture);
   if (const std::size_t n = points_left_out(plot); n > 0) {
