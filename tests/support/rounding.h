@@ -28,7 +28,7 @@ class Rounding {
     EXPECT_GT(seen_, 1000u) << kernel;
     EXPECT_LE(worst_, most) << kernel;
     std::printf("rounding of %s: %.3g, in %zu numbers\n", kernel.c_str(), worst_, seen_);
-    expect_limit({"rounding of " + kernel, along, from, to, worst_, "not looked for"});
+    expect_limit({"rounding of " + kernel, along, from, to, worst_, "not tested"});
   }
 
  private:

@@ -230,7 +230,7 @@ inline void sweep_scales(const std::string& quantity, const EstimateAt& estimate
     // another machine's luck.
     if (tolerance.decades > SweepTolerance().decades) worst = tolerance.decades / 1.5;
     expect_limit(
-        {quantity, along, std::pow(10, -most), std::pow(10, most), worst, "not looked for", by_noise > 0});
+        {quantity, along, std::pow(10, -most), std::pow(10, most), worst, "not tested", by_noise > 0});
   };
   by_tens("length, powers of ten", 6, [](int n) { return Scale::decades(n, 0); });
   by_tens("power, powers of ten", 12, [](int n) { return Scale::decades(0, n); });
@@ -241,7 +241,7 @@ inline void sweep_scales(const std::string& quantity, const EstimateAt& estimate
     const Reach down = reach_of(-step, most, tolerance.binades, at),
                 up = reach_of(step, most, tolerance.binades, at);
     const auto end = [](const Reach& r, const char* side) {
-      return std::string(side) + (r.ended ? law_text(r.beyond) : "not looked for");
+      return std::string(side) + (r.ended ? law_text(r.beyond) : "not tested");
     };
     for (const Reach* r : {&down, &up})
       if (r->ended)

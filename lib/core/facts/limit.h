@@ -26,7 +26,7 @@ std::string written(const Limit& limit);
 
 /// Of whole programs.
 inline constexpr Limit kMostThreads{"threads (`--threads`)", 4096, "exit code 2"};
-inline constexpr Limit kMostOptionsFileBytes{"bytes of a file of options (`@FILE`)", 1 << 20, "exit code 3"};
+inline constexpr Limit kMostOptionsFileBytes{"bytes of an options file (`@FILE`)", 1 << 20, "exit code 3"};
 
 inline constexpr const Limit* kCoreLimits[] = {&kMostThreads, &kMostOptionsFileBytes};
 
