@@ -57,7 +57,7 @@ constexpr TensorGroup kPhotonGroups[] = {
      kFlights},
 };
 
-// --- what records of both kinds have ---
+// --- tensors of both kinds of records ---
 
 constexpr TensorRow kLives[] = {
     {"birth", Dtype::i32, "n", "frame", kAny, "first frame that the record serves"},
