@@ -17,16 +17,16 @@ namespace phos::test {
 
 /// One line of the page.
 struct Limit {
-  std::string quantity, along;  ///< "direct light", "length of the scene, m": together they name the line
-  double from = 0, to = 0;      ///< where it is right
-  double error = 0;             ///< the worst there, relative; 0: every bit as the scaling law has it
-  std::string beyond;           ///< what happens outside
-  bool noisy = false;           ///< what is stated comes on top of the standard error of the estimate
+  std::string quantity, along;  ///< "direct light", "length, times": together they name the line
+  double from = 0, to = 0;      ///< the range in which results are right
+  double error = 0;             ///< the greatest relative error there; 0: every bit follows the law
+  std::string beyond;           ///< the behaviour outside
+  bool noisy = false;           ///< the error comes on top of the estimate's standard error
 };
 
 inline std::string limits_path() { return std::string(PHOS_SOURCE) + "/docs/reference/measured-limits.md"; }
 
-/// Half as much again, then up to the next of 1, 2, 5 times a power of ten: the same on other machines.
+/// 1.5 times the measured error, rounded up to 1, 2 or 5 times a power of ten: the same on other machines.
 inline double stated_error(double measured) {
   if (!(measured > 0)) return 0;
   const double unit = std::pow(10.0, std::floor(std::log10(1.5 * measured)));
@@ -107,8 +107,8 @@ inline void write_limit(const Limit& limit) {
   std::printf("%s\n", line_of(limit).c_str());
 }
 
-/// The page has this line. Errors may differ between machines: the one on the page must hold, and must not be
-/// twenty times what is found.
+/// The page has this line. Errors may differ between machines: the error on the page must hold, and must not
+/// be more than twenty times the error found.
 inline void expect_limit(const Limit& limit) {
   EXPECT_TRUE(std::isfinite(limit.error) && limit.from <= limit.to) << line_of(limit);
   if (updating_golden()) return write_limit(limit);
@@ -129,5 +129,4 @@ inline void expect_limit(const Limit& limit) {
                 << ": run this program with --update";
 }
 
-/// main of a test program with lines in the page.
 }  // namespace phos::test

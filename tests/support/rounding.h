@@ -1,4 +1,4 @@
-// How far a kernel, as it is shipped, is off what long doubles make of the same numbers.
+// The difference between a kernel, as it is shipped, and the result of long doubles from the same numbers.
 #pragma once
 
 #include <glm/glm.hpp>
