@@ -122,7 +122,7 @@ void repair_normals(Scene& scene) {
     Vec3& n = scene.normal[i];
     const Vec3 unit = normalized_or_zero(n);
     if (unit != Vec3(0)) {
-      // Twice normalised is not bitwise once normalised; leave what is unit already.
+      // Twice normalised is not bitwise once normalised; leave vectors that are unit already.
       if (std::abs(glm::dot(n, n) - 1.0f) > 1e-6f) n = unit;
       continue;
     }
