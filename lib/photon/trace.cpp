@@ -33,6 +33,7 @@ void join(const PathPart& part, PhotonTotals& totals, Counters& counters, std::v
     if (times > 0) counters.count(event, times);
   };
   count(kEscapedEvent, part.sums.escaped_paths);
+  count(kKeptInGlassEvent, part.sums.kept_in_glass + part.aimed.kept_in_glass);
   count(kNonFiniteEvent, part.sums.non_finite + part.aimed.non_finite), count(kTooLongEvent, part.too_long());
   if (log) log->insert(log->end(), part.rays.begin(), part.rays.end());
 }

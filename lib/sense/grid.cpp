@@ -189,7 +189,8 @@ bool near_walls(const RayScene& rays, const Vec3& p, const Vec3& up, float margi
 
 /// Can a sensor be here? Something is below it, and it is neither in a solid nor behind the walls.
 bool usable(const RayScene& rays, const Vec3& p, const Vec3& up, float margin) {
-  if (!rays.occluded({p, -up}) || inside_solid(rays, receiver(rays.scene(), p, up))) return false;
+  const SurfacePoint at = receiver(rays.scene(), p, up);
+  if (!rays.occluded({p, -up}) || inside_solid(rays, at) || glass_about(rays, at)) return false;
   return !(margin > 0) || !near_walls(rays, p, up, margin);
 }
 
@@ -224,8 +225,17 @@ void check(const GridOptions& grid, const std::string& points_path) {
 
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays) {
   const DVec3& origin_m = rays.scene().origin_m;
-  if (!points_path.empty()) return read_sensors(points_path, origin_m);
+  if (!points_path.empty()) {
+    Sensors sensors = read_sensors(points_path, origin_m);
+    for (const SurfaceSample& s : sensors.points)
+      require_in_air(rays, s.position, s.normal, points_path == "-" ? "stdin" : points_path);
+    return sensors;
+  }
   Sensors sensors = grid.mesh.empty() ? workplane(rays, grid) : mesh_grid(rays.scene(), grid);
+  if (!grid.mesh.empty())
+    sensors.left_out += std::erase_if(sensors.points, [&](const SurfaceSample& s) {
+      return glass_about(rays, receiver(rays.scene(), s.position, s.normal)) != nullptr;
+    });
   sensors.origin_m = origin_m;
   return sensors;
 }

@@ -12,6 +12,7 @@
 #include "reference/render.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
+#include "scene/nested_glass.h"
 
 namespace phos::stage {
 namespace {
@@ -136,6 +137,8 @@ void run(Tool& tool, ReferenceCommand& asked) {
   if (asked.points.empty()) resolve_size(reference, find_camera(scene, reference.camera));
   if (scene.light.empty()) tool.warn("the scene has no light: everything will be black");
   const RayScene rays(scene);
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
+  for (const SensorPoint& p : points) require_in_air(rays, p.position, p.normal, asked.points);
   const Luminaires luminaires(scene);
   if (asked.points.empty())
     render(tool, scene, rays, luminaires, reference);

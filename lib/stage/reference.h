@@ -10,7 +10,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kReferenceAlgorithm = 7;
+inline constexpr int kReferenceAlgorithm = 8;
 
 struct ReferenceCommand {
   std::string scene_path, points;  ///< files

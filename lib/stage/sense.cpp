@@ -7,6 +7,7 @@
 #include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/motion/film.h"
+#include "scene/nested_glass.h"
 #include "scene/sky/daylight.h"
 #include "sense/daylight_factor.h"
 #include "sense/sensor_table.h"
@@ -135,6 +136,7 @@ void run(Tool& tool, SenseCommand& asked) {
         "standard ones");
   const RayScene rays(scene, {asked.isa});
   const Luminaires lights(scene);
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
   const Sensors sensors = find_sensors(asked.points, asked.grid, rays);
   if (sensors.points.empty()) tool.warn("there is no sensor, and the output is a header alone");
   SensorOptions& sense = asked.sense;

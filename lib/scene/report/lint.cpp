@@ -12,6 +12,7 @@
 #include "scene/load.h"
 #include "scene/material/merl.h"
 #include "scene/material/models.h"
+#include "scene/nested_glass.h"
 #include "scene/report/describe.h"
 #include "scene/sky/access.h"
 #include "scene/sky/daylight.h"
@@ -49,10 +50,13 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
-    if (!scene_.camera.empty()) {
+    const auto& materials = scene_.material;
+    const bool glass = std::any_of(materials.begin(), materials.end(), is_solid_glass);
+    if (glass || !scene_.camera.empty()) {
       const RayScene rays(scene_);
       check_cameras(rays);
-      check_sky(rays);
+      check_nested_glass(rays);
+      if (!scene_.camera.empty()) check_sky(rays);
     }
     check_lamps();
     check_materials();
@@ -121,6 +125,11 @@ class Linter {
     for (const Camera& camera : scene_.camera)
       if (const std::optional<std::string> inside = camera_inside_solid(rays, camera))
         add(Level::warning, "camera-inside", *inside, "put it where there is air");
+  }
+
+  void check_nested_glass(const RayScene& rays) {
+    if (const std::optional<std::string> nested = nested_glass(rays))
+      add(Level::warning, "nested-glass", *nested, "an index of 1 is a part that is not there");
   }
 
   void check_sky(const RayScene& rays) {
