@@ -1,4 +1,4 @@
-// phos-reference: renders a scene by path tracing, or measures lux at points.
+// phos-reference: renders a scene by path tracing or from a photon map, or measures lux at points.
 #include "stage/reference.h"
 
 int main(int argc, char** argv) {
@@ -9,7 +9,9 @@ int main(int argc, char** argv) {
       "roulette; it "
       "shares no estimator with the caches. --method bidirectional follows paths from the lamps too, and "
       "so finds light that comes by mirrors, glass and sharp gloss; it blurs what nothing else can make, "
-      "and the estimated bias is part of the standard error. Writes an OpenEXR image with the layers beauty "
+      "and the estimated bias is part of the standard error. --method final-gather and photons are the "
+      "classical estimators over a photon map, given beside the scene, to compare caches with; they are "
+      "biased, and their standard errors hold noise alone. Writes an OpenEXR image with the layers beauty "
       "(R G B), "
       "emission, "
       "direct, indirect and, where there is any, glossy and specular in cd/m2, their standard errors "
@@ -21,7 +23,8 @@ int main(int argc, char** argv) {
   tool.takes_strict();
   Options& options = tool.options();
   stage::ReferenceCommand asked;
-  options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
+  options.inputs("SCENE [PHOTONS]", asked.inputs,
+                 "scene (.glb, .gltf, .obj), and photons of it for --method final-gather and photons");
   declare_options(options, asked.reference);
   declare_options(options, asked.scene);
   tool.takes_frames(asked.scene.frame);
@@ -31,6 +34,8 @@ int main(int argc, char** argv) {
                "measure illuminance at these points instead (CSV with columns x,y,z,nx,ny,nz, or six numbers "
                "a line; the side that the normal faces); the "
                "result goes to -o or stdout");
+  options.flag("allow-mismatch", asked.allow_mismatch,
+               "use photons of another scene or another version of it", Recorded::if_given);
   options.example("phos-reference room.glb --error 0.01 --samples 4096 -o room.exr",
                   "until the noise is 1 %");
   options.example("phos-reference room.glb --samples 256 --adaptive -o room.exr",
@@ -38,6 +43,8 @@ int main(int argc, char** argv) {
   options.example("phos-reference room.glb --bounces 1 -o direct.exr", "direct light only");
   options.example("phos-reference room.glb --points desk.csv --samples 65536",
                   "lux at sensor points, to stdout");
+  options.example("phos-reference room.glb room.photons --method final-gather --samples 16 -o gathered.exr",
+                  "gathering at every pixel over a photon map");
   options.example("phos-reference film.glb --frames 0:99 --samples 256 --reuse -o film/%04d.exr",
                   "an animation; frames that are there already are left");
 

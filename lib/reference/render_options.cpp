@@ -20,10 +20,7 @@ void declare_options(Options& options, ReferenceOptions& r) {
                  "stop once the RMS standard error of the pixels' scattered light is this part of its mean "
                  "(0.01: 1 %); with --points, once each point's standard error is this part of its value",
                  kPositive);
-  declare_method(options, r.method,
-                 "path: from the eye alone, which does not find what comes from small lamps by mirrors and "
-                 "glass; bidirectional: from eye and lamps; auto: bidirectional where the scene has mirrors, "
-                 "smooth glass or sharp gloss");
+  declare_method(options, r.method, "", MethodChoice::all);
   options.flag("adaptive", r.adaptive,
                "--samples are a mean: a quarter of them tell how noisy each pixel's neighbours are, and the "
                "noisier, the more of the rest it gets; still unbiased, and far less noisy where a few bright "
@@ -35,6 +32,7 @@ void declare_options(Options& options, ReferenceOptions& r) {
                   {-1, 65000});
   options.flag("black-emitters", r.path.black_emitters,
                "surfaces that emit reflect nothing, as in some other renderers");
+  declare_options(options, r.map);
 }
 
 void resolve_size(ReferenceOptions& r, const Camera& camera) {
