@@ -17,22 +17,31 @@ std::unique_ptr<MapLight> make_light(const MapScene& scene, const MapOptions& op
 }
 
 constexpr ReferenceMethodRow kMethods[] = {
-    {ReferenceMethod::automatic, "auto",
-     "bidirectional where the scene has mirrors, smooth glass or sharp gloss, else path", nullptr, "", true,
-     true},
-    {ReferenceMethod::path, "path",
-     "from the eye alone, which does not find what comes from small lamps by mirrors and glass", nullptr, "",
-     true, true},
-    {ReferenceMethod::bidirectional, "bidirectional", "from eye and lamps", nullptr, "", true, false},
-    {ReferenceMethod::final_gather, "final-gather",
-     "at every pixel shadow rays, caustic photons, and rays that are lit by photons where they land",
-     make_light<FinalGather>,
-     "that of gathering and of caustic photons: neither the noise of the photons where rays land nor the "
-     "blur of "
-     "discs is in it",
-     true, true},
-    {ReferenceMethod::photons, "photons", "the light of the photons about each visible point",
-     make_light<PhotonView>, "that of the number of photons: the blur of discs is not in it", false, true},
+    {.method = ReferenceMethod::automatic,
+     .name = "auto",
+     .summary = "bidirectional where the scene has mirrors, smooth glass or sharp gloss, else path"},
+    {.method = ReferenceMethod::path,
+     .name = "path",
+     .summary = "from the eye alone, which does not find what comes from small lamps by mirrors and glass"},
+    {.method = ReferenceMethod::bidirectional,
+     .name = "bidirectional",
+     .summary = "from eye and lamps",
+     .shares_samples = false},
+    {.method = ReferenceMethod::final_gather,
+     .name = "final-gather",
+     .summary =
+         "at every pixel shadow rays, caustic photons, and rays that are lit by photons where they land",
+     .map_light = make_light<FinalGather>,
+     .error_of =
+         "that of gathering and of caustic photons: it holds neither the noise of the photons where rays "
+         "land nor the blur of discs"},
+    {.method = ReferenceMethod::photons,
+     .name = "photons",
+     .summary = "the light of the photons about each visible point",
+     .map_light = make_light<PhotonView>,
+     .error_of = "that of the number of photons: it does not hold the blur of discs",
+     .error_by_samples = false,
+     .gloss_by_photons = true},
 };
 
 }  // namespace

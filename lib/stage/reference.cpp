@@ -16,6 +16,7 @@
 #include "reference/render.h"
 #include "scene/inside_solid.h"
 #include "scene/material/bsdf.h"
+#include "scene/material/sharp_materials.h"
 #include "scene/motion/film.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
@@ -51,8 +52,13 @@ MapInput open_map(Tool& tool, const InputFiles& files, const Scene& scene, const
     tool.warn(text(files.phos.front(), ": holds ", map.photons->size(),
                    " photons, fewer than --photons-in-disc ", wanted, ": every disc holds all of them"));
   map.light = method.map_light({rays, luminaires, *map.photons}, asked.reference.map);
-  tool.warn(text("the standard error of --method ", method.name, " is ", method.error_of));
   return map;
+}
+
+/// What a stated standard error holds and what not.
+void tell_error(Tool& tool, const ReferenceMethodRow& method) {
+  if (*method.error_of)
+    tool.warn(text("the standard error of --method ", method.name, " is ", method.error_of));
 }
 
 /// Refuses what a method cannot do, or does not read.
@@ -121,6 +127,21 @@ ReferenceMethod method_of(const ReferenceOptions& reference) {
                                                                     : reference.method;
 }
 
+/// Gloss whose lobe takes too few of the photons of a disc for an error (kExpectedHits), as a cosine-weighted
+/// ray would find it. Warns of it, and whether errors are to be stated.
+bool sees_gloss(Tool& tool, const Scene& scene, const MapOptions& map) {
+  const auto photons = static_cast<double>(map.photons_in_disc);
+  const auto dark = std::find_if(scene.material.begin(), scene.material.end(), [&](const Material& m) {
+    return !reflects_as_mirror(m) && photons * lobe_hit_share(scene, m) < kExpectedHits;
+  });
+  if (dark == scene.material.end()) return true;
+  tool.doubt(
+      text("the gloss of material \"", dark->name, "\" is so sharp that few of the ", map.photons_in_disc,
+           " photons of a disc are in its lobe: stderr is not stated; raise --photons-in-disc, or give "
+           "--method final-gather"));
+  return false;
+}
+
 /// Warns of what the picture's error does not hold. Is it to be stated?
 bool can_state_error(Tool& tool, const std::vector<LightWay>& ways, const ReferencePicture& picture) {
   const auto samples = static_cast<double>(picture.image.pixels()) * static_cast<double>(picture.samples);
@@ -148,6 +169,7 @@ void measure_points(Tool& tool, const RayScene& rays, const Luminaires& luminair
   if (measured.rejected > 0) tool.counters().count(kNonFiniteSampleEvent, measured.rejected);
   tool.counters().require_allowed(kNonFiniteSampleEvent, measured.samples);
   measured.doubts.tell(tool);
+  tell_error(tool, row_of(reference.method));
   write_text(tool, sensor_csv(points, measured.light, rays.scene().origin_m));
 }
 
@@ -175,12 +197,17 @@ void render(Tool& tool, const Scene& scene, const RayScene& rays, const Luminair
   tool.counters().merge(picture.counters);
   tool.stat("samples", picture.image.pixels() * static_cast<std::uint64_t>(picture.samples));
   tool.stat("samples a pixel", picture.samples);
-  const bool stated = can_state_error(tool, both_ends ? std::vector<LightWay>() : ways, picture);
-  if (!stated) picture.image = without_errors(picture.image);
+  bool stated = can_state_error(tool, both_ends ? std::vector<LightWay>() : ways, picture);
+  if (row_of(reference.method).gloss_by_photons) stated = sees_gloss(tool, scene, reference.map) && stated;
+  if (stated)
+    tell_error(tool, row_of(reference.method));
+  else
+    picture.image = without_errors(picture.image);
   if (!scene.animation.empty()) picture.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);
   set_provenance(picture.image, tool.provenance(FileKind::image, scene.hash, scene.parts));
   picture.image.attributes["phos.samples"] = std::to_string(picture.samples);
   if (stated) picture.image.attributes["phos.error"] = shortest(picture.error);
+  if (stated && map) picture.image.attributes["phos.error_of"] = row_of(reference.method).error_of;
   if (stated) tool.stat("error", picture.error);
   const auto timer = tool.time("write");
   write_exr(tool.output(), picture.image);
@@ -228,8 +255,9 @@ void run(Tool& tool, ReferenceCommand& asked) {
   if (scene.light.empty()) tool.warn("the scene has no light: everything will be black");
   const RayScene rays(scene);
   const Luminaires luminaires(scene);
+  if (row_of(reference.method).reads_map() && reference.illuminance && asked.points.empty())
+    require_photons_everywhere(scene);
   const MapInput map = open_map(tool, files, scene, rays, luminaires, asked);
-  if (map.light && reference.illuminance && asked.points.empty()) require_photons_everywhere(scene);
   if (asked.points.empty())
     render(tool, scene, rays, luminaires, reference, map.light.get());
   else
