@@ -26,7 +26,7 @@ constexpr Program kPrograms[] = {
      ".irradiance, .radiance"},
     {"phos-splat", "renders a scene from its caches", "scene, caches", ".exr"},
     {"phos-sense", "computes illuminance at sensor points, with its standard error", "scene, caches", ".csv"},
-    {"phos-reference", "renders a scene by path tracing, to judge other stages by", "scene", ".exr, .csv"},
+    {"phos-reference", "renders a scene by path tracing, to judge other stages by", "scene, photons", ".exr, .csv"},
     {"phos-bands", "joins what was computed in bands of wavelength", ".exr, .csv", ".exr, .csv"},
     {"phos-compare", "measures how far an image is from a reference", ".exr, .hdr", "text, JSON, .exr"},
     {"phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",

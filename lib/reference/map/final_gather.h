@@ -9,8 +9,8 @@
 
 namespace phos::inline reference {
 
-/// Light of a visible surface in four parts (Jensen 2001, chapter 9): from lamps by shadow rays alone, as
-/// EyePathTracer::direct() has it; by way of mirrors and glass, from the caustic photons about it
+/// Light of a visible surface in four parts (Jensen 2001; docs/methods.md#c8): from lamps by shadow rays
+/// alone, as EyePathTracer::direct() has it; by way of mirrors and glass, from the caustic photons about it
 /// (PhotonDiscs); from other surfaces by `gather_rays` rays drawn from its BSDF (of a Lambert surface
 /// distributed as the cosine, in strata), each lit where it lands by the photons about the hit; and by delta
 /// lobes, followed. A gather ray goes on by mirrors and glass until it lands, and what shines along it does

@@ -27,7 +27,7 @@ struct DiscIrradiance {
 
 /// Estimates of the k photons nearest to a point (Jensen 1996, 2001): the sphere that the k-th bounds is
 /// taken for a disc of the surface, whatever the surface is within it: each of the k - 1 nearer photons
-/// brings its flux / (pi r2) (docs/methods.md#c4). Photons of other surfaces within the sphere count too.
+/// brings its flux / (pi r2) (docs/methods.md#c8). Photons of other surfaces within the sphere count too.
 /// Where the map has fewer than k photons the farthest of them bounds it; fewer than two photons give 0. r is
 /// at least the rounding error of the point. The standard error is that of Poisson photons, about 1/sqrt(k)
 /// where they are alike, and not the bias of the disc. Const and usable from any thread; holds a reference.
