@@ -31,7 +31,7 @@ struct ReferenceMethodRow {
   const char* summary;  ///< for the help of --method
   /// The light of a method that reads a photon map; null of those that read none.
   std::unique_ptr<MapLight> (*map_light)(const MapScene& scene, const MapOptions& options) = nullptr;
-  const char* error_of = "";      ///< what its standard error holds and what not; "" where it holds all
+  const char* error_of = "";      ///< the errors that its standard error holds, and others; "": all errors
   bool error_by_samples = true;   ///< does more --samples make its standard error less?
   bool shares_samples = true;     ///< can it take more samples of one pixel than of another?
   bool gloss_by_photons = false;  ///< is gloss that an eye sees lit by photons alone?

@@ -55,13 +55,13 @@ MapInput open_map(Tool& tool, const InputFiles& files, const Scene& scene, const
   return map;
 }
 
-/// What a stated standard error holds and what not.
+/// Says which errors a stated standard error holds.
 void tell_error(Tool& tool, const ReferenceMethodRow& method) {
   if (*method.error_of)
     tool.warn(text("the standard error of --method ", method.name, " is ", method.error_of));
 }
 
-/// Refuses what a method cannot do, or does not read.
+/// Refuses inputs and options that the method cannot use.
 void check_method(const Options& given, const InputFiles& files, const ReferenceCommand& asked,
                   bool sequence) {
   const ReferenceMethodRow& method = row_of(asked.reference.method);

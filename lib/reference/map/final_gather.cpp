@@ -44,7 +44,7 @@ FinalGather::FinalGather(const MapScene& scene, const MapOptions& options)
   caustic_discs_.emplace(*caustic_map_, options.photons_in_disc);
 }
 
-/// What a gather ray sees shine that is no lamp, which neither shadow rays nor photons bring.
+/// Emission on the way of a gather ray that belongs to no lamp: neither shadow rays nor photons bring it.
 Rgb FinalGather::unsampled_glow(const SpecularStop& stop, const SurfacePoint* point) const {
   const Scene& scene = rays_->scene();
   if (!point) return luminaires_->environment() < 0 ? background_luminance(scene, stop.direction) : Rgb(0);

@@ -13,9 +13,9 @@ namespace phos::inline reference {
 /// alone, as EyePathTracer::direct() has it; by way of mirrors and glass, from the caustic photons about it
 /// (PhotonDiscs); from other surfaces by `gather_rays` rays drawn from its BSDF (of a Lambert surface
 /// distributed as the cosine, in strata), each lit where it lands by the photons about the hit; and by delta
-/// lobes, followed. A gather ray goes on by mirrors and glass until it lands, and what shines along it does
-/// not count where shadow rays or caustic photons bring it. The samples' spread holds the gathering; neither
-/// the noise of the photons where rays land nor the bias of the discs is in any stated error.
+/// lobes, followed. A gather ray goes on by mirrors and glass until it lands; lamps on its way do not count,
+/// as shadow rays or caustic photons bring their light. The samples' spread holds the gathering; neither the
+/// noise of the photons where rays land nor the bias of the discs is in any stated error.
 class FinalGather final : public MapLight {
  public:
   FinalGather(const MapScene& scene, const MapOptions& options);

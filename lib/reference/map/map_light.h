@@ -12,7 +12,7 @@
 
 namespace phos::inline reference {
 
-/// The scene and the photons of it. Holds references.
+/// A scene and its photons. Holds references.
 struct MapScene {
   const RayScene& rays;
   const Luminaires& luminaires;

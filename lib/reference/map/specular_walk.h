@@ -12,7 +12,7 @@ namespace phos::inline reference {
 /// Where a specular walk has come to.
 struct SpecularStop {
   Vec3 direction{0};    ///< of the ray, unit
-  Rgb throughput{1};    ///< of what is sent back along it
+  Rgb throughput{1};    ///< share of light from here that goes back along the walk
   bool passed = false;  ///< a mirror, glass or a pane was met before
 };
 

@@ -1,4 +1,4 @@
-// What an eye sees shine.
+// Lamps and environment as an eye sees them.
 #pragma once
 
 #include "reference/eye_path_tracer.h"
@@ -7,8 +7,8 @@
 
 namespace phos::inline reference {
 
-/// Adds what the surface emits towards an eye whose ray came to it as `stop` says; where there is none, the
-/// environment beyond.
+/// Adds the light that the surface emits back along an eye's walk, which has come to `stop`; without a
+/// surface the environment's light.
 inline void add_visible_glow(const Scene& scene, const SpecularStop& stop, const SurfacePoint* point,
                              PathSample& sum) {
   const Rgb luminance =
