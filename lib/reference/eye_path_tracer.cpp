@@ -285,4 +285,11 @@ Rgb EyePathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) 
   return lux + kPi * sum.total();  // cos / density = pi
 }
 
+Rgb EyePathTracer::direct(const SurfacePoint& point, const std::function<Rgb(const Vec3&)>& f_cos,
+                          RandomStream& random) const {
+  // No path of its own samples the direction: shadow rays weigh whole.
+  const auto scatter = [&](const Vec3& wi, float& /*density*/) { return f_cos(wi); };
+  return light_at(point, sample_every_light(0), scatter, random);
+}
+
 }  // namespace phos::inline reference

@@ -25,10 +25,7 @@ void declare_options(Options& options, ReferenceOptions& r) {
                  "scattered light over its mean (0.01: 1 %); with --points, the standard error of each point "
                  "over its value (default: all --samples are taken)",
                  kPositive);
-  declare_method(options, r.method,
-                 "path: paths from the eye alone, which miss light that comes from small lamps by mirrors "
-                 "and glass; bidirectional: paths from eye and lamps; auto: bidirectional where the scene "
-                 "has mirrors, smooth glass or sharp gloss, else path");
+  declare_method(options, r.method, "", MethodChoice::all);
   options.flag("adaptive", r.adaptive,
                "--samples becomes a mean: a quarter of the samples tells the noise about each pixel, and "
                "noisier pixels get more of the rest. Pictures stay unbiased, and are far less noisy where a "
@@ -39,6 +36,7 @@ void declare_options(Options& options, ReferenceOptions& r) {
                   {-1, 65000});
   options.flag("black-emitters", r.path.black_emitters,
                "emitting surfaces reflect nothing, as in some other renderers");
+  declare_options(options, r.map);
 }
 
 void resolve_size(ReferenceOptions& r, const Camera& camera) {
