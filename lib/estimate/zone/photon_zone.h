@@ -36,7 +36,8 @@ inline constexpr float kLeastRise = -1e-4f;
 /// Photons of a zone as they are gathered, and the memory for that.
 struct GatheredPhotons {
   ZonePhotons zone;
-  std::vector<float> height_m;  ///< of each over the tangent plane
+  std::vector<float> height_m;        ///< of each over the tangent plane
+  std::vector<std::uint32_t> family;  ///< of each (Photons::family); empty where the map has none
   std::vector<std::uint32_t> rows, codes;
 };
 

@@ -37,6 +37,9 @@ constexpr TensorRow kPhoton[] = {
      "too"},
     {"bounce", Dtype::u8, "n", "1", kAny, "surfaces met before"},
 };
+constexpr TensorRow kFamilies[] = {
+    {"family", Dtype::u32, "n", "1", kAny, "number of its path, the lowest 32 bits"},
+};
 constexpr TensorRow kTree[] = {
     {"kdtree", Dtype::u8, "bytes", kOpaqueUnit, kAny, "the tree, compressed with lz4"},
 };
@@ -49,6 +52,11 @@ constexpr TensorRow kFlights[] = {
 constexpr TensorGroup kPhotonGroups[] = {
     {always, "", kPhoton},
     {always, "", kTree, FileForm::whole, FileForm::shard},
+    {optional,
+     "Light that is scattered outside of rooms goes on through portals in many photons of one path, which "
+     "are "
+     "not independent. Where paths do not part so, there is none:",
+     kFamilies},
     {optional,
      "Sensors in mid-air need stretches of caustic light that end at no stored photon. They are absent where "
      "there are none:",
