@@ -6,6 +6,13 @@
 #include "core/octahedral.h"
 
 namespace phos::inline estimate {
+const FacingCells& ZoneGatherer::facing() const {
+  std::call_once(once_, [&] {
+    facing_.emplace(photons_, [&](std::uint32_t row) { return is_wanted(photons_, row, counted_); });
+  });
+  return *facing_;
+}
+
 void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut& left_out,
                           const NearPhotons& near_photons, GatheredPhotons& gathered) const {
   ZonePhotons& zone = gathered.zone;
@@ -14,6 +21,8 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut&
     const auto& distance2 = near_photons.distance2;
     const auto end = std::upper_bound(distance2.begin(), distance2.end(), sphere_m * sphere_m);
     gathered.rows.assign(near_photons.rows.begin(), near_photons.rows.begin() + (end - distance2.begin()));
+  } else if (near_photons.radii.empty() && !facing().may_hold(place, radius_m)) {
+    gathered.rows.clear();  // a dark side of something: its sphere may hold all photons of a lit one
   } else {
     photons_.in_sphere(place.p, sphere_m, gathered.rows);
   }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "estimate/estimator.h"
 #include "estimate/record_options.h"
+#include "estimate/zone/facing_cells.h"
 #include "estimate/zone/gradients.h"
 #include "estimate/zone/tangent_surface.h"
 #include "photon/photon_map.h"
@@ -81,9 +84,13 @@ class ZoneGatherer : public TangentSurface {
   void drop_hidden(const ZonePlace& place, GatheredPhotons& gathered) const;
 
  private:
+  const FacingCells& facing() const;
+
   const PhotonMap& photons_;
   Counted counted_;
   float nearest_m_;  // photons from nearer count as from there
+  mutable std::once_flag once_;
+  mutable std::optional<FacingCells> facing_;  // when it is first needed
 };
 
 }  // namespace phos::inline estimate
