@@ -16,8 +16,8 @@ struct PhotonNoise {
   /// Of a map with families each photon counts by the luminance that it carries, and those that are not usual
   /// do not count: (sum over paths of (sum of lm)^2 - sum of lm^2) / (sum of lm)^2.
   double pairs = 0;
-  /// Relative variance that all light over many places has in common: that of the number of photons that
-  /// paths leave, for their own number is no chance. 1 / paths below pairs, and below 0 where each path
+  /// Relative variance that all light over many places has in common: the variance of the number of photons
+  /// that paths leave, for their own number is no chance. 1 / paths below pairs, and below 0 where each path
   /// leaves as many.
   double common = 0;
 
