@@ -42,7 +42,10 @@ struct GatherSource {
   double photon_lm = 0;     ///< luminance that one photon of the source carries, lm; 0: it is taken as exact
   double zone_photons = 0;  ///< that its zones hold; with photon_lm: how wide they are
   double common = 0;        ///< relative variance of the whole source together
-  double usual_lx = 0;      ///< luminance of `indirect`, mean over surfaces; 0: unknown
+  /// Records of `indirect` tell their common error, which differs from place to place: paths that part
+  /// (Photons::family) light the places beside a window most. `common` is then for places without a record.
+  bool tell_common = false;
+  double usual_lx = 0;  ///< luminance of `indirect`, mean over surfaces; 0: unknown
 
   /// The part of a site's own lower bound of the radius that counts, for errors of bright places weigh more
   /// in a picture: (2 usual_lx / E)^1/2 where E, which `indirect` has there, is more than twice usual; 1/4 at
@@ -92,6 +95,7 @@ class HitLight {
     struct Read {
       Rgb radiance{0}, noise{0};
       float lux = 0, distance_m = 0, cosine = 0;
+      float told = 0, told_error = 0;  ///< luminance of f E where GatherSource::tell_common, and its error
     } read;
     Rgb hidden_radiance{0};                       ///< sum over those that something was in the way of
     std::uint64_t hidden = 0;                     ///< and how many they were, since last set to 0

@@ -57,7 +57,7 @@ struct Flight {
   // (PortalSplit). A child is one up to the portal.
   enum class Astray : std::uint8_t { no, parent, child } astray = Astray::no;
   float portal_m = kInfinity;  // along the ray, of one astray
-  std::uint64_t number = 0;    // of the path
+  std::uint64_t number = 0;    // of the path; of an aimed one, ~number
   std::uint32_t turn = 0;      // of the path among the paths of its part
   bool aimed_class = false;    // the first event was on a surface at which paths are aimed
   std::uint32_t aimed_at = 0;  // triangle

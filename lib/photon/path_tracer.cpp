@@ -95,6 +95,7 @@ bool PathTracer::start_aimed(std::uint64_t number, RandomStream& random, Flight&
   flight.source_normal = start.photon.source_normal, flight.from_infinity = start.photon.from_infinity;
   flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(number), start.photon.ray.direction);
   flight.keep = Flight::Keep::caustics, flight.aimed_at = start.triangle;
+  flight.number = ~number;  // apart from those of paths that are not aimed
   return carries_light(flight);
 }
 
@@ -147,6 +148,7 @@ PathTracer::After PathTracer::land(const SurfacePoint& point, const Bsdf& bsdf, 
   } else if (bsdf.takes_light()) {
     if (flight.tells()) {
       store(part.photons, flight, point);
+      if (split_) part.photons.family.push_back(static_cast<std::uint32_t>(flight.number));
       own.stored += flight.units;
     }
   } else {

@@ -70,6 +70,13 @@ void join_photons(std::span<PathPart> parts, Photons& all, std::size_t expected_
         column.resize(first.back());
       },
       all);
+  // Where paths part, all photons have it; such paths are not traced in batches (PathTracer::steps_alike()).
+  const bool families = std::any_of(parts.begin(), parts.end(),
+                                    [](const PathPart& part) { return !part.photons.family.empty(); });
+  if (families) {
+    if (first.back() > all.family.capacity()) all.family.reserve(std::max(first.back(), expected_rows));
+    all.family.resize(first.back());
+  }
   parallel_for(parts.size(), 1, [&](std::size_t i) {
     const std::vector<std::uint32_t> place = places(parts[i].turn, parts[i].turns);
     for_columns(
@@ -80,6 +87,10 @@ void join_photons(std::span<PathPart> parts, Photons& all, std::size_t expected_
           own.clear();
         },
         all, parts[i].photons);
+    Column<std::uint32_t>& family = parts[i].photons.family;
+    std::copy(family.begin(), family.end(),
+              all.family.begin() + static_cast<std::ptrdiff_t>(families ? first[i] : 0));
+    family.clear();
   });
   for (PathPart& part : parts) {
     append(all.flights, columns_of(in_order(part)));

@@ -115,6 +115,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   if (tree) {
     const EquivalentPhotons equivalent = equivalent_photons(tree->records(), caches.accuracy());
     source.photon_lm = equivalent.photon_lm, source.zone_photons = equivalent.of_a_zone;
+    source.common = equivalent.common, source.tell_common = equivalent.common > 0;
   }
   const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
   IrradianceCache fresh;

@@ -12,7 +12,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 22;
+inline constexpr int kIrradianceAlgorithm = 23;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;
