@@ -12,7 +12,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 21;
+inline constexpr int kTemporalAlgorithm = 22;
 
 enum class RecordKind { irradiance, radiance };
 
