@@ -32,10 +32,10 @@ struct Declaration {
   std::string other_name;  // of the option whose value this one sets
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
-  std::function<void(const std::string&)> set;  // of what takes one value, or "true" and "false"
+  std::function<void(const std::string&)> set;  // of options that take one value, or "true" and "false"
   bool was_adopted = false;
   FileUse use = FileUse::read;
-  std::function<std::vector<std::string>()> paths;  // of what names files
+  std::function<std::vector<std::string>()> paths;  // of options that name files
   std::string default_text;
   Json initial;  // value at the declaration, of Recorded::unless_default
   CLI::Option* parsed = nullptr;
@@ -65,7 +65,8 @@ T parse_number(const std::string& name, const std::string& s, const Range& range
   const char* begin = s.data() + (s.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, s.data() + s.size(), v);
   if (error != std::errc() || end != s.data() + s.size() || !std::isfinite(static_cast<double>(v)))
-    reject(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number"));
+    reject(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number",
+                      "; it must be ", limits_text(range).empty() ? "a finite number" : limits_text(range)));
   const auto wide = static_cast<double>(v);
   if (wide < range.lo || wide > range.hi || (range.lo_open && wide == range.lo))
     reject(name, text(s, " is out of range; it must be ", limits_text(range)));
@@ -165,7 +166,7 @@ struct Options::Impl {
     if (d.use == FileUse::grown) {
       std::string list;
       for (const std::string& name : names(Adopted::estimate)) list += (list.empty() ? "--" : ", --") + name;
-      if (!list.empty()) s += "; what is not given of these options is taken from it: " + list;
+      if (!list.empty()) s += "; options that are not given are taken from this file: " + list;
     }
     if (!d.choices.empty()) {
       s += " (";
@@ -191,7 +192,7 @@ struct Options::Impl {
         s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
     return s;
   }
-  /// For programs: what --help says to people.
+  /// The content of --help, for programs.
   Json described() const {
     Json::Array all;
     for (const Declaration& d : declarations) {
@@ -383,9 +384,11 @@ std::string options_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text(kMost + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (!in && !in.eof())) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+  if (in.bad() || (!in && !in.eof()))
+    throw Error(ExitCode::bad_input, path, "the options file cannot be read; check the path");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMost) throw Error(ExitCode::bad_input, path, "options file is larger than 1 MiB");
+  if (text.size() > kMost)
+    throw Error(ExitCode::bad_input, path, "the options file is larger than 1 MiB; give one option a line");
   return text;
 }
 
@@ -449,7 +452,7 @@ bool Options::parse(int argc, const char* const* argv) {
                   (empty ? "usage: " + impl_->usage() : phos::text(Impl::left(d), " is missing")) + see);
   for (const Declaration& d : impl_->declarations)
     if (!d.other_name.empty() && given(d.name) && given(d.other_name))
-      reject(d.name, phos::text("says what --", d.other_name, " says; give one of the two"));
+      reject(d.name, phos::text("sets the same as --", d.other_name, "; give one of the two"));
   return true;
 }
 
@@ -466,7 +469,7 @@ void Options::adopt(const std::string& name, const Json& value) {
   const bool fits = kind == "flag"                          ? value.is_bool()
                     : kind == "number" || kind == "integer" ? value.is_number()
                                                             : value.is_string();
-  if (!fits) reject(name, "is of another kind");
+  if (!fits) reject(name, "has a value of another kind; make the file that states it again");
   d->set(value.is_string() ? value.as_string() : value.dump());
   d->was_adopted = true;
 }
@@ -578,11 +581,12 @@ std::string Options::help() const {
       if (!d.is_input && d.section == section) line(Impl::left(d), impl_->detail(d));
   }
   out += "\nOther:\n";
-  line("-h, --help", "this text");
-  line("--version", "version");
-  line("--man", "the manual page, for man -l -");
-  line("--options-json", "every option with its kind, unit, range, choices and default, for other programs");
-  line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
+  line("-h, --help", "print this text");
+  line("--version", "print the version");
+  line("--man", "print the manual page; phos-X --man | man -l - shows it");
+  line("--options-json",
+       "print every option with its kind, unit, range, choices and default, for other programs");
+  line("@FILE", "read options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!impl_->examples.empty()) out += "\nExamples:\n";
   for (const Example& e : impl_->examples) out += "  " + e.command + "\n      " + wrap(e.what, 6) + "\n";
   out += "\nExit codes:\n";

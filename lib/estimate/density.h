@@ -8,6 +8,7 @@
 #include "estimate/estimator.h"
 #include "estimate/record_options.h"
 #include "estimate/zone/gradients.h"
+#include "estimate/zone/path_squares.h"
 #include "estimate/zone/photon_zone.h"
 #include "estimate/zone/surroundings.h"
 #include "photon/density.h"
@@ -28,7 +29,7 @@ namespace phos::inline estimate {
 ///
 /// The kernel is the classical estimate, for comparison: zone, gradients and limits of the radius are the
 /// hull's, but its photons are divided by the whole disc. It looks for no border, no shadow edge, no wall
-/// and no caustic: half of the light is lost at a border, and half of it leaks over a shadow's edge.
+/// and no caustic: half of the light is lost at a border, and half of the light leaks over a shadow's edge.
 class DensityEstimator : public Estimator {
  public:
   DensityEstimator(const PhotonMap& photons, const RayScene& rays, const RecordOptions& resolved,
@@ -41,9 +42,10 @@ class DensityEstimator : public Estimator {
     bool others = false;  ///< are there photons in the zone but the record's own?
     DensityScratch density;
     Frame frame;              ///< of the last make()
-    ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
-    Vec2 moved_m{0};          ///< likewise: how far its light was moved along its gradient
-    std::vector<float> bend;  ///< likewise: the part of each photon's flux that was taken away for curvature
+    ZoneEstimate zone;        ///< of the last record; of its photons, density.used counted
+    Vec2 moved_m{0};          ///< of the last record: how far its light was moved along its gradient
+    std::vector<float> bend;  ///< of the last record: the part taken from each flux for curvature
+    ZonePaths paths;          ///< of the last record: of its photons
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
@@ -53,10 +55,6 @@ class DensityEstimator : public Estimator {
   /// Does this photon count?
   bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, Counted(options_)); }
   const RecordOptions& options() const { return options_; }
-  /// How much larger the standard error of a zone is than its photons tell alone: several are of one path.
-  float path_error(std::size_t photons) const {
-    return static_cast<float>(std::sqrt(noise_.spread(static_cast<double>(photons))));
-  }
 
  private:
   /// Where a record's photons are.
@@ -66,7 +64,7 @@ class DensityEstimator : public Estimator {
     LeftOut left_out;
     float distance_m;  ///< of the surroundings
   };
-  /// Its photons are left in scratch.gathered, where what follows expects them.
+  /// Its photons are left in scratch.gathered, where later steps expect them.
   Zone zone_about(const RecordSite& at, Scratch& scratch) const;
   void gather(Zone& zone, Scratch& scratch) const;
   Made make_of(const RecordSite& at, Zone zone, Scratch& scratch) const;
@@ -74,8 +72,8 @@ class DensityEstimator : public Estimator {
   ZoneEstimate by_kernel(const Zone& zone, Scratch& scratch) const;
   void count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
                  ZoneEstimate& zone, Scratch& scratch) const;
-  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,
-                      IrradianceRecord& record) const;
+  double move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
+                        Scratch& scratch, IrradianceRecord& record) const;
   static double share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
                               const Scratch& scratch);
   ComparedGradients compared(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,

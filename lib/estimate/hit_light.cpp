@@ -35,9 +35,9 @@ constexpr std::uint32_t kOtherSide = 1u << 16;
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
 /// A place nearer than this part of the radius of the zone that tells of its light is not read but followed.
-/// Narrow mouldings beside the record share such zones with what is lit otherwise: of 29 places about those
-/// of Sponza, a million photons, irradiance was 8 % off where all is read, 1.3 % by 1/2, 1.2 % by 1 and 2,
-/// 1.2 % being the noise.
+/// Narrow mouldings beside the record share such zones with places that are lit otherwise: of 29 places about
+/// those of Sponza, a million photons, irradiance was 8 % off where all is read, 1.3 % by 1/2, 1.2 % by 1 and
+/// 2, 1.2 % being the noise.
 constexpr double kNear = 0.5;
 /// So often at most, from one such place to the next.
 constexpr std::uint32_t kMostFollowed = 8;
@@ -68,6 +68,8 @@ class ReadNoise {
 
   /// What was read along one ray.
   void add(const HitLight::Worker::Read& read, float projected_sr, float cosine) {
+    told_ += static_cast<double>(projected_sr * read.told);
+    told_error_ += static_cast<double>(projected_sr * read.told_error);
     const auto lux = static_cast<double>(read.lux), d = static_cast<double>(read.distance_m);
     const auto projected = static_cast<double>(projected_sr), c = static_cast<double>(cosine);
     const double spread = c * (d * d * lux + half_zone_);
@@ -77,11 +79,15 @@ class ReadNoise {
         photon_lm_ * lux * static_cast<double>(read.cosine) * projected / spread * DVec3(read.noise);
     variance_ += c * c * white, white_ += white;
   }
-  SourceNoise all() const { return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common_}; }
+  SourceNoise all() const {
+    const double common = told_ > 0 ? told_error_ * told_error_ / (told_ * told_) : common_;
+    return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common};
+  }
 
  private:
   double photon_lm_, half_zone_;  // m2 lx
   double common_;
+  double told_ = 0, told_error_ = 0;  // of the rays that tell it
   DVec3 irradiance_{0}, variance_{0}, white_{0};
 };
 
@@ -99,8 +105,8 @@ struct HitLight::Impl {
   LampSampler lamps;
   ImageSampler images;
   bool caustics_apart;
-  bool follow_near;  // what is read near by is followed instead
-  /// What is known of a material before any point of it.
+  bool follow_near;  // places near by are followed instead of read
+  /// The facts of a material that do not depend on the point.
   struct Surface {
     bool diffuse = false;   // it has no other lobe
     bool constant = false;  // its reflectance is the same all over, but for vertex colours
@@ -147,6 +153,7 @@ struct HitLight::Impl {
   static LocalDensity caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker);
   bool counts_lamps_in_mirrors(std::uint32_t followed) const;
   bool is_near(const SurfacePoint& point, const Rgb& lux) const;
+  double common_error(const SurfacePoint& point) const;
   Rgb indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
                std::uint32_t followed, Worker& worker) const;
   Rgb from_diffuse(const SurfacePoint& point, const Vec3& wo, const LampSequence& lamp_points,
@@ -175,7 +182,7 @@ struct HitLight::Impl {
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
-    float weight;  // their error is not asked for: that of the source as a whole is known
+    float weight;  // their error is not asked for: the error of the whole source is known
     const Rgb cached = source.indirect->irradiance(point.position, point.smooth_normal, weight);
     if (weight > 0) return cached;
     if (source.far) {
@@ -207,12 +214,22 @@ bool HitLight::Impl::counts_lamps_in_mirrors(std::uint32_t followed) const {
   return followed == 0 ? !caustics_apart : !source.caustics;
 }
 
-/// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for what is read there?
+/// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for a reading there?
 bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
   // A zone of n photons of photon_lm each has the area n photon_lm / E.
   const double zone_lm = kNear * kNear * source.zone_photons * source.photon_lm;
   const auto distance_m = static_cast<double>(point.distance_m);
   return follow_near && kPi * distance_m * distance_m * static_cast<double>(luminance(lux)) < zone_lm;
+}
+
+/// Relative error that the light read at a place has in common with what is read elsewhere.
+double HitLight::Impl::common_error(const SurfacePoint& point) const {
+  Interpolated sums;
+  if (source.indirect) source.indirect->add(point.position, point.smooth_normal, sums);
+  const auto lux = static_cast<double>(luminance(sums.irradiance));
+  if (!(lux > 0)) return std::sqrt(std::max(source.common, 0.0));
+  return std::sqrt(common_part(sums.sums.shared / sums.weight)) *
+         static_cast<double>(luminance(sums.stderr_lx)) / lux;
 }
 
 /// Indirect light that a diffuse lobe f sends on to wo: as it is read, or, near by, by one more ray.
@@ -225,6 +242,11 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
   if (followed == kMostFollowed || cut || !is_near(point, lux)) {
     lux += apart;
     worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
+    if (source.tell_common && ray.ray % kOfWhichOneTells == 0) {
+      const float light = luminance(f * lux);
+      worker.read.told += light;
+      worker.read.told_error += light * static_cast<float>(common_error(point));
+    }
     worker.read.lux = luminance(lux);
     worker.read.distance_m = point.distance_m;
     worker.read.cosine = std::fabs(glm::dot(point.geometric_normal, wo));
@@ -351,8 +373,8 @@ Rgb HitLight::Impl::beyond(const SurfacePoint& point, const Step& step) const {
   return luminance * (step.density / (step.density + other));
 }
 
-/// One sample of light straight from the lamps, through the glossy lobes towards wo; that of an area light is
-/// weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
+/// One sample of light straight from the lamps, through the glossy lobes towards wo; a sample of an area
+/// light is weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
 Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                   float gloss_probability, RandomStream& random) const {
   if (lights.size() == 0) return Rgb(0);
@@ -370,8 +392,8 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
   return arrives * f * light.value * (cosine / density);
 }
 
-/// One sample of what lamps send by flat mirrors, through the lobes whose light from there nothing else
-/// tells: the diffuse one where the source lacks it; the glossy ones of lamps without area, which no walk
+/// One sample of the light that lamps send by flat mirrors, through the lobes for which no other strategy
+/// finds it: the diffuse one where the source lacks it; the glossy ones of lamps without area, which no walk
 /// finds, and of all lamps where radiance records know the rest of their light.
 Rgb HitLight::Impl::from_images(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                 std::int64_t bounces_left, bool gloss_known, RandomStream& random) const {
@@ -406,7 +428,7 @@ struct HitLight::Impl::Walk {
   /// Flat mirrors since the record, or a place that was followed: lamps have images in them there.
   std::vector<std::pair<std::uint32_t, bool>> mirrors{};
   bool by_images;
-  /// So far by mirrors and glass alone: what lamps send so is caustic light.
+  /// So far by mirrors and glass alone: light of lamps that comes so is caustic light.
   bool mirrors_alone = true;
   const bool count_all;
 

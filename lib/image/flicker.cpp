@@ -39,14 +39,16 @@ void FlickerMeter::choose_layers(const Image& image, const Image& reference, con
   for (const std::string& name : common_layers(image, reference, options_)) {
     const std::vector<std::string> components = components_of(reference, name);
     if (!is_scalar(components) && options_.layers.empty()) continue;
-    layer_values(reference, name);  // refuses what is no single quantity
+    layer_values(reference, name);  // refuses layers that are no single quantity
     layers_.push_back({});
     Layer& layer = layers_.back();
     layer.name = name, layer.components = components;
     layer.hh.resize(reference.pixels()), layer.n.resize(reference.pixels());
     if (second) layer.hh_second.resize(reference.pixels()), layer.n_second.resize(reference.pixels());
   }
-  if (layers_.empty()) throw Error(ExitCode::mismatch, "", "no layer is a single quantity or a colour");
+  if (layers_.empty())
+    throw Error(ExitCode::mismatch, "",
+                "no layer is a single quantity or a colour; compare images with such a layer");
 }
 
 void FlickerMeter::require_layers(const Image& image, const char* which) const {

@@ -16,6 +16,7 @@ struct PhotonColumns {
   std::span<const std::uint32_t> direction, normal, source_normal;
   std::span<const float> distance;
   std::span<const std::uint8_t> path, bounce;
+  std::span<const std::uint32_t> family;  // empty where paths do not part
   FlightColumns flights;
 };
 FlightColumns columns_of(const Flights& flights);
@@ -41,7 +42,7 @@ void add_totals(PhotonTotals& totals, const PhotonTotals& other);
 /// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
 Json bounds_to_json(std::span<const Vec3> position);
 
-/// Adds the rows of `from` behind those of `to`.
+/// Adds the rows of `from` behind the rows of `to`.
 void append(Photons& to, const Photons& from);
 void append(Flights& to, const FlightColumns& from);
 

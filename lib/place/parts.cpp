@@ -10,7 +10,7 @@ namespace {
 
 const ShardKind kKind{FileKind::irradiance, FileForm::part, "cache",
                       "phos-irradiance --place every --part k/n"};
-constexpr const char* kRun = "run";  // entry of a part's header: what it must know of the whole
+constexpr const char* kRun = "run";  // entry of a part's header: the facts of the whole run
 
 Json to_json(const Vec3& v) { return Json::Array{Json(v.x), Json(v.y), Json(v.z)}; }
 
@@ -42,7 +42,7 @@ class RunEntry {
   }
   [[noreturn]] void refuse(const char* name) const {
     throw Error(ExitCode::bad_input, file_.path(),
-                text("its header does not rightly say \"", name, "\" of the whole run; make the part again"));
+                text("its header has no valid \"", name, "\" of the whole run; make the part again"));
   }
 
  private:
@@ -110,7 +110,7 @@ std::vector<PartFile> open_parts(const std::vector<std::string>& paths) {
   return parts;
 }
 
-/// As the whole run's: what a part's header has more is left out.
+/// As the whole run's header: further entries of a part's header are left out.
 Json extra_of_whole(const Json& extra) {
   Json whole(Json::Object{});
   for (const auto& [name, value] : extra.as_object()) {
@@ -176,7 +176,7 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (least_m[i] > columns.radius_m(i))
         throw Error(ExitCode::bad_input, file.path(),
-                    text("record ", i, " has a least radius beyond its own; make the part again"));
+                    text("record ", i, " has a least radius above its radius; make the part again"));
       rules.add({columns[i], least_m[i]}, [](std::size_t, float) {});
     }
     p.counters.merge(RunEntry(file).counters("counters"));

@@ -1,6 +1,7 @@
 #include "place/two_level.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "estimate/density.h"
@@ -11,7 +12,7 @@ namespace phos::inline place {
 namespace {
 
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
-/// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
+/// far as pictures read them, for rays average over many places anyway, and lookups are their cost.
 constexpr double kReadBeyond = 1.2;
 
 /// Records of photons that carry more than so many times the median are not usual ones.
@@ -23,6 +24,9 @@ double area_m2(const IrradianceRecord& r) {
   const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
   return std::numbers::pi * radius_m * radius_m * share;
 }
+
+/// Of a record's variance at most so much is taken for common: where nothing was left, there were no photons.
+constexpr double kMostCommon = 0.999;
 
 /// Where rays land; null: records hold it.
 std::unique_ptr<CausticLight> caustic_light(const RayScene& rays,
@@ -56,18 +60,21 @@ RecordOptions coarse_options(const RecordOptions& fine) {
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy) {
   struct OfRecord {
     double noise = 0, light = 0, error = 0;
+    double part = 0;  // of its variance, in common
+    double area = 0;
     double photon_lm() const { return noise / light; }
+    auto operator<=>(const OfRecord&) const = default;
   };
   std::vector<OfRecord> noisy;
-  double light_of_exact = 0, squares_of_exact = 0;
+  double light_of_exact = 0, squares_of_exact = 0, flux = 0;
   for (const IrradianceRecord& r : records) {
     const auto error = static_cast<double>(luminance(r.stderr_lx)),
                lux = static_cast<double>(luminance(r.irradiance));
     const double noise = accuracy * accuracy * area_m2(r) * error * error;
     if (noise > 0 && lux > 0)
-      noisy.push_back({noise, lux, error});
+      noisy.push_back({noise, lux, error, std::min(common_part(r.shared), kMostCommon), area_m2(r)});
     else
-      light_of_exact += lux, squares_of_exact += lux * lux;
+      light_of_exact += lux, squares_of_exact += lux * lux, flux += lux * area_m2(r);
   }
   if (noisy.empty()) return {};
   const auto middle = noisy.begin() + static_cast<std::ptrdiff_t>(noisy.size() / 2);
@@ -76,14 +83,18 @@ EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, 
   const double most_lm = kUsual * middle->photon_lm();
   // Sums run in one order everywhere: nth_element() leaves another in each library.
   std::sort(noisy.begin(), noisy.end(), [](const OfRecord& a, const OfRecord& b) {
-    return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a.light < b.light;
+    return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a < b;
   });
-  double noise = 0, light = light_of_exact, squares = squares_of_exact, errors = 0;
+  double noise = 0, light = light_of_exact, squares = squares_of_exact, errors = 0, alone = 0, common = 0;
   for (const OfRecord& r : noisy) {
     if (r.photon_lm() > most_lm) break;
     noise += r.noise, light += r.light, squares += r.light * r.light, errors += r.error * r.error;
+    alone += (1 - r.part) * r.noise;
+    flux += r.light * r.area, common += std::sqrt(r.part) * r.error * r.area;
   }
-  return {noise / light, squares / errors};
+  // As wide as zones are: what records have in common makes their photons seem fewer, not their zones wider.
+  const double share = alone / noise;
+  return {share * noise / light, squares / errors / share, common * common / (flux * flux)};
 }
 
 double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
@@ -99,12 +110,13 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
   const RecordOptions coarse = coarse_options(resolved);
   photons_ = std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
   noise_ = photon_noise(photons, false);
+  tell_common_ = !photons.family.empty();
   zone_photons_ = 2 * static_cast<double>(coarse.min_photons);  // min_photons to 4 times as many
   if (resolved.gather_from == GatherFrom::photons) return;
   IrradianceCache cache;
   cache.accuracy = coarse.accuracy;
   Counters own;
-  // One pass: what neighbours uncover is within reach of records that are read beyond theirs.
+  // One pass: places that neighbours uncover are within reach of records that are read beyond theirs.
   place_records(cache, *photons_, rays, coarse, {.passes = 1},
                 photon_candidates(photons, coarse.paths, seed, kCoarseCandidates), own);
   read(rays, cache);
@@ -121,7 +133,9 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
   caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
   noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
+  noise_.common = equivalent.common;
   if (photons) noise_.common = photon_noise(*photons, earlier.quantity == Quantity::all).common;
+  tell_common_ = photons ? !photons->family.empty() : equivalent.common > 0;
   holds_direct_ = earlier.quantity == Quantity::all;
   lacks_images_ = !holds_direct_;
 }
@@ -155,6 +169,7 @@ GatherSource CoarseLevel::source() const {
           .photon_lm = noise_.photon_lm,
           .zone_photons = zone_photons_,
           .common = noise_.common,
+          .tell_common = tell_common_,
           .usual_lx = usual_lx_};
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }

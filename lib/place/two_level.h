@@ -1,5 +1,5 @@
-// The coarse level of two-level caching: indirect light that gathered rays read where they land, and what
-// gloss shows there.
+// The coarse level of two-level caching: indirect light that gathered rays read where they land, and the
+// gloss there.
 #pragma once
 
 #include <memory>
@@ -17,23 +17,26 @@ namespace phos::inline place {
 
 /// How coarse records are made from photons, where finer ones are made as `fine` says.
 RecordOptions coarse_options(const RecordOptions& fine);
-/// Photons whose map would have the noise of some records.
+/// Photons whose map would have the noise of some records. Of a record's variance, s^2 is what its photons
+/// tell one by one, and t^2 what it has in common with all others, beyond what zones share that overlap
+/// (kSharedByZones): that of paths (PhotonNoise).
 struct EquivalentPhotons {
-  double photon_lm =
-      0;  ///< luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach
+  /// Luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach.
+  double photon_lm = 0;
   double of_a_zone = 0;  ///< sum of E^2 / sum of s^2
+  double common = 0;     ///< (sum of t A / sum of E A)^2, as GatherSource::common
 };
 /// Zero of records that are exact. Records of far noisier photons than usual do not count: with portals, they
 /// lie out of doors.
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy);
-/// Luminance of the mean irradiance over what records cover, each by its area; 0 of none.
+/// Luminance of the mean irradiance over the places that records cover, each by its area; 0 of none.
 double mean_irradiance_lx(std::span<const IrradianceRecord> records);
 /// Photons tried as places for them: a coarse cache needs far fewer records than that.
 inline constexpr std::int64_t kCoarseCandidates = 400'000;
 
-/// Holds what a GatherSource refers to. Rays average over many places, so that few, far-reaching records of
-/// many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same end); where
-/// there is none, the photons there are asked. Holds references to `rays` and `photons`.
+/// Holds the data to which a GatherSource refers. Rays average over many places, so that few, far-reaching
+/// records of many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same
+/// end); where there is none, the photons there are asked. Holds references to `rays` and `photons`.
 class CoarseLevel {
  public:
   /// From photons: records by hull at options.source_accuracy, placed at photons; none with
@@ -44,7 +47,7 @@ class CoarseLevel {
   /// From an earlier cache; `photons` may be null: then there is no light where it has no record.
   CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
               const RecordOptions& resolved, std::uint64_t seed);
-  /// Nothing: rays show what lamps light directly.
+  /// Nothing: rays show surfaces that lamps light directly.
   CoarseLevel();
   ~CoarseLevel();
   CoarseLevel(CoarseLevel&&) noexcept;
@@ -62,6 +65,7 @@ class CoarseLevel {
   std::unique_ptr<Estimator> photons_;
   std::unique_ptr<GlossCache> gloss_;
   std::unique_ptr<CausticLight> caustics_, gloss_caustics_;
+  bool tell_common_ = false;
   bool holds_direct_ = false, lacks_images_ = false;
   PhotonNoise noise_;
   double zone_photons_ = 0, usual_lx_ = 0;

@@ -36,7 +36,7 @@ bool lobe_varies(const Scene& scene, std::uint32_t material) {
   return row.base_in_gloss && row.base_in_gloss(m) && (m.base_colour.used() || coloured(scene, material));
 }
 
-/// 1/sr: what the lobe may take from the Lambert part.
+/// 1/sr: the part that the lobe may take from the Lambert part.
 Rgb least_of(const Scene& scene, std::uint32_t material) {
   if (!row_of(scene.material[material]).takes_from_lambert) return Rgb(0);
   return -Bsdf(scene, material).diffuse_reflectance() / kPi;
@@ -63,8 +63,9 @@ GlossChoice choice_of(const BrdfTable& table) {
 void declare_options(Options& options, GlossBy& by) {
   options.choice<GlossBy>(
       "gloss", by, {{"traced", GlossBy::traced}, {"cached", GlossBy::cached}, {"auto", GlossBy::automatic}},
-      "what glossy surfaces reflect: by rays; from radiance records, even where that blurs; or from records "
-      "wherever harmonics hold a lobe, by rays elsewhere");
+      "method for reflections on glossy surfaces: traced: rays; cached: radiance records, even where they "
+      "blur the reflection; auto: radiance records wherever harmonics hold the material's lobe, rays "
+      "elsewhere");
 }
 
 GlossTables::GlossTables(const Scene& scene, std::span<const BrdfTable> tables, GlossBy by,

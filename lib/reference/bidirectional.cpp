@@ -9,6 +9,7 @@
 #include "reference/roulette.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
+#include "scene/material/total_reflections.h"
 
 namespace phos::inline reference {
 namespace {
@@ -20,8 +21,8 @@ constexpr float kSameSurface = 0.5f;
 
 bool positive(const Rgb& c) { return max_component(c) > 0; }
 
-/// Does nothing stand between two places of one surface? Both are lifted over what a curved surface rises
-/// between them.
+/// Does nothing stand between two places of one surface? Both are lifted over the height that a curved
+/// surface rises between them.
 bool nothing_between(const RayScene& rays, const SurfacePoint& a, const SurfacePoint& b) {
   const Vec3 way = b.position - a.position;
   const float rise_m =
@@ -39,7 +40,7 @@ void add_indirect(const Rgb& light, const Rgb& glossy, PathSample& sum) {
   sum.indirect += (Rgb(1) - glossy) * light;
 }
 
-/// Share of what a surface reflects from wi to wo that its gloss does.
+/// Share of the light reflected from wi to wo that is gloss.
 Rgb glossy_share(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
   Rgb share(0);
   if (!bsdf.has_gloss()) return share;
@@ -66,9 +67,10 @@ struct BidirectionalTracer::Walk {
   bool camera = false;      // the ray is a camera's
   double light_paths = 1;   // connected to the vertex there for each path
   bool mirrored = false;    // the visible surface is a mirror or glass
-  Rgb glossy{0};            // share of what comes along the path that the visible surface's gloss reflects
+  Rgb glossy{0};            // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int32_t events = 0;  // scatterings and panes passed: numbers the random draws
+  TotalReflections total_reflections;
 };
 
 /// Where it has come to: a surface, or the sensor.
@@ -336,9 +338,9 @@ BidirectionalTracer::Next BidirectionalTracer::scatter(const Vertex& at, Walk& w
   walk.ray = {at.point->leave(next.direction), next.direction, 0, kInfinity};
   walk.from = at.point->position;
   ++walk.scatterings;
-  return survives(walk.scatterings, max_component(walk.throughput) / walk.start, random, walk.throughput)
-             ? Next::ray
-             : Next::none;
+  const float in_glass = walk.total_reflections.survival(at.bsdf->total_reflection(at.wo));
+  const float share = std::min(max_component(walk.throughput) / walk.start, in_glass);
+  return survives(walk.scatterings, share, random, walk.throughput) ? Next::ray : Next::none;
 }
 
 void BidirectionalTracer::follow(Walk& walk, const LightPass& pass, std::size_t path, RandomStream& random,

@@ -7,6 +7,7 @@
 #include "reference/roulette.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
+#include "scene/material/total_reflections.h"
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
@@ -29,7 +30,7 @@ bool positive(const Rgb& c) { return max_component(c) > 0; }
 
 }  // namespace
 
-/// A path on its way: the next ray, and what the light found along it is worth.
+/// A path on its way: the next ray, and the weight of the light found along it.
 struct EyePathTracer::Walk {
   Ray ray;
   Vec3 from{0};  // where the ray was chosen, before it was lifted off the surface
@@ -47,9 +48,10 @@ struct EyePathTracer::Walk {
       0;                  // of the ray that left that event; 0: no event, or light has gone another way since
   float travelled_m = 0;  // from there to where the ray starts
   bool mirrored = false;  // the visible surface is a mirror or glass
-  Rgb glossy{0};          // share of what comes along the path that the visible surface's gloss reflects
+  Rgb glossy{0};          // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int64_t events = 0;  // scatterings and panes passed: numbers the random draws
+  TotalReflections total_reflections;
 };
 
 EyePathTracer::EyePathTracer(const RayScene& rays, const Luminaires& luminaires, const PathOptions& options)
@@ -128,7 +130,7 @@ Rgb EyePathTracer::emission_at(const SurfacePoint& point, const Walk& walk) cons
   Vec3 from = walk.from;
   if (!(walk.density > 0)) {
     const std::int32_t chain = image_chain(walk);
-    if (chain == MirrorPlanes::kNone) return luminance;  // no image tells of it
+    if (chain == MirrorPlanes::kNone) return luminance;  // no image counts this light
     from = luminaires_->mirrors().image(chain, walk.from);
   }
   const float density =
@@ -228,7 +230,10 @@ EyePathTracer::Next EyePathTracer::scatter(const SurfacePoint& point, const Bsdf
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
   ++walk.scatterings;
-  if (!survives(walk.scatterings, max_component(walk.throughput), random, walk.throughput)) return Next::none;
+  const float in_glass = walk.total_reflections.survival(bsdf.total_reflection(wo));
+  if (!survives(walk.scatterings, std::min(max_component(walk.throughput), in_glass), random,
+                walk.throughput))
+    return Next::none;
   return positive(walk.throughput) && walk.events < kMostEvents.most ? Next::ray : Next::none;
 }
 
@@ -278,6 +283,13 @@ Rgb EyePathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) 
   PathSample sum;
   follow(walk, sum, random);
   return lux + kPi * sum.total();  // cos / density = pi
+}
+
+Rgb EyePathTracer::direct(const SurfacePoint& point, const std::function<Rgb(const Vec3&)>& f_cos,
+                          RandomStream& random) const {
+  // No path of its own samples the direction: shadow rays weigh whole.
+  const auto scatter = [&](const Vec3& wi, float& /*density*/) { return f_cos(wi); };
+  return light_at(point, sample_every_light(0), scatter, random);
 }
 
 }  // namespace phos::inline reference

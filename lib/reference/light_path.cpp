@@ -6,8 +6,10 @@
 #include "core/parallel.h"
 #include "reference/limits.h"
 #include "reference/roulette.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
+#include "scene/material/total_reflections.h"
 
 namespace phos::inline reference {
 
@@ -23,6 +25,7 @@ struct LightTracer::Walk {
   std::int32_t events = 0;             // scatterings and panes passed
   bool mirror = false, sharp = false;  // how it was scattered there
   bool straight = false, ends = false;
+  TotalReflections total_reflections;
   // At the surface that was met.
   SubPathEnd end;
   float landed_m = 0;  // along the edge
@@ -45,8 +48,8 @@ bool LightTracer::meet(const SurfacePoint& point, const Bsdf& bsdf, double eta, 
     const LightStarts::Start& lamp = walk.lamp;
     const double choice = lamps_->share(lamp.light), cos_lamp = static_cast<double>(lamp.cos_lamp);
     every_light = 1 / choice;
-    // Densities of the lamp's place are of that place per m2, or of the direction per sr; what they share
-    // with those of the shadow rays, cos_lamp / d^2, is cancelled.
+    // Densities at the lamp are of the place per m2, or of the direction per sr. The factor cos_lamp / d^2,
+    // which they share with the densities of shadow rays, is cancelled.
     const double own = lamp.density * cosine;
     if (lamp.infinite)
       walk.end.connect =
@@ -97,8 +100,9 @@ bool LightTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Walk& wal
   const double back = next.specular ? 1 : static_cast<double>(bsdf.density(next.direction, wo));
   walk.behind = walk.end.next_before(1, back, next.specular);
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
-  return survives(walk.scatterings, max_component(walk.flux) / max_component(walk.lamp.flux_lm), random,
-                  walk.flux);
+  const float share = max_component(walk.flux) / max_component(walk.lamp.flux_lm);
+  const float in_glass = walk.total_reflections.survival(bsdf.total_reflection(wo));
+  return survives(walk.scatterings, std::min(share, in_glass), random, walk.flux);
 }
 
 void LightTracer::trace(RandomStream& random, double eta, LightPaths& paths) const {
@@ -113,7 +117,9 @@ void LightTracer::trace(RandomStream& random, double eta, LightPaths& paths) con
       float before_m = 0;
       do {
         const bool met = way.next(point);
-        if (walk.sharp) {
+        // No sensor is in solid glass.
+        const bool in_glass = met && !point.front && is_solid_glass(rays_->scene().material[point.material]);
+        if (walk.sharp && !in_glass) {
           SharpSegment s{walk.ray.origin + before_m * walk.ray.direction,
                          walk.ray.direction,
                          met ? point.distance_m - before_m : kInfinity,

@@ -22,10 +22,11 @@ namespace phos::inline scene {
 
 namespace {
 
-// Geometries: what is hit; what is hit but for holes; what light may pass straight through.
+// Geometries: surfaces that are hit; surfaces that are hit but for holes; surfaces that light may pass
+// straight.
 constexpr unsigned kOpaque = 0, kMasked = 1, kPane = 2, kGeometries = 3;
 
-/// What every hit on a triangle needs of it, in one cache line.
+/// The data of a triangle that every hit needs, in one cache line.
 struct alignas(64) Facet {
   Vec3 corner[3];
   Vec3 normal;  // of the front side
@@ -149,7 +150,7 @@ struct RayScene::Impl {
   std::vector<Facet> facet;      // per triangle
   std::vector<Reads> reads;      // per material
 
-  std::string trouble;  // what Embree said last
+  std::string trouble;  // the last message of Embree
 
   void make_device(const std::string& isa);
   void throw_if_failed() const;
@@ -171,7 +172,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   // Embree takes no notice of a name it does not know.
   const char* const known[] = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
   if (std::find(std::begin(known), std::end(known), isa) == std::end(known)) {
-    throw Error(ExitCode::usage, "isa",
+    throw Error(ExitCode::usage, "--isa",
                 text("unknown instruction set \"", isa, "\"; use sse2, sse4.2, avx, avx2 or avx512"));
   }
   const std::string config = "isa=" + isa;
@@ -187,7 +188,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   const RTCError error = rtcGetDeviceError(nullptr);
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ExitCode::no_memory, "", "not enough memory to start the ray tracer; use a larger machine");
-  throw Error(ExitCode::usage, isa.empty() ? "" : "isa",
+  throw Error(ExitCode::usage, isa.empty() ? "" : "--isa",
               text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"",
                    " (error ", static_cast<int>(error), "); use one that this machine has, such as sse2"));
 }
@@ -544,16 +545,16 @@ bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point) {
 }
 
 void declare_isa(Options& options, std::string& isa) {
-  options.choice<std::string>("isa", isa,
-                              {{"best", ""},
-                               {"sse2", "sse2"},
-                               {"sse4.2", "sse4.2"},
-                               {"avx", "avx"},
-                               {"avx2", "avx2"},
-                               {"avx512", "avx512"}},
-                              "instruction set of the ray tracer; sse2 gives the same bytes on all x86 "
-                              "processors of one maker (each maker "
-                              "rounds reciprocals in its own way)");
+  options.choice<std::string>(
+      "isa", isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; best: the widest of this machine; sse2: the same bytes on all x86 "
+      "processors of one maker (each maker rounds reciprocals in its own way)");
 }
 
 }  // namespace phos::inline scene

@@ -23,7 +23,9 @@ void declare_options(Options& options, GridOptions& grid);
 
 /// Throws Error(usage) unless the sensors are either in a file or on one kind of grid.
 void check(const GridOptions& grid, const std::string& points_path);
-/// From the file if there is one, else on the grid.
+/// From the file if there is one, else on the grid. Points of a grid that are in solid glass are left out, as
+/// those of a workplane in other solids are. Throws Error(bad_input) for a point of the file that is in solid
+/// glass.
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays);
 
 /// The lowest surface that faces up and is level, at least a hundredth of the scene's plan in size; the
@@ -33,7 +35,7 @@ float floor_level_m(const RayScene& rays, Axis up);
 
 /// On the front of the node's surfaces. A flat piece that fills most of its smallest rectangle and has room
 /// for four points, or is the whole mesh, has a grid of its own: along the rectangle's sides, centred, points
-/// not nearer to them than the margin. Other pieces (of what is curved) have points as often as their area
+/// not nearer to them than the margin. Other pieces (of curved surfaces) have points as often as their area
 /// asks, and no margin. Throws Error(usage) for an unknown node.
 Sensors mesh_grid(const Scene& scene, const GridOptions& grid);
 

@@ -85,7 +85,7 @@ Reading together(const Direct& direct, const Rgb& indirect, float stderr_lx) {
           indirect_lx, direct.components_lx + indirect};
 }
 
-/// Of a whole that holds the direct light: what is left is indirect, or noise. Null: that is not known.
+/// The direct light in a whole that holds it: the rest is indirect, or noise. Null: it is not known.
 Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* direct_or_null) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   if (!direct_or_null) return {whole_lx, stderr_lx, kUnknown, kUnknown, whole};
@@ -93,7 +93,7 @@ Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* d
   return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f), whole};
 }
 
-/// Records at the sensors that no cache covers, and what they say there.
+/// Records at the sensors that no cache covers, and the light that they state there.
 std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const RayScene& rays,
                                 const Luminaires& lights, const SensorCaches& caches,
                                 const std::shared_ptr<const CausticMap>& caustics,
@@ -115,6 +115,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   if (tree) {
     const EquivalentPhotons equivalent = equivalent_photons(tree->records(), caches.accuracy());
     source.photon_lm = equivalent.photon_lm, source.zone_photons = equivalent.of_a_zone;
+    source.common = equivalent.common, source.tell_common = equivalent.common > 0;
   }
   const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
   IrradianceCache fresh;
@@ -142,7 +143,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   return readings;
 }
 
-/// Adds caustic light to what sensors read.
+/// Adds caustic light to the readings of sensors.
 void add_caustics(const Sensors& sensors, const RayScene& rays,
                   const std::shared_ptr<const CausticMap>& caustics, std::vector<Reading>& readings) {
   if (!caustics) return;
@@ -164,23 +165,26 @@ void add_caustics(const Sensors& sensors, const RayScene& rays,
 }
 
 /// How high over a record a sensor may be that it serves, of its radius. Gradients of surface records tell of
-/// light along the surface: what a sensor in the air over a desk or the edge of a screen sees is not theirs.
+/// light along the surface: the light at a sensor in the air over a desk or at the edge of a screen is not
+/// theirs.
 float most_height(double accuracy) { return static_cast<float>(0.2 * accuracy); }
 
 }  // namespace
 
 void declare_options(Options& options, SensorOptions& s) {
-  options.integer(
-      "light-samples", s.light_samples, "N",
-      "shadow rays to each area light in place of as many as --error takes; 0, for caches that hold all "
-      "light: none, and direct_lx and indirect_lx stay empty",
-      {0, 1e6});
+  options.integer("light-samples", s.light_samples, "N",
+                  "number of shadow rays to each area light (default: as many as --error takes); 0, for "
+                  "caches that hold all light: none, and direct_lx and indirect_lx stay empty",
+                  {0, 1e6});
   options.choice<LeakTest>(
       "leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
-      "ray: a record serves a sensor only if the two can see each other; none is faster");
+      "ray: a record serves a sensor only if the two see each other; none: no test, which is faster");
   options.flag("direct-only", s.direct_only, "no indirect light");
-  options.integer("rays", s.rays, "N", "rays of a record made where the caches have none", {4, 1e8});
-  options.number("accuracy", s.accuracy, "A", "of those records: zone of influence = A x mean distance",
+  options.integer("rays", s.rays, "N",
+                  "number of rays of each record that is made where the caches have none", {4, 1e8});
+  options.number("accuracy", s.accuracy, "A",
+                 "accuracy of the records that are made where the caches have none: zone of influence = A x "
+                 "mean distance",
                  {0, 10, true});
 }
 
@@ -212,8 +216,8 @@ void SensorCaches::require_light(bool direct, const std::shared_ptr<const Causti
   if (!caustics_) caustics_ = caustics;
   if (!empty() && direct != holds_direct_)
     throw Error(ExitCode::mismatch, name,
-                text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
-                     direct ? "indirect" : "all", "; give caches made with the same --paths"));
+                text("holds ", direct ? "all" : "indirect", " light, and the cache before it holds ",
+                     direct ? "indirect" : "all", " light; give caches made with the same --paths"));
   holds_direct_ = direct;
 }
 
@@ -246,7 +250,7 @@ std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
 
 namespace {
 
-/// Light besides the direct, or all of it (`whole`), at a sensor.
+/// Light besides direct light, or all light (`whole`), at a sensor.
 struct Cached {
   Rgb light{0};
   float stderr_lx = 0;

@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 22;
+inline constexpr int kIrradianceAlgorithm = 23;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;
@@ -31,8 +31,8 @@ struct IrradianceCommand {
   bool allow_mismatch = false;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
-/// that were left to it.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets
+/// the values that were left to it.
 void run(Tool& tool, IrradianceCommand& asked);
 
 }  // namespace phos::stage

@@ -10,7 +10,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kPhotonsAlgorithm = 6;
+inline constexpr int kPhotonsAlgorithm = 7;
 
 struct PhotonsCommand {
   std::string scene_path;
@@ -18,7 +18,7 @@ struct PhotonsCommand {
   PhotonOptions photons;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const PhotonsCommand& asked);
 
 }  // namespace phos::stage

@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 21;
+inline constexpr int kTemporalAlgorithm = 22;
 
 enum class RecordKind { irradiance, radiance };
 
@@ -28,8 +28,8 @@ struct TemporalCommand {
   GlossBy gloss = GlossBy::automatic;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
-/// that were left to it.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets
+/// the values that were left to it.
 void run(Tool& tool, TemporalCommand& asked);
 
 }  // namespace phos::stage

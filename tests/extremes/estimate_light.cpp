@@ -135,7 +135,7 @@ TEST(Light, LaserThinSpots) {
     if (!(off < 1e-2)) break;
     last = half_rad, worst = std::max(worst, off);
   }
-  expect_limit({"light of a spot", "half angle of its cone, rad", last, 0.1, worst, "below: not looked for"});
+  expect_limit({"light of a spot", "half angle of the cone, rad", last, 0.1, worst, "below: not tested"});
 }
 
 /// 100 x 100 lamps over a floor: the sum of the closed forms.
@@ -203,7 +203,7 @@ TEST(Light, NothingLeavesAClosedBox) {
     }
   }
   std::printf("1000 sizes off, %.2g of the flux gets out\n", worst_leak);
-  expect_limit({"flux that leaks from a closed box", "offset of its floats, sizes", 0, 16, 0,
+  expect_limit({"flux that leaks from a closed box", "offset of the coordinates, sizes", 0, 16, 0,
                 "at 1000: 1e-4 of the flux"});
   std::printf("%llu paths from inside, none out\n", static_cast<unsigned long long>(paths));
 }
@@ -240,7 +240,7 @@ TEST(Light, ThroughASlit) {
     last = static_cast<double>(slit), worst = std::max(worst, off);
   }
   expect_limit({"direct light of a lamp of 2 m through a slit", "width of the slit, m", last, 0.1, worst,
-                "below: few samples show it, and the stated error says so", true});
+                "below: few samples find the slit, and the stated error says so", true});
 }
 
 /// Glass takes nothing: all that a lamp in a black room sends is found on the walls, whatever bends it.
@@ -277,7 +277,14 @@ TEST(Light, CausticsKeepTheirEnergy) {
       EXPECT_EQ(totals.escaped_flux_lm, Rgb(0)) << ior;
       const double lost =
           1 - static_cast<double>(totals.stored_flux_lm.y) / static_cast<double>(totals.emitted_flux_lm.y);
-      EXPECT_LT(std::fabs(lost), 1e-6) << "ior " << ior;
+      // Roulette among what total reflection keeps long has the right mean, and noise; no lumen is
+      // unaccounted for.
+      const auto kept = static_cast<double>(counters[kKeptInGlassEvent]);
+      EXPECT_LT(std::fabs(lost), 1e-6 + 3 * std::sqrt(kept) / 20000) << "ior " << ior;
+      EXPECT_LT(kept, 50) << "ior " << ior;
+      const double absorbed =
+          static_cast<double>(totals.absorbed_flux_lm.y) / static_cast<double>(totals.emitted_flux_lm.y);
+      EXPECT_NEAR(absorbed, 1, 1e-6) << "ior " << ior;
       EXPECT_EQ(counters[kNonFiniteEvent] + counters[kTooLongEvent], 0u) << "ior " << ior;
     }
   }
@@ -313,8 +320,8 @@ TEST(Light, GrazingSun) {
     const double one = static_cast<double>(lit.photons.totals.emitted_flux_lm.y) / 20000;
     EXPECT_NEAR(front, floor_lm, 4.5 * std::sqrt(floor_lm * one) + 1.01 * one) << elevation;
   }
-  expect_limit({"direct light of the sun", "elevation above the surface, rad", last, 1, worst,
-                "below: not looked for"});
+  expect_limit(
+      {"direct light of the sun", "elevation above the surface, rad", last, 1, worst, "below: not tested"});
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ void fill_openings(Scene& scene) {
   }
 }
 
-/// From here on estimates hold (docs/reference/measured-limits.md): what paths share is lumens, lux is lumens over
-/// squares of lengths, and its slopes over cubes. Below, floats begin to lose some of it.
+/// From here on estimates hold (docs/reference/measured-limits.md): paths share lumens, lux is lumens over
+/// squares of lengths, and its slopes over cubes. Below, floats begin to lose digits.
 void require_power(Scene& scene) {
   constexpr double kLeast_lm = 1e-24, kLeastSlope = 1e-33;  // lm, lm/m3
   const double size_m = static_cast<double>(scene.bounds.diagonal_m());
@@ -184,7 +184,7 @@ void fill_lights(Scene& scene) {
   for (const Light& light : scene.light) {
     if (is_finite(light.flux_lm)) continue;
     throw Error(ExitCode::bad_input, scene.path,
-                text("light \"", light.name, "\" emits more than numbers can say; give it a finite power"));
+                text("light \"", light.name, "\" emits more than numbers can hold; give it a finite power"));
   }
   std::erase_if(scene.light, [&](const Light& light) {
     if (max_component(light.flux_lm) > 0) return false;

@@ -11,7 +11,7 @@
 namespace phos::inline scene {
 namespace {
 
-/// The table and what the file says of it may differ by so much before it is told: efficiency and downward
+/// The table and the file's own figures may differ by so much before a warning: efficiency and downward
 /// share, both in percent.
 constexpr double kTold_percent = 5;
 constexpr double kMillimetre_m = 1e-3;
@@ -114,10 +114,11 @@ class Reader {
     }
     file_.opening = eulumdat_opening(length, width, 0.25 * sum);
     if (std::any_of(std::begin(height), std::end(height), [&](double h) { return h != most; }))
-      warn(text("the luminous sides have several heights: all are given their mean, ", 0.25 * sum, " m"));
+      warn(text("the luminous sides have different heights: their mean is used for all, ", 0.25 * sum, " m"));
   }
 
-  /// Sets are what the luminaire may be equipped with. A negative number of lamps is absolute photometry.
+  /// Sets are the lamps that the luminaire may be equipped with. A negative number of lamps is absolute
+  /// photometry.
   void read_lamps() {
     const std::size_t sets = whole("the number of lamp sets", 0, 1000);
     for (std::size_t k = 0; k < sets; ++k) {

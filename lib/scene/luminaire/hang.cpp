@@ -35,7 +35,8 @@ GivenLuminaires::GivenLuminaires(const LuminaireOptions& options) {
   std::map<std::string, std::shared_ptr<const PhotometricFile>> read;
   for (const NamedFile& w : named_files(options.of_lights, "--luminaire")) {
     if (file_.count(w.name))
-      throw Error(ExitCode::usage, "--luminaire", text("is given twice for the light \"", w.name, "\""));
+      throw Error(ExitCode::usage, "--luminaire",
+                  text("is given twice for the light \"", w.name, "\"; give it once"));
     std::shared_ptr<const PhotometricFile>& file = read[w.file];
     if (!file) file = std::make_shared<const PhotometricFile>(read_photometry(w.file));
     file_[w.name] = file;
@@ -86,8 +87,7 @@ void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, c
   const auto index = static_cast<std::int32_t>(scene.fitting.size());
   const bool point = as == LuminairesAs::points || file->opening.form == LuminousOpening::Form::point;
   if (!point && file->photometry->flux_lm() > 0) {
-    Material
-        material;  // black, but for its light: what falls into a luminaire is in its measured light already
+    Material material;  // black, but for its light: measured light holds the light that falls in
     material.name = place.name + " opening";
     MeshData mesh = opening_mesh(file->opening, *file->photometry, material.double_sided);
     const std::size_t before = scene.instance.size();

@@ -117,7 +117,9 @@ class ObjReader {
     if (!read || attrib_.vertices.empty()) {
       const std::string why = one_line(error);
       throw Error(ExitCode::bad_input, scene_.path,
-                  why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
+                  why.empty()
+                      ? "is neither glTF nor OBJ: it holds no vertices; give a .glb, .gltf or .obj scene"
+                      : text("is not a valid OBJ: ", why, "; export it again"));
     }
     for (const std::string& name : mtl.missing)
       scene_.warnings.emplace_back("material file not found: " + name);
@@ -149,7 +151,7 @@ class ObjReader {
     }
   }
 
-  /// Sheets of glass are thin panes; what is closed is solid, wherever the file splits it.
+  /// Sheets of glass are thin panes; closed parts are solid, wherever the file splits them.
   void tell_sheets_from_solids() {
     for (std::size_t m = 0; m < materials_.size(); ++m) {
       const auto index = static_cast<std::uint32_t>(m);
@@ -217,7 +219,7 @@ class ObjReader {
     return *default_material_;
   }
 
-  /// One instance per material of a shape (two of glass, where some of it is solid); vertices joined where
+  /// One instance per material of a shape (two of glass, where some parts are solid); vertices joined where
   /// position, normal and texture coordinates agree.
   void add_shape(const tinyobj::shape_t& shape, std::size_t index) {
     skipped_ += shape.lines.num_line_vertices.size() + shape.points.indices.size();
@@ -278,7 +280,7 @@ class ObjReader {
       if (index < 0 || static_cast<std::size_t>(index) >= floats / width) {
         throw Error(ExitCode::bad_input, scene_.path,
                     text("group \"", name, "\": ", what, " index ", index + 1, " is out of range; there are ",
-                         floats / width));
+                         floats / width, "; export the scene again"));
       }
       return width * static_cast<std::size_t>(index);
     };

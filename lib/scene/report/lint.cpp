@@ -12,6 +12,7 @@
 #include "scene/load.h"
 #include "scene/material/merl.h"
 #include "scene/material/models.h"
+#include "scene/nested_glass.h"
 #include "scene/report/describe.h"
 #include "scene/sky/access.h"
 #include "scene/sky/daylight.h"
@@ -38,7 +39,7 @@ constexpr Mend kMends[] = {
     {kLightIgnored, "give it an area and an intensity, or remove it"},
     {kAboveOne, "lower kd or ks until kd + ks is at most 1"},
     {kAbsorbsNothing, "lower kd or ks; white paint reflects 0.8"},
-    {kReflectsMuch, "lower it unless it is meant"},
+    {kReflectsMuch, "lower the reflectance, unless it is intended"},
     {kMetalByDefault, "give paint, plaster, wood and stone a metallicFactor of 0"},
 };
 
@@ -49,10 +50,13 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
-    if (!scene_.camera.empty()) {
+    const auto& materials = scene_.material;
+    const bool glass = std::any_of(materials.begin(), materials.end(), is_solid_glass);
+    if (glass || !scene_.camera.empty()) {
       const RayScene rays(scene_);
       check_cameras(rays);
-      check_sky(rays);
+      check_nested_glass(rays);
+      if (!scene_.camera.empty()) check_sky(rays);
     }
     check_lamps();
     check_materials();
@@ -92,7 +96,7 @@ class Linter {
               : text("give a material Ke (cd/m2), or ", how_to_add_to(scene_), ", or give --environment"));
       return;
     }
-    // A surface turned any way receives a quarter of what an environment sends from all sides.
+    // A surface turned any way receives a quarter of the light that an environment sends from all sides.
     double lumens = 0, area = 0, mean_lx = 0;
     for (const Light& light : scene_.light) {
       if (light.kind == Light::Kind::environment) {
@@ -123,6 +127,11 @@ class Linter {
         add(Level::warning, "camera-inside", *inside, "put it where there is air");
   }
 
+  void check_nested_glass(const RayScene& rays) {
+    if (const std::optional<std::string> nested = nested_glass(rays))
+      add(Level::warning, "nested-glass", *nested, "an index of 1 is a part that is not there");
+  }
+
   void check_sky(const RayScene& rays) {
     if (!scene_.environment) return;
     if (const std::optional<std::string> closed = closed_to_the_sky(rays))
@@ -141,7 +150,7 @@ class Linter {
     }
   }
 
-  /// A luminaire hangs within what it lights.
+  /// A luminaire hangs within the room that it lights.
   void check_luminaire(const Light& light) {
     Bounds room, lamp;
     for (const Instance& instance : scene_.instance) {
@@ -247,10 +256,10 @@ class Linter {
         check_measured("material \"" + name + "\"",
                        *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
       } else if (m.reflectance > 1.0001) {
-        note(Note::Level::warning, kAboveOne, ", more than it gets");
+        note(Note::Level::warning, kAboveOne, ", more than it receives");
       } else if (m.reflectance > kAllReflectance && m.diffuse) {
         note(Note::Level::warning, kAbsorbsNothing,
-             ": in a closed room of it light never ends, and has no finite mean");
+             ": in a closed room of this material light never ends, and has no finite mean");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
         note(Note::Level::info, kReflectsMuch, "; white paint reflects 0.8");
       }
@@ -270,7 +279,7 @@ class Linter {
     }
   }
 
-  /// Stretched highlights need to know along what.
+  /// Stretched highlights need a direction.
   void check_tangents() {
     for (const Instance& instance : scene_.instance) {
       const Material& m = scene_.material[instance.material];

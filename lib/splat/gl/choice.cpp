@@ -8,8 +8,9 @@ void declare_gl(Options& options, GlBy& by) {
   for (const GlKind& kind : gl_kinds()) names.emplace_back(kind.option, kind.by);
   options.choice<GlBy>(
       "gl", by, names,
-      "what draws by OpenGL: osmesa, in software; or egl, a GPU without a display, or software where there "
-      "is none (same picture to 1e-3; where EGL is not there, a warning says so and OSMesa draws)",
+      "library of OpenGL: osmesa: drawing in software; egl: on a GPU without a display, or in software "
+      "without "
+      "a GPU. Both give the same picture to 1e-3. Without EGL a warning gives the reason, and OSMesa draws",
       Recorded::unless_default);
 }
 
