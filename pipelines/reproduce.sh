@@ -84,7 +84,7 @@ page() {
 
 failed=0
 for name in "${wanted[@]}"; do
-  key="$size, seed $seed, $(phos-splat --version), $(cat "$here"/reproduce/{"$name",rows,measure,scenes}.sh "$here"/scenes/*.py | cksum | cut -d' ' -f1)"
+  key="$size, seed $seed, $(phos-splat --version), $(cat "$here"/reproduce/{"$name",rows,measure,scenes,films,zones}.sh "$here"/scenes/*.py | cksum | cut -d' ' -f1)"
   if [[ -z $again && -f $folder/$name.csv && $(tail -1 "$folder/$name.csv") == *"\"$key\""* ]]; then
     echo "$name: is there" >&2
     continue
