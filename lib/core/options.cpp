@@ -32,10 +32,10 @@ struct Declaration {
   std::string other_name;  // of the option whose value this one sets
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
-  std::function<void(const std::string&)> set;  // of what takes one value, or "true" and "false"
+  std::function<void(const std::string&)> set;  // of options that take one value, or "true" and "false"
   bool was_adopted = false;
   FileUse use = FileUse::read;
-  std::function<std::vector<std::string>()> paths;  // of what names files
+  std::function<std::vector<std::string>()> paths;  // of options that name files
   std::string default_text;
   Json initial;  // value at the declaration, of Recorded::unless_default
   CLI::Option* parsed = nullptr;
@@ -191,7 +191,7 @@ struct Options::Impl {
         s += " " + (d.short_name.empty() ? "--" + d.name : "-" + d.short_name) + " " + d.unit;
     return s;
   }
-  /// For programs: what --help says to people.
+  /// The content of --help, for programs.
   Json described() const {
     Json::Array all;
     for (const Declaration& d : declarations) {

@@ -1,4 +1,4 @@
-// Estimators that sample hemispheres, and what they saw last.
+// Estimators that sample hemispheres, and their last hemispheres.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace phos::inline estimate {
 
-/// Light straight from a lamp at a diffuse hit, and what it makes of it.
+/// Light straight from a lamp at a diffuse hit, and the light that the hit then sends on.
 struct LampSight {
   ArrivingLight light;
   Rgb brdf{0};            ///< 1/sr
@@ -19,7 +19,7 @@ struct LampSight {
   Rgb arrived{0};         ///< share that arrives, by channel: 0 where something is in the way
 };
 
-/// One pass over a hemisphere: what each of its rays hit, and the lamps' light there.
+/// One pass over a hemisphere: the hit of each ray, and the lamps' light there.
 struct SeenPass {
   const Hemisphere* hemisphere;
   std::span<const Hit> hits;
