@@ -140,8 +140,9 @@ class Mesh:
             if sill > 0:
                 slab(x0, x1, 0, sill, 0, sill)
                 self.polygon(material, at(x0, sill, 0), at(x1, sill, 0), at(x1, sill, thickness), at(x0, sill, thickness))
-            self.polygon(material, at(x0, sill, thickness), at(x0, spring, thickness), at(x0, spring, 0), at(x0, sill, 0))
-            self.polygon(material, at(x1, sill, 0), at(x1, spring, 0), at(x1, spring, thickness), at(x1, sill, thickness))
+            if spring > sill:
+                self.polygon(material, at(x0, sill, thickness), at(x0, spring, thickness), at(x0, spring, 0), at(x0, sill, 0))
+                self.polygon(material, at(x1, sill, 0), at(x1, spring, 0), at(x1, spring, thickness), at(x1, sill, thickness))
             pieces = steps if rise > 0 else 1
             # Equal angles, as an arch is steepest at its ends.
             cut = [0.5 - 0.5 * math.cos(math.pi * i / pieces) for i in range(pieces + 1)]
