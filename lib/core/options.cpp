@@ -13,6 +13,7 @@
 #include "core/options/manual.h"
 #include "core/options/number.h"
 #include "core/options/sheet.h"
+#include "core/text/append_item.h"
 #include "core/text/comma_list.h"
 #include "core/text/likeness.h"
 #include "core/text/named_files.h"
@@ -201,7 +202,7 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
     const auto found = std::find(names.begin(), names.end(), s);
     if (found == names.end()) {
       std::string all;
-      for (const std::string& other : names) all += (all.empty() ? "" : ", ") + other;
+      for (const std::string& other : names) append_item(all, other);
       reject_option(n, phos::text("\"", s, "\" is not one of: ", all));
     }
     set(static_cast<std::size_t>(found - names.begin()));

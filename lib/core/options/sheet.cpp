@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos {
 
@@ -52,12 +53,12 @@ std::string OptionSheet::detail(const OptionDeclaration& d) const {
   std::string s = d.help;
   if (d.use == FileUse::grown) {
     std::string list;
-    for (const std::string& name : names(Adopted::estimate)) list += (list.empty() ? "--" : ", --") + name;
+    for (const std::string& name : names(Adopted::estimate)) append_item(list, "--" + name);
     if (!list.empty()) s += "; what is not given of these options is taken from it: " + list;
   }
   if (!d.choices.empty()) {
     s += " (";
-    for (std::size_t i = 0; i < d.choices.size(); ++i) s += (i == 0 ? "" : ", ") + d.choices[i];
+    for (std::size_t i = 0; i < d.choices.size(); ++i) s.append(i == 0 ? "" : ", ").append(d.choices[i]);
     s += ")";
   }
   if (!d.limits.empty()) s += "; " + d.limits;
