@@ -3,9 +3,18 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "estimate/caustic_light.h"
 #include "estimate/density.h"
+#include "estimate/gather_source.h"
+#include "estimate/record_options.h"
+#include "photon/caustic_map.h"
+#include "photon/photon_map.h"
 #include "place/placement.h"
+#include "radiance/gloss_cache.h"
+#include "record/far_records.h"
+#include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline place {
 namespace {
@@ -22,6 +31,13 @@ double area_m2(const IrradianceRecord& r) {
   const auto radius_m = static_cast<double>(r.radius_m);
   const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
   return std::numbers::pi * radius_m * radius_m * share;
+}
+
+/// Coarse records are of photons, however the fine ones are made (coarse_options()): no table of estimators
+/// is asked, which would choose by the options and wants lamps, of which this level knows none.
+std::unique_ptr<Estimator> of_photons(const PhotonMap& photons, const RayScene& rays,
+                                      const RecordOptions& coarse, std::uint64_t seed) {
+  return std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
 }
 
 /// Where rays land; null: records hold it.
@@ -97,7 +113,7 @@ double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
                          std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
-  photons_ = std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
+  photons_ = of_photons(photons, rays, coarse, seed);
   noise_ = photon_noise(photons, false);
   zone_photons_ = 2 * static_cast<double>(coarse.min_photons);  // min_photons to 4 times as many
   if (resolved.gather_from == GatherFrom::photons) return;
@@ -116,7 +132,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
   coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
   if (earlier.quantity == Quantity::all) coarse.paths = Quantity::all;
   coarse.images_apart = true;
-  if (photons) photons_ = std::make_unique<DensityEstimator>(*photons, rays, coarse, seed);
+  if (photons) photons_ = of_photons(*photons, rays, coarse, seed);
   read(rays, earlier);
   caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
