@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Renders one picture in N bands of wavelength, and reads sensors in them, end to end; needs ceil(N / 3) times an RGB run:
+# Renders one picture in N bands of wavelength, and computes the light at sensors in these bands. It runs every stage ceil(N / 3) times:
 #   pipelines/bands.sh SCENE FOLDER N [--spectrum NAME=FILE]... [--photons N] [--rays N] [--width W] [--camera NAME] [--samples N]
 #                      [--points CSV] [-- OPTION...]
-# OPTIONs (--sky clear, ...) go to every stage. Writes FOLDER/scene.exr and .png and, with --points, FOLDER/scene-lux.csv.
+# Each OPTION (--sky clear, ...) goes to every stage. The script writes FOLDER/scene.exr and .png and, with --points, FOLDER/scene-lux.csv; scene stands
+# for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -46,7 +47,8 @@ for ((k = 1; k <= triplets; ++k)); do
     dark+=("$k")
     continue
   fi
-  # 1. Light. 2. Records where the camera looks, at the same places in every triplet, whose number the photons hold. 3. Picture. 4. Sensors.
+  # 1. Photons. Their file holds the number of the triplet, which the later stages take from it. 2. Records where the camera looks, at the same
+  # places in every triplet. 3. The picture. 4. The sensors.
   phos-photons "$scene" "${bands[@]}" "${every[@]}" --photons "$photons" --reuse --quiet -o "$part.photons"
   phos-irradiance "$scene" "$part.photons" "${every[@]}" --estimate gather --rays "$rays" --place view "${view[@]}" --reuse --quiet -o "$part.irradiance"
   phos-splat "$scene" "$part.irradiance" "${every[@]}" "${view[@]}" --pixel-samples "$samples" --reuse --quiet -o "$part.exr"

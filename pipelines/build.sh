@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds phos into build/release: build.sh [--tests]. Prints where the programs are.
+# Builds phos, and with --tests its tests, into build/release: build.sh [--tests]. Prints where the programs are.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,7 +9,7 @@ pipelines/install.sh ${1:+"$1"}
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 cmake --preset release -DPHOS_TESTS=$tests >"$log" 2>&1 || { cat "$log" >&2; exit 3; }
-# Lines of ninja, "[120/340] ...", as one line on a terminal that says how far it is, or one every half minute.
+# Reads lines of ninja, "[120/340] ...", and shows the progress: on a terminal as one line that changes, elsewhere as a new line every half minute.
 progress() {
   local line start=$SECONDS next=$SECONDS
   while IFS= read -r line; do

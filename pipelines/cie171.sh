@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Validation with CIE 171:2006, cases 5.2 to 5.14: every case as a scene, read by every estimator that can do it:
+# Validates phos with CIE 171:2006, cases 5.2 to 5.14. Computes every case as a scene, with every estimator that can compute it:
 #   pipelines/cie171.sh FOLDER [--cases 5.2,5.9,...] [--skies 1,5,...] [--estimators exact,records,...] [--quick] [--seed N] [--threads N]
-# Writes FOLDER/results.csv (case,variant,point,sky,estimator,value,stderr,truth), FOLDER/index.html and FOLDER/cie171.md. Goes on where
-# it was interrupted; FOLDER/log.txt has what programs said. --quick: skies 5 and 12, and less accuracy. Code 1: a point is off by more
-# than 2 % and four standard errors.
+# The script writes FOLDER/results.csv (case,variant,point,sky,estimator,value,stderr,truth), FOLDER/index.html and FOLDER/cie171.md. A second
+# run goes on where an interrupted one ended. FOLDER/log.txt holds the messages of the programs. --quick takes skies 5 and 12 only, and less
+# accuracy. Exit code 1: a value differs from the true value by more than 2 % and by more than four standard errors.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -45,7 +45,7 @@ mkdir -p "$folder/scenes" "$folder/rows"
 : >"$folder/log.txt"
 settings="photons $photons error $error rays $rays light-samples $light_samples ($pixel_samples a pixel) seed $seed, $(phos-sense --version)"
 
-# case | variants | skies, or angles of incidence | factor of lux | estimators left out
+# case | variants | skies, or angles of incidence | factor from lx to the unit of the case | estimators left out
 table='
 5.2  | -                                                                          | -      | 1     |
 5.3  | -                                                                          | -      | 1     |
@@ -61,7 +61,8 @@ table='
 5.13 | mask_0.5 mask_1 mask_2                                                     | skies  | 0.01  |
 5.14 | mask_3 mask_6 mask_9                                                       | skies  | 0.01  |'
 
-# light CASE SKY: the options of the sky for every stage; 10,000 lx on open ground, its sun hidden.
+# light CASE SKY: prints the options of sky and sun for every stage. In cases 5.9 to 5.14 the sky gives 10,000 lx on open ground, and the sun is
+# hidden.
 light() {
   local albedo=0
   case $1 in
@@ -72,7 +73,7 @@ light() {
   esac
 }
 
-# run CASE VARIANT SKY FACTOR ESTIMATOR: rows of results, unless they are there of the same scene and settings.
+# run CASE VARIANT SKY FACTOR ESTIMATOR: computes rows of results, unless a file holds those rows already, of the same scene and settings.
 run() {
   local name=$1${2:+-${2// /_}}${3:+-$3} variant=$2 key
   local rows=$folder/rows/$name-$5.csv
@@ -100,7 +101,7 @@ while IFS='|' read -r case variants by factor without; do
     for sky in $list; do
       [[ $sky != none ]] || sky=''
       for estimator in ${estimators//,/ }; do
-        # Pictures and photons are of surfaces: there are none where sensors face a beam, or hang over a square of 500 m.
+        # Pictures show surfaces, and photons land on surfaces: both are left out where sensors face a beam, or hang over a square of 500 m.
         [[ " $without " != *" $estimator "* ]] || continue
         [[ $case-$variant != 5.6-500 || ($estimator != records && $estimator != picture) ]] || continue
         run "$case" "$variant" "$sky" "$factor" "$estimator"
@@ -118,6 +119,6 @@ done
 mv "$folder/page.html" "$folder/index.html"
 mv "$folder/page.md" "$folder/cie171.md"
 echo "page:   $folder/index.html" >&2
-# Beyond chance: two standard errors are exceeded by one value in 22.
+# Four standard errors are beyond chance: by chance, one value in 22 differs by more than two.
 awk -F, 'NR > 1 { d = $6 - $8; if (d < 0) d = -d; if (d > 0.02 * $8 + 1e-9 && d > 4 * $7) { print "off: " $0 >"/dev/stderr"; off = 1 } } END { exit off }' \
   "$folder/results.csv"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# For other scripts to source: their usage, options, programs and figures.
+# Functions that the other scripts source: usage, options, programs and figures.
 
 # usage: prints the comment at the head of the script and ends with code 2.
 usage() { awk 'NR > 1 { if (!sub(/^# ?/, "")) exit; print }' "$0" >&2; exit 2; }
 
-# take_options "NAME..." WORD...: --NAME VALUE sets the variable NAME (light_samples: --light-samples); other words are left in the
+# take_options "NAME..." WORD...: reads the WORDs. --NAME VALUE sets the variable NAME (--light-samples sets light_samples). Other words go into the
 # array `rest`.
 take_options() {
   local names=" $1 " name
@@ -23,14 +23,14 @@ take_options() {
   done
 }
 
-# take_all_options "NAME..." WORD...: the same, where other words are not understood.
+# take_all_options "NAME..." WORD...: does the same, and ends with the usage where there are other words.
 take_all_options() {
   take_options "$@"
   ((${#rest[@]} == 0)) || usage
 }
 
-# file_options OPTION VALUE...: puts those options of a scene into the array `files` whose values are files. Every stage needs them; it takes
-# the others from the caches that it reads.
+# file_options OPTION VALUE...: puts the options whose values are files into the array `files`. Every stage needs these options; it takes the
+# other options of the scene from the caches that it reads.
 file_options() {
   files=()
   while (($# > 1)); do
@@ -39,10 +39,11 @@ file_options() {
   done
 }
 
-# need_file FILE: ends with code 3 where there is none.
+# need_file FILE: ends with code 3 where there is no such file.
 need_file() { [[ -f $1 ]] || { echo "${0##*/}: $1: no such file" >&2; exit 3; }; }
 
-# need_programs: those on PATH, or else in build/release/bin (of an installation: in its bin); ends with code 3 where there are none.
+# need_programs: finds the programs on PATH, or else in build/release/bin (in an installation: in its folder bin). Ends with code 3 where there are
+# none.
 need_programs() {
   local here bin advice
   here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -56,5 +57,5 @@ need_programs() {
   command -v phos-splat >/dev/null || { echo "${0##*/}: phos-splat: not on PATH, $advice" >&2; exit 3; }
 }
 
-# figure NAME [FILE]: the first value of that name anywhere in a JSON file, or in what is read; nothing where there is none.
+# figure NAME [FILE]: prints the first value of this name anywhere in a JSON file, or on standard input; prints nothing where there is none.
 figure() { jq -r --arg name "$1" 'first(.. | objects | select(has($name)) | .[$name])' ${2+"$2"}; }

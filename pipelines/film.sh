@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Films an animated scene, end to end: one cache for all frames, their pictures, and a video where ffmpeg is installed.
+# Films an animated scene: makes one cache for all frames, a picture of each frame and, where ffmpeg is installed, a video.
 #   pipelines/film.sh SCENE FOLDER [--frames A:B] [--photons N] [--rays N] [--width W] [--camera NAME] [--samples N]
-# All frames if none are given. Writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4.
+# Without --frames, all frames are filmed. The script writes FOLDER/scene.irradiance, FOLDER/frames/0000.exr and .png ..., and FOLDER/scene.mp4; scene
+# stands for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -22,11 +23,11 @@ fi
 view=(--width "$width")
 [[ -z $camera ]] || view+=(--camera "$camera")
 
-# 1. Light: records that live through the frames, where the camera sees them.
+# 1. The cache: records that live through the frames, where the camera sees them.
 phos-temporal "$scene" --frames "$frames" "${view[@]}" --photons "$photons" ${rays:+--rays "$rays"} --reuse -o "$base.irradiance"
-# 2. A picture of each frame; of an interrupted run those that are there are kept.
+# 2. A picture of each frame. Pictures of an interrupted run are kept.
 phos-splat "$scene" "$base.irradiance" --frames "$frames" "${view[@]}" --pixel-samples "$samples" --reuse -o "$folder/frames/%04d.exr"
-# 3. The same to look at, with one exposure.
+# 3. The same pictures as PNG, all with one exposure.
 phos-picture "$folder/frames/%04d.exr" --frames "$frames" -o "$folder/frames/%04d.png"
 echo "frames:   $folder/frames"
 if command -v ffmpeg >/dev/null; then

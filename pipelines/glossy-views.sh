@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Pictures of a glossy scene from several cameras, one after another, that share one growing cache:
+# Renders a glossy scene from several cameras, one after another. The pictures share one growing cache:
 #   pipelines/glossy-views.sh SCENE FOLDER CAMERA... [--photons N] [--width W] [--accuracy A] [--rays N] [--samples N]
-# Each view adds only the records that the views before it did not leave there; FOLDER/records.csv counts them. FOLDER/CAMERA.exr and
-# .png are the pictures, FOLDER/scene.irradiance and .radiance the cache. Only broad gloss is cached (see phos-brdf); the rest is traced.
+# Each view adds only the records that earlier views did not make; FOLDER/records.csv counts the records of each view. The pictures are
+# FOLDER/CAMERA.exr and .png, the caches FOLDER/scene.irradiance and .radiance; scene stands for the name of SCENE without its ending. Only broad gloss
+# is cached (see phos-brdf); other gloss is traced.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -19,10 +20,10 @@ need_programs
 mkdir -p "$folder"
 base=$folder/$(basename "${scene%.*}")
 
-# 1. Light, and what gloss does to it.
+# 1. Photons, and the lobes of the glossy materials.
 phos-photons "$scene" --photons "$photons" --reuse -o "$base.photons"
 phos-brdf "$scene" --reuse -o "$base.brdf"
-# 2. View by view: what it lacks is added to the caches, and its picture drawn.
+# 2. View by view: the records that the view lacks are added to the caches, and its picture is drawn.
 rm -f "$base.irradiance" "$base.radiance"
 count() { figure "$1" "$folder/stats.json"; }
 echo "camera,radiance_records,radiance_new,irradiance_records,irradiance_new" >"$folder/records.csv"

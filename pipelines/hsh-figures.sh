@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Hemispherical harmonics against their rivals, as figures (Gautron et al. 2004):
+# Draws figures that compare hemispherical harmonics (HSH) with other functions (Gautron et al. 2004):
 #   pipelines/hsh-figures.sh FOLDER [MODEL [ENVIRONMENT]] [--order N] [--exponent E] [--width W] [--samples N] [--rays N]
 #                            [--photons N]
-# FOLDER/bases.csv, bases-*.svg   accuracy against coefficients of five bases, for Phong cos^5 and Ward 0.2 / 0.5
-# FOLDER/errors.csv, *.png        MODEL (an .obj, of Phong exponent E) lit by ENVIRONMENT (an equirectangular map) through HSH and SH of order N,
-#                                 against many more bands (what the bases lose) and against rays (shadows too)
-# Default: the teapot and the map of ../shared/scenes, or else a torus under data/sky.hdr.
+# FOLDER/bases.csv, bases-*.svg   the accuracy of five bases over their number of coefficients, for the lobes Phong cos^5 and Ward 0.2 / 0.5
+# FOLDER/errors.csv, *.png        MODEL (an .obj, made glossy with Phong exponent E) lit by ENVIRONMENT (an equirectangular map) through HSH and
+#                                 spherical harmonics (SH) of order N. The errors are differences from many more bands (the loss by the order) and
+#                                 from rays (the loss of shadows too).
+# MODEL and ENVIRONMENT are by default the teapot and the map of ../shared/scenes where they exist, else a torus and data/sky.hdr.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -26,7 +27,7 @@ done
 need_programs
 mkdir -p "$folder"
 
-# 1. Bases: what share of a lobe's energy so many functions hold.
+# 1. Bases: the share of a lobe's energy that a number of functions holds.
 phos-brdf "$here/../data/lobes.gltf" --bases "$folder/bases.csv" --quiet -o "$folder/lobes.brdf"
 plot() { # name, material, weight, title
   phos-picture "$folder/bases.csv" --x coefficients --y accuracy --series basis --where "material=$2" --where "weight=$3" \
@@ -37,7 +38,7 @@ plot phong-cosine 'Phong cos^5' cosine 'cos^5 times cosine, mean over directions
 plot ward 'Ward 0.2 / 0.5' none 'Ward 0.2 / 0.5, mean over directions of view'
 plot ward-cosine 'Ward 0.2 / 0.5' cosine 'Ward 0.2 / 0.5 times cosine, mean over directions of view'
 
-# 2. The model, glossy, and a camera that sees all of it.
+# 2. The model with a glossy material, and a camera that sees the whole model.
 scene=$folder/model.obj
 torus() {
   awk 'BEGIN {
@@ -65,7 +66,7 @@ awk '$1 == "v" { for (k = 2; k <= 4; ++k) { if (!(k in lo) || $k < lo[k]) lo[k] 
       c[2] + 0.5 * size, c[3] + 0.7 * size, c[4] + 1.4 * size, c[2], c[3], c[4]
   }' "$scene" >"$folder/model.lights.json"
 
-# 3. Pictures. The reflection's tables hold nearly all of its energy: what is compared is the light's order alone.
+# 3. Pictures. The tables of the material hold nearly all energy of its lobe, so that only the order of the light makes a difference.
 light=(--environment "$environment")
 quiet=(--quiet --reuse)
 phos-photons "$scene" "${light[@]}" --photons "$photons" "${quiet[@]}" -o "$folder/model.photons"
@@ -83,7 +84,7 @@ draw sh --environment-mode sh --environment-order "$order" --light-samples "$ray
 draw open --environment-mode hsh --environment-order 20 --light-samples "$rays" --gloss-samples "$rays"
 draw traced --light-samples "$rays" --gloss-samples "$rays"
 
-# 4. How far each is, in the layer of direct light: everything that the environment sends straight.
+# 4. The errors in the layer of direct light, which holds all light that comes straight from the environment.
 printf 'picture,against,coefficients,relative_rmse,pu21_psnr_db\n' >"$folder/errors.csv"
 for name in hsh sh; do
   for against in open traced; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that phos is built from, only those that are missing.
-#   pipelines/install.sh [--tests]      --tests: also what the tests need
+# Installs the missing ones of the Debian packages that phos is built from.
+#   pipelines/install.sh [--tests]      --tests: also the packages that the tests need
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Lines of equal illuminance on a horizontal workplane, seen from above:
+# Draws lines of equal illuminance on a horizontal workplane, seen from above:
 #   pipelines/isolux.sh LUX.csv SPACING OUT.svg [LX,LX,...]
-# LUX.csv is what phos-sense writes for --grid SPACING (m) --height; +Y is up. OUT may end in .png. Levels: those given, or a few round
-# numbers. Cells of four sensors get lines; where a sensor is left out (in a table, behind a wall) there are none.
+# LUX.csv is the table that phos-sense writes for --grid SPACING (m) --height; +Y is up. OUT may end in .png. LX,LX,... are the illuminances of
+# the lines; without them the lines are at a few round numbers. A cell of the grid needs four sensors: where a sensor is left out (inside a table,
+# behind a wall), the lines have a gap.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

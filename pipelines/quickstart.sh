@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds phos, and renders a scene end to end:
+# Installs missing packages, builds phos, and renders a scene:
 #   pipelines/quickstart.sh [SCENE]       default: Sponza if it is beside the project, else the Cornell box of data/
-# Prints where the pictures are. Safe to run again: packages, build and caches are reused.
+# Prints where the pictures are. A second run reuses packages, build and caches.
 set -euo pipefail
 start=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Renders one picture, end to end, with the settings that the scene requires, and keeps every intermediate file for reuse:
+# Renders one picture from a scene file, with the settings that the scene requires, and keeps the photons and records for reuse:
 #   pipelines/render.sh SCENE FOLDER [--quality draft|good|final] [--width W] [--camera NAME] [options of the scene, e.g. --sky clear]
 #                       [--photons N] [--accuracy A] [--rays N] [--samples N] [--rounds N]
-# Quality is the error of the picture over its mean, about: 10, 5 (good, which is usual) or 2 %. The options of the second line override
-# what follows from it. Needs the programs on PATH, or where they were built or installed. Writes FOLDER/scene.photons, .irradiance (records where
-# the camera looks), .view.irradiance (and of what they missed), .exr, .png and -lux.png.
+# --quality sets the error of the picture over its mean: about 10 % (draft), 5 % (good, the default) or 2 % (final). The options of the second line
+# override the settings that follow from the quality: paths from the lamps, accuracy and gathered rays of a record, samples of a pixel, and the most
+# rounds in which missing records are added. The programs must be on PATH, or where they were built or installed. The script writes FOLDER/scene.photons,
+# .irradiance (records where the camera looks), .view.irradiance (the same, with records where the picture missed some), .exr, .png and -lux.png
+# (illuminance in false colours); scene stands for the name of SCENE without its ending.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -32,7 +34,7 @@ file=$folder/$name
 view=(--width "$width")
 [[ -z $camera ]] || view+=(--camera "$camera")
 
-# 1. What the scene requires, and the settings that are usual for the error; no pilot is run.
+# 1. The requirements of the scene, and the settings that are usual for the error. No pilot is run.
 plan=$(phos-plan "$scene" --error "$error" --pilot-seconds 0 "${view[@]}" "${light[@]}" --json --quiet)
 setting() { figure "$1" <<<"$plan"; }
 [[ $plan != *'"--portals"'* || " ${light[*]} " == *' --portals '* ]] || light+=(--portals auto)
@@ -42,16 +44,16 @@ estimate=(--estimate hull)
 direct=(--direct interleaved --noise "$error")
 edges=$(($(setting edge_samples) > samples ? $(setting edge_samples) - samples : 0))
 
-# A record serves so many pixels about it at least: what is smaller is seen by its neighbours.
+# The least radius of a record, in pixels: smaller details get their light from the records next to them.
 least=$(awk -v p="$pixels" -v a="$accuracy" 'BEGIN { print p / a }')
 
 file_options "${light[@]}"
-# 2. Light: photons from the lamps, and a tree over them.
+# 2. Photons from the lamps, and a kd-tree over them.
 phos-photons "$scene" "${light[@]}" --photons "$photons" --reuse -o "$file.photons"
-# 3. Cache: irradiance records where the camera looks.
+# 3. The cache: irradiance records where the camera looks.
 phos-irradiance "$scene" "$file.photons" "${files[@]}" --place view "${view[@]}" "${estimate[@]}" --accuracy "$accuracy" \
   --min-radius-pixels "$least" --reuse -o "$file.irradiance"
-# 4. Fill what the picture sees and no record covers, until nothing is missing.
+# 4. More records at the points that the picture sees and no record covers, until none is missing or the rounds are done.
 cp "$file.irradiance" "$file.view.irradiance"
 for ((round = 1; round <= rounds; ++round)); do
   phos-splat "$scene" "$file.view.irradiance" "${files[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
@@ -62,7 +64,7 @@ for ((round = 1; round <= rounds; ++round)); do
   phos-irradiance "$scene" "$file.photons" "${files[@]}" --at "$file.misses.csv" --add-to "$file.view.irradiance" -o "$file.view.irradiance"
 done
 rm -f "$file.pass.exr" "$file.misses.csv"
-# 5. Picture.
+# 5. The picture.
 phos-splat "$scene" "$file.view.irradiance" "${files[@]}" "${view[@]}" --pixel-samples "$samples" --edge-samples $((edges + edges % 2)) \
   "${direct[@]}" -o "$file.exr"
 phos-picture "$file.exr" -o "$file.png"

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# What each part of the model costs, and what the picture loses without it:
+# Measures the cost of each part of the model, and the change of the picture without this part:
 #   pipelines/what-it-costs.sh SCENE FOLDER [--photons N] [--rays N] [--accuracy A] [--width W] [--camera NAME] [--samples N]
-# Draws the scene with all of them, then with one after another left out or made cheaper, and writes FOLDER/costs.csv: seconds of the
-# whole pipeline with and without, and how much the picture changes (root mean square, of the mean; below `noise`, the same of
-# another seed, it changes nothing). Parts that the scene does not require (see phos-scene) are not tried. FOLDER/*.png show each.
+# The script draws the scene with all parts, and then several times with one part left out or made cheaper. FOLDER/costs.csv gives for each part the
+# seconds of the whole pipeline with and without it, and the change of the picture (root mean square over mean). The row `noise` is the change by
+# another seed alone: smaller changes mean nothing. Parts that the scene does not require (see phos-scene) are not tried. FOLDER/*.png are the
+# pictures.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -21,7 +22,7 @@ stats=$folder/stats.json
 required=$(phos-scene "$scene" --json)
 requires() { grep -q "\"what\": \"$1\"" <<<"$required"; }
 
-# The stages, each with options of its own; what they took is added up in `seconds`.
+# The stages, each with its own options. `seconds` adds up their times.
 records=(--estimate gather --accuracy "$accuracy" --rays "$rays")
 stage() { # program, arguments...
   "$@" --quiet --stats "$stats"
@@ -45,11 +46,11 @@ draw() { # name, options of phos-irradiance, ":", options of phos-splat
   stage phos-splat "$scene" "${caches[@]}" "${view[@]}" --pixel-samples "$samples" "$@" -o "$folder/$name.exr"
   phos-picture "$folder/$name.exr" --quiet -o "$folder/$name.png"
 }
-change() { # name: against the picture with everything
+change() { # name: the difference from the picture with all parts
   phos-compare "$folder/$1.exr" "$folder/all.exr" --layer beauty --ignore-emission --json >"$stats"
   figure relative_rmse "$stats"
 }
-compared() { # name, what is left out
+compared() { # name, the part that is left out
   echo "$1,\"$2\",$whole,$seconds,$(change "$1")" >>"$folder/costs.csv"
 }
 
@@ -65,7 +66,7 @@ compared gathering "irradiance by counting photons in place of rays"
 draw gradients --gradients none
 compared gradients "records without gradients"
 draw leak-test --leak-test ray : --leak-test ray
-compared leak-test "nothing: with rays against leaks through walls as well"
+compared leak-test "nothing; the ray that tests for leaks through walls is added"
 draw interleaved : --direct interleaved
 compared interleaved "shadow rays shared by 4 x 4 pixels"
 draw shadow-maps : --direct shadow-map

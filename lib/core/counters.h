@@ -1,4 +1,4 @@
-// Numerical events: what happened, how often, out of how many.
+// Counts of numerical events and of their trials.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@ namespace phos {
 
 /// What every tool ends with. Shown in each tool's --help.
 enum class ExitCode : int {
-  done = 0,           ///< did what was asked
+  done = 0,           ///< the program did its work
   check_failed = 1,   ///< a comparison or a verification failed
   usage = 2,          ///< the command line is wrong
   bad_input = 3,      ///< an input is unreadable, malformed or damaged; or an output cannot be written

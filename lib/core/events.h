@@ -1,5 +1,5 @@
-// Numerical events: each module declares those that it counts in its events.h: what an event says, how often
-// it may happen, and what to do where it happens more often.
+// Numerical events. Each module declares in its events.h the events that it counts: the name of an event, how
+// often it may happen, and the remedy where it happens more often.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 
 namespace phos {
 
-/// An event. Declared once, as a constant that lives as long as the program; two of one name abort.
+/// An event. It is declared once, as a constant that lives as long as the program. Two events of one name
+/// abort.
 class Event {
  public:
-  /// One that says something of the scene or of the settings, and is no fault however often it comes.
-  /// `trials`: what a trial is, in the plural ("samples").
+  /// An event that describes the scene or the settings, and is no fault however often it happens. `trials`:
+  /// the name of the trials ("samples").
   Event(std::string_view name, std::string_view trials) : Event(name, trials, 1, "") {}
   /// A fault that one trial may have with the probability `share`, which is below 1.
   Event(std::string_view name, std::string_view trials, double share, std::string_view remedy);

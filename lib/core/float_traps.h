@@ -34,7 +34,7 @@ class FloatTraps {
 };
 
 /// No traps in this thread while it lives: around calls into packages which compute with infinities and NaN
-/// on purpose, and around tests of what such numbers do.
+/// on purpose, and around tests with such numbers.
 class NoFloatTraps {
  public:
   NoFloatTraps() : before_(FloatTraps::set(0)) {}

@@ -42,7 +42,7 @@ void throw_if_interrupted() {
 
 void say_if_interrupted(std::string words) {
   static std::mutex one_at_a_time;
-  // All of them, to the very end of the process: a handler may be reading what another thread replaces.
+  // All of them, to the very end of the process: a handler may be reading a set that another thread replaces.
   static auto& kept = *new std::deque<std::string>;
   const std::lock_guard lock(one_at_a_time);
   said.store(kept.emplace_back(std::move(words)).c_str());

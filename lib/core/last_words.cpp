@@ -59,7 +59,7 @@ void watch_for_crashes() {
   action.sa_handler = on_crash;
   action.sa_flags = SA_ONSTACK;
   sigemptyset(&action.sa_mask);
-  static char room[kHandlersRoom];  // the stack may be what there is no memory for
+  static char room[kHandlersRoom];  // there may be no memory for the stack
   const stack_t stack = {.ss_sp = room, .ss_flags = 0, .ss_size = sizeof room};
   sigaltstack(&stack, nullptr);
   for (const int signal : {SIGSEGV, SIGABRT}) sigaction(signal, &action, nullptr);

@@ -1,4 +1,4 @@
-// Ends that no exception reaches: what a process still does when it must end inside of a signal, of another's
+// Ends that no exception reaches: the last actions of a process that must end inside of a signal, of a
 // package, or of a function that may not throw. All of it is safe in a signal handler.
 #pragma once
 
@@ -32,7 +32,7 @@ void set_program_name(const std::string& name);
 
 /// From now on a lack of memory that no handler of ours sees ends the process with one line and
 /// ExitCode::no_memory: std::bad_alloc where nothing may be thrown, and the crash or abort() of a package
-/// that got no memory (told by whether some can still be had). Other crashes stay what they are.
+/// that got no memory (told by whether some can still be had). Other crashes stay as they are.
 void install_last_words();
 
 /// Whether an error that a package describes so comes from a lack of memory: it says that no thread can be

@@ -1,4 +1,4 @@
-// One declaration per option: it parses, it is the help, and it is what a file records.
+// One declaration per option: it parses, it is the help, and it is the record in a file.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ enum class Recorded { yes, no, if_given, unless_default };
 enum class Adopted {
   no,        ///< of the run alone (placement, output): free to differ
   estimate,  ///< how records are made: from the file that records are added to (adopt_estimate())
-  site,      ///< what the scene stands under: from each cache that is read (adopt_site())
+  site,      ///< surroundings of the scene: taken from each cache that is read (adopt_site())
 };
 
 /// How files record an option, and whether they give it back.
@@ -61,7 +61,7 @@ const std::string& name_in(const Names<E>& names, E value) {
 enum class FileUse {
   read,
   written,  ///< "-" stands for standard output
-  grown,    ///< read; the output may be the same file, as it keeps what is in it
+  grown,    ///< read; the output may be the same file, as it keeps the file's records
   folder,   ///< its files are written
 };
 

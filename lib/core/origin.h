@@ -8,7 +8,7 @@
 
 namespace phos {
 
-/// Bounds in double, m: of what floats would round.
+/// Bounds in double, m, of coordinates that floats would round.
 struct DBounds {
   DVec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
   bool empty() const { return !(lo.x <= hi.x); }
@@ -16,7 +16,7 @@ struct DBounds {
   double diagonal_m() const { return empty() ? 0 : glm::length(hi - lo); }
 };
 
-/// The origin that suits what lies within `world`: zero where that reaches no farther from the world's origin
+/// The origin that suits a scene within `world`: zero where that reaches no farther from the world's origin
 /// than sixteen diagonals, where floats hold it well; else about its centre, at a whole multiple of a power
 /// of two not below the diagonal, so that whole metres stay whole. Zero for bounds that are empty, a point,
 /// or not finite.

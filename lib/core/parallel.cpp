@@ -35,8 +35,9 @@ Threads& threads() {
   return instance;
 }
 
-/// Tells the thread sanitizer what the loop library's own synchronisation orders, which it cannot see: what
-/// was written before the loop is there in each chunk, and what chunks wrote is there after it.
+/// Tells the thread sanitizer what the loop library's own synchronisation orders, which it cannot see:
+/// memory that was written before the loop is visible in each chunk, and memory that chunks wrote is visible
+/// after the loop.
 struct LoopOrder {
 #ifdef __SANITIZE_THREAD__
   char begin = 0, end = 0;

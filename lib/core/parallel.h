@@ -67,7 +67,7 @@ void parallel_sort(Column<T>& items, std::size_t chunk) {
   });
   Column<T> merged(n > chunk ? n : 0);
   for (std::size_t run = chunk; run < n; run *= 2) {
-    // Each chunk of what is merged finds out what of the two runs goes into it.
+    // Each chunk of the merged run finds the parts of the two runs that go into it.
     parallel_chunks(n, chunk, [&](std::size_t begin, std::size_t end) {
       const std::size_t from = begin / (2 * run) * (2 * run), middle = std::min(n, from + run);
       const std::span<const T> first(items.data() + from, middle - from);

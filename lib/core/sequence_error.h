@@ -13,9 +13,9 @@ struct PointOrder {
   int first = 0;
 };
 
-/// Variance of the sum of `parts`, part k of what point k from a random start has found. Such points err far
-/// less than independent ones do, by what the integrand changes between one point and those next to it on the
-/// square: half the mean square of these differences, x a gain of 0.12 where it is smooth to 0.45 where edges
+/// Variance of the sum of `parts`; part k is the contribution of point k from a random start. Such points err
+/// far less than independent points: by the change of the integrand between a point and its neighbours on the
+/// square, half the mean square of these differences, x a gain of 0.12 where it is smooth to 0.45 where edges
 /// are (a few differences are all), as measured for rectangles, near and far, whole, cut by straight edges,
 /// and by 4 to 256 points. Where neighbours differ as much as any two samples do, the points gain nothing.
 ///

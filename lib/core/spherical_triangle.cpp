@@ -23,7 +23,7 @@ SphericalTriangle::SphericalTriangle(const Vec3 corner[3], const Vec3& from) {
   const double volume = std::fabs(glm::dot(a_, glm::cross(b_, c)));
   if (!(volume > 0)) return;
   solid_angle_sr_ = 2 * std::atan2(volume, 1 + glm::dot(a_, b_) + glm::dot(b_, c) + glm::dot(c, a_));
-  // The angle at a is that between the planes through it; the sine of it has the volume as its numerator.
+  // The angle at a is the angle between the planes through a; the volume is the numerator of its sine.
   const double cosine = glm::dot(glm::cross(a_, b_), glm::cross(a_, c));
   const double length = std::hypot(cosine, volume);
   cos_alpha_ = cosine / length, sin_alpha_ = volume / length, cos_ab_ = glm::dot(a_, b_);

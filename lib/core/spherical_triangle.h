@@ -14,7 +14,7 @@ class SphericalTriangle {
   SphericalTriangle(const Vec3 corner[3], const Vec3& from);
 
   /// sr, in [0, 2 pi]; by van Oosterom and Strackee (1983). 0 where the point lies in the triangle's plane
-  /// outside of it, in one of its corners, or where the triangle has no area.
+  /// outside of the triangle, in one of its corners, or where the triangle has no area.
   double solid_angle_sr() const { return solid_angle_sr_; }
 
   /// Weights of the second and third corner at the place of the triangle that is seen in the direction of
@@ -29,7 +29,7 @@ class SphericalTriangle {
 };
 
 /// A triangle, or a parallelogram as two that turn about a corner, so that even points of the square are even
-/// ones of it.
+/// points of the parallelogram.
 class SphericalPatch {
  public:
   SphericalPatch(const Vec3 corner[3], const Vec3& from);

@@ -32,7 +32,7 @@ inline bool is_finite(const Vec3& v) {
 /// first where squares might be lost).
 inline Vec3 normalized_or_zero(const Vec3& v) {
   const float d2 = glm::dot(v, v);
-  if (d2 > 1e-30f && d2 < 1e30f) return v / std::sqrt(d2);  // no part of it is lost
+  if (d2 > 1e-30f && d2 < 1e30f) return v / std::sqrt(d2);  // no part of d2 is lost
   if (!is_finite(v)) return Vec3(0);
   const float largest = max_component(glm::abs(v));
   if (!(largest > 0)) return Vec3(0);

@@ -34,7 +34,7 @@ class LampPoints {
 /// Of one light, where so many are asked for.
 int count(const Light& light, int samples) { return light.extended() ? samples : std::min(samples, 1); }
 
-/// Adds samples of the images that lamps have in flat mirrors; what is dark or hidden is left out.
+/// Adds samples of the images that lamps have in flat mirrors; images that are dark or hidden are left out.
 void sample_images(const RayScene& rays, const Luminaires& lights, const SurfacePoint& receiver,
                    std::span<const LightSamples> counts, PointOrder::Kind kind, RandomStream& random,
                    std::vector<LampSample>& out) {
@@ -98,7 +98,7 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
     const int n = count(lights[i], samples);
     // A bounce's numbers are enough for so many.
     if (i > 0 && i % kLightsOfABounce == 0) random.start_bounce(kManyLightsBounce + i / kLightsOfABounce);
-    // Drawn for every light, so that one light's samples do not depend on what another's do.
+    // Drawn for every light, so that one light's samples do not depend on another light's.
     const float shift = random.uniform();
     const LampPoints points(rays.scene(), lights, i, kind, random);
     const bool area = lights[i].kind == Light::Kind::area;

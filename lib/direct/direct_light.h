@@ -17,7 +17,7 @@ struct LampSample {
   Vec3 direction{0};             ///< unit, towards the lamp
   float distance_m = kInfinity;  ///< infinity: a directional light or the environment
   Vec3 normal{0};     ///< of the lamp's surface, on the side that shines; minus direction for lamps without
-  Rgb irradiance{0};  ///< what it adds: cosine, density and number of samples included; they sum to E, lx
+  Rgb irradiance{0};  ///< its contribution: cosine, density and number of samples included; they sum to E, lx
   std::uint32_t light = 0;
   std::uint32_t number = 0;   ///< of this sample among the light's, from 0
   std::int32_t mirrors = -1;  ///< chain of flat mirrors that the light came over (MirrorPlanes); -1: none
@@ -43,12 +43,12 @@ void sample_lamps(const RayScene& rays, const Luminaires& lights, const SurfaceP
                   std::span<const LightSamples> counts, PointOrder::Kind points, RandomStream& random,
                   std::vector<LampSample>& out);
 
-/// Points by which light i is sampled where `wanted` are: those, or what its kind takes.
+/// Points by which light i is sampled where `wanted` are: these points, or the points that its kind takes.
 PointOrder::Kind points_of(const Scene& scene, const Luminaires& lights, std::size_t i,
                            PointOrder::Kind wanted);
 
-/// Sum of such samples of one point, and its variance by channel (sequence_variance): that of the samples of
-/// lights of an extent.
+/// Sum of such samples of one point, and its variance by channel (sequence_variance), which is the variance
+/// of the samples of lights with an extent.
 struct LampSum {
   DVec3 irradiance{0}, variance{0};  ///< lx, lx^2
 };

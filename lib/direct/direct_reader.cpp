@@ -28,7 +28,7 @@ constexpr int kPilotNodes = 32, kMostNodes = 4096;
 constexpr double kCutFall = 0.8, kCutMargin = 0.9;
 /// A cut of more than this part of all lamps had better be all of them.
 constexpr double kNearlyAll = 1 / 3.;
-/// The stated error of the final rays scatters about what the pilot foretells.
+/// The stated error of the final rays scatters about the error that the pilot predicts.
 constexpr double kMargin = 0.8;
 
 double lux(const DVec3& e) { return static_cast<double>(luminance(Rgb(e))); }

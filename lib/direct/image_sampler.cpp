@@ -11,7 +11,8 @@ namespace {
 
 // No image is less likely than this part of an equal share: by power the lamp beside the mirror would starve.
 constexpr double kMinimumShare = 0.1;
-/// sample_all() takes every image that promises at least this part of what all images promise together.
+/// sample_all() takes every image that promises at least this part of the light that all images promise
+/// together.
 constexpr double kGoodPart = 0.02;
 
 template <class Choices>

@@ -15,8 +15,8 @@ namespace {
 // By power no lamp falls below this part of an equal share, so that one close by is not starved.
 constexpr double kMinimumShare = 0.1;
 constexpr long kMostSamples = 4;
-/// Where both have light, the hierarchy of lamps and the far ones have no smaller part than this: what the
-/// former promises is rough.
+/// Where both have light, the hierarchy of lamps and the far ones have no smaller part than this: the promise
+/// of the hierarchy is rough.
 constexpr double kLeastOfEither = 0.2;
 /// An area light is near from this distance to its centre on, in radii of the sphere about it.
 constexpr float kNear = 1.5f;

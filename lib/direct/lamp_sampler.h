@@ -35,7 +35,7 @@ class LampSampler {
   struct Choice {
     std::size_t light = 0;
     float probability = 1;
-    float rest = 0;  ///< what `u` has left: uniform in [0, 1) given the light
+    float rest = 0;  ///< the rest of `u`: uniform in [0, 1) given the light
   };
   /// `u` in [0, 1). There must be a light.
   Choice choose(const SurfacePoint& point, float u) const;
@@ -45,7 +45,7 @@ class LampSampler {
   /// One sample, from three numbers in [0, 1). Unbiased, of bounded variance for area lights however near:
   /// close to one, some samples are cosine-weighted rays that may find it (balance heuristic, Veach 1997
   /// ch. 9).
-  /// The result is filled in place: copies of it were a tenth of the cost.
+  /// The result is filled in place: copies were a tenth of the cost.
   void sample(const SurfacePoint& point, const std::array<float, 3>& u, ArrivingLight& light) const;
 
  private:

@@ -11,7 +11,7 @@ namespace phos::inline direct {
 namespace {
 
 constexpr LightTree::Index kNone = ~0u;
-/// Angles are known to so much: what just fails to be lit, by rounding, is not left out.
+/// Angles are known to so much: a point that fails to be lit by rounding alone is not left out.
 constexpr double kRounding = 1e-5;
 /// Least factor of light that leaves a lamp at a grazing angle.
 constexpr double kGrazing = 0.01;

@@ -40,7 +40,7 @@ class LightTree {
   struct Choice {
     std::size_t light = 0;
     double probability = 1;
-    double rest = 0;  ///< what is left of `u`: uniform in [0, 1) given the light
+    double rest = 0;  ///< the rest of `u`: uniform in [0, 1) given the light
   };
   /// A lamp below a node, by u in [0, 1): at every node one child by the importance of the two, by halves
   /// where both have none.

@@ -5,9 +5,8 @@
 
 namespace phos::inline direct {
 
-inline constexpr Limit kMostShadowRays{
-    "shadow rays from one point to one lamp that `phos-sense` sends for an error", 4096,
-    "the stated error is above the error asked for"};
+inline constexpr Limit kMostShadowRays{"shadow rays from one point to one lamp by `phos-sense --error`", 4096,
+                                       "the stated error exceeds the error asked for"};
 
 inline constexpr const Limit* kDirectLimits[] = {&kMostShadowRays};
 

@@ -8,14 +8,14 @@ namespace phos::inline direct {
 
 /// What a pilot found of one lamp.
 struct PilotNoise {
-  double variance_lx2 = 0;  ///< of what its rays brought together
+  double variance_lx2 = 0;  ///< variance of the light that its rays brought together
   int rays = 1;             ///< of the pilot
   int least = 1;            ///< rays that it is to have in any case
   bool sets = false;        ///< its points are Sobol's: numbers are rounded up to sets of them
 };
 
 /// The variance of n low-discrepancy samples of a lamp falls as n to this power, or faster: measured 1.27 of
-/// windows in a room from 64 to 512 rays; 1.5 of edges, 2 of what is smooth, 1 of independent samples.
+/// windows in a room from 64 to 512 rays; 1.5 for edges, 2 for smooth light, 1 for independent samples.
 inline constexpr double kNoiseFall = 1.25;
 
 /// The least set of Sobol' points whose stated variance is the one that n would leave by kNoiseFall, n itself

@@ -42,7 +42,7 @@ class CausticLight {
   LocalDensity at_sensor(const Vec3& p, const Vec3& n, Worker& worker) const;
 
   /// Light that the glossy lobes of `bsdf` send on to wo, cd/m2, from the photons of an estimate just made by
-  /// `worker`; its relative noise is that of the estimate.
+  /// `worker`; its relative noise is the noise of the estimate.
   static Rgb gloss(const LocalDensity& estimate, const Bsdf& bsdf, const Vec3& wo, const Worker& worker);
 
  private:
@@ -57,7 +57,7 @@ class CausticLight {
 };
 
 /// Photons of an estimate: a picture's pixels are many, and noise of a few photons in a hundred is little
-/// against what the eye makes out; a sensor is to be right.
+/// against the differences that the eye makes out; a sensor must be right.
 inline constexpr std::size_t kPictureCaustics = 512, kSensorCaustics = 8192;
 /// Where rays of gathering and gloss land, whose light is averaged over many places.
 inline constexpr std::size_t kGatherCaustics = 64;

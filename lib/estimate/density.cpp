@@ -22,7 +22,7 @@ constexpr std::size_t kLeastCompared = 64;  // photons that can tell an occlusio
 // Points at the very border of a surface often lie outside of the hull: one in a thousand may be called dark.
 constexpr double kDarkPhotons = 6.9;
 
-/// Mean of |x|^2 under a kernel, over that of the disc (docs/methods.md#c4).
+/// Mean of |x|^2 under a kernel, over its mean under the disc (docs/methods.md#c4).
 float kernel_spread(Kernel kernel) {
   if (kernel == Kernel::epanechnikov) return 2 / 3.f;
   if (kernel == Kernel::cone) return 3 / 5.f;
@@ -53,8 +53,8 @@ int probes_for(std::size_t photons, std::int64_t most) {
 /// More of the mean than this is not taken for curvature: the terms after it are as large.
 constexpr double kMostBend = 0.25;
 
-/// What paths add to the variance of a zone, `spread` times that of its photons alone, all zones have in
-/// common; next to nothing of it is left out.
+/// All zones have in common the variance that paths add to a zone, whose variance is `spread` times the
+/// variance of its photons alone; a tiny part is left out.
 float shared_of(double spread) {
   if (spread < 1.02) return kSharedByZones;
   return static_cast<float>((static_cast<double>(kSharedByZones) + spread - 1) / spread);
@@ -128,7 +128,7 @@ ZoneEstimate DensityEstimator::by_kernel(const Zone& at, Scratch& s) const {
   return kernel_irradiance(photons.offset_m, photons.flux_lm, at.radius_m, options_.kernel, s.density);
 }
 
-/// Adds what counts of the photon that the record sits on; it covers photons within reach_m.
+/// Adds the part that counts of the photon on which the record sits; it covers photons within reach_m.
 void DensityEstimator::count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m,
                                  float reach_m, ZoneEstimate& zone, Scratch& s) const {
   if (at.photon == kNoPhoton || zone.kind == ZoneKind::dark || !zone.centred) return;
@@ -167,20 +167,20 @@ double DensityEstimator::share_of_bend(double bend, double noise, const ZoneEsti
   // Of a shape that is partly no surface, photons' places tell nothing to check it by.
   if (zone.partial || !(even_m4 > 0)) return 0;
   // Over a disc of light that is E + k r^2, the mean of r^2 exceeds half of R^2 by R^2 bend / (6 flux); its
-  // own variance is 1/12 of that of the flux. If the photons lie as they would without, by e^2 : 1, they do
-  // not come from where they seem to.
+  // own variance is 1/12 of the variance of the flux. If the photons lie as they would without, by e^2 : 1,
+  // they do not come from where they seem to.
   const double moment = moment_m2 * area_m2 / (2 * even_m4 * flux) - 0.5, expected = bend / (6 * flux),
                variance = squares / (12 * flux * flux), off = moment - expected;
   return off * off - moment * moment > 4 * variance ? 0 : share;
 }
 
 /// Irradiance at p from the mean over the area, photon by photon: moved along the gradient from the area's
-/// centroid (docs/methods.md#c3; photons from a wall nearby tell little of it), and without what the
-/// curvature of irradiance adds to the mean, its Laplacian x (mean of |x - centroid|^2 - |p - centroid|^2) /
-/// 4 - as for a disc of this area, and right in the next order too (kBendStep). Each is taken away as far as
-/// it exceeds its own noise, so that even light stays as it is, the curvature up to kMostBend of the mean,
-/// and unless the photons lie otherwise; what may be left of it is in the error. A kernel, for comparison,
-/// keeps it, and says so in its error.
+/// centroid (docs/methods.md#c3; photons from a wall nearby tell little of it), and without the part
+/// that the curvature of irradiance adds to the mean, its Laplacian x (mean of |x - centroid|^2 - |p -
+/// centroid|^2) / 4 - as for a disc of this area, and right in the next order too (kBendStep). Each is taken
+/// away as far as it exceeds its own noise, so that even light stays as it is, the curvature up to kMostBend
+/// of the mean, and unless the photons lie otherwise; the part that may be left is in the error. A kernel,
+/// for comparison, keeps the bend, and its error contains it.
 void DensityEstimator::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
                                       Scratch& s, IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
@@ -248,8 +248,8 @@ ComparedGradients DensityEstimator::compared(const ZonePlace& place, const ZoneE
   return {analytic, analytic, analytic};
 }
 
-/// Irradiance at p with its error and gradients, and what they and the edges allow of the radius. Without
-/// photons, but its own, it is known no better than by what one photon would have shown.
+/// Irradiance at p with its error and gradients, and the radius that they and the edges allow. Without
+/// photons, but its own, it is known no better than by the light of one photon.
 void DensityEstimator::fill(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& s,
                             IrradianceRecord& record) const {
   const auto a = static_cast<float>(options_.accuracy);

@@ -28,7 +28,7 @@ namespace phos::inline estimate {
 ///
 /// The kernel is the classical estimate, for comparison: zone, gradients and limits of the radius are the
 /// hull's, but its photons are divided by the whole disc. It looks for no border, no shadow edge, no wall
-/// and no caustic: half of the light is lost at a border, and half of it leaks over a shadow's edge.
+/// and no caustic: half of the light is lost at a border, and half of the light leaks over a shadow's edge.
 class DensityEstimator : public Estimator {
  public:
   DensityEstimator(const PhotonMap& photons, const RayScene& rays, const RecordOptions& resolved,
@@ -41,9 +41,9 @@ class DensityEstimator : public Estimator {
     bool others = false;  ///< are there photons in the zone but the record's own?
     DensityScratch density;
     Frame frame;              ///< of the last make()
-    ZoneEstimate zone;        ///< likewise; of its photons, density.used counted
-    Vec2 moved_m{0};          ///< likewise: how far its light was moved along its gradient
-    std::vector<float> bend;  ///< likewise: the part of each photon's flux that was taken away for curvature
+    ZoneEstimate zone;        ///< of the last record; of its photons, density.used counted
+    Vec2 moved_m{0};          ///< of the last record: how far its light was moved along its gradient
+    std::vector<float> bend;  ///< of the last record: the part taken from each flux for curvature
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
@@ -66,7 +66,7 @@ class DensityEstimator : public Estimator {
     LeftOut left_out;
     float distance_m;  ///< of the surroundings
   };
-  /// Its photons are left in scratch.gathered, where what follows expects them.
+  /// Its photons are left in scratch.gathered, where later steps expect them.
   Zone zone_about(const RecordSite& at, Scratch& scratch) const;
   void gather(Zone& zone, Scratch& scratch) const;
   Made make_of(const RecordSite& at, Zone zone, Scratch& scratch) const;

@@ -27,7 +27,7 @@ struct RecordSite {
 
 /// A record one frame on, as an estimator that looks ahead expects it.
 struct Ahead {
-  IrradianceRecord record;                           ///< place, normal and gradients are those of that time
+  IrradianceRecord record;                           ///< place, normal and gradients belong to that time
   std::shared_ptr<const RadianceRecord> radiance{};  ///< where radiance records are made
   float holes = 0;  ///< share of its hemisphere that nothing seen now leads to
 };
@@ -61,7 +61,7 @@ class Estimator {
   /// The record at a site; `worker` is of this estimator. Depends on the site and the seed alone. Always
   /// finite. Throws Error(numerical) where a value exceeds the range of numbers.
   virtual Made make(const RecordSite& site, Worker& worker) const = 0;
-  /// The irradiance of that record alone, lx: what it does not need is neither looked for nor counted.
+  /// The irradiance of that record alone, lx: light that it does not need is neither looked for nor counted.
   virtual Rgb irradiance_lx(const RecordSite& site, Worker& worker) const {
     return make(site, worker).record.irradiance;
   }

@@ -22,13 +22,13 @@ struct RecordOptions;
 struct SeenPass;
 
 /// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
-/// standard error is at most error x its value, or all of options.rays are spent (counted). With paths = all,
+/// standard error is at most error x its value, or all options.rays are spent (counted). With paths = all,
 /// direct light at the record is added from samples of the lamps. A record whose rays found no light at all
-/// has as its standard error what one more lit ray would have brought, as far as lamps that were hidden from
-/// what the rays hit tell; 0 where none was.
-/// The error stated is that of the rays (standard_error_of) and of the source (SourceNoise); the latter is
-/// what records about each other share. options.error is asked of the rays alone. What is not in it: how the
-/// source is smoothed over its zones, and the noise of its gloss.
+/// has as its standard error the light that one more lit ray would have brought, as far as lamps that were
+/// hidden from the hits of the rays show it; 0 where none was. The stated error contains the error of the
+/// rays (standard_error_of) and of the source (SourceNoise); records near each other share the error of the
+/// source. options.error is asked of the rays alone. The stated error does not contain the smoothing of the
+/// source over its zones, nor the noise of its gloss.
 class GatherEstimator : public HemisphereEstimator {
  public:
   GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -39,7 +39,7 @@ class GatherEstimator : public HemisphereEstimator {
   std::vector<SeenPass> last_seen(const Worker& worker) const override;
   Made record_from(const RecordSite& site, std::span<const Hemisphere> passes, Worker& worker) const override;
 
-  /// One stratified hemisphere of about `rays` rays, traced and lit: what make() is made of.
+  /// One stratified hemisphere of about `rays` rays, traced and lit, of which make() makes a record.
   void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
               Measure measure = Measure::projected) const;
   /// What the worker's last sample() of a pass found; `h` is the hemisphere that it filled.

@@ -1,4 +1,4 @@
-// What gathered rays read where they land.
+// The light that gathered rays read where they land.
 #pragma once
 
 namespace phos::inline record {
@@ -26,16 +26,16 @@ struct GatherSource {
   /// The cache and `fallback` lack the light that lamps send by flat mirrors alone, which is direct light at
   /// their records (scene/mirror/images.h): it is sampled where rays land.
   bool lacks_images = false;
-  /// Radiance records: what glossy lobes that they serve show but for the lamps; null: none. Where no record
+  /// Radiance records: the light of glossy lobes that they serve, but for lamps; null: none. Where no record
   /// is near enough (counted), gloss is followed as elsewhere.
   const GlossCache* gloss = nullptr;
   /// Caustic light, where `indirect` holds none; null: it is in it.
   const CausticLight* caustics = nullptr;
   const CausticLight* gloss_caustics = nullptr;  ///< the same of `gloss`
   // The noise of that light (SourceNoise).
-  double photon_lm = 0;     ///< luminance that one photon of it carries, lm; 0: it is taken as exact
+  double photon_lm = 0;     ///< luminance that one photon of the source carries, lm; 0: it is taken as exact
   double zone_photons = 0;  ///< that its zones hold; with photon_lm: how wide they are
-  double common = 0;        ///< relative variance of all of it together
+  double common = 0;        ///< relative variance of the whole source together
   double usual_lx = 0;      ///< luminance of `indirect`, mean over surfaces; 0: unknown
 
   /// The part of a site's own lower bound of the radius that counts, for errors of bright places weigh more

@@ -36,9 +36,9 @@ constexpr std::uint32_t kOtherSide = 1u << 16;
 // A glossy lobe is followed with at least this probability, even where mirrors reflect more.
 constexpr float kLeastGloss = 0.25f;
 /// A place nearer than this part of the radius of the zone that tells of its light is not read but followed.
-/// Narrow mouldings beside the record share such zones with what is lit otherwise: of 29 places about those
-/// of Sponza, a million photons, irradiance was 8 % off where all is read, 1.3 % by 1/2, 1.2 % by 1 and 2,
-/// 1.2 % being the noise.
+/// Narrow mouldings beside the record share such zones with places that are lit otherwise: of 29 places about
+/// those of Sponza, a million photons, irradiance was 8 % off where all is read, 1.3 % by 1/2, 1.2 % by 1 and
+/// 2, 1.2 % being the noise.
 constexpr double kNear = 0.5;
 /// So often at most, from one such place to the next.
 constexpr std::uint32_t kMostFollowed = 8;
@@ -100,8 +100,8 @@ struct HitLight::Impl {
   LampSampler lamps;
   ImageSampler images;
   bool caustics_apart;
-  bool follow_near;  // what is read near by is followed instead
-  /// What is known of a material before any point of it.
+  bool follow_near;  // places near by are followed instead of read
+  /// The facts of a material that do not depend on the point.
   struct Surface {
     bool diffuse = false;   // it has no other lobe
     bool constant = false;  // its reflectance is the same all over, but for vertex colours
@@ -176,7 +176,7 @@ struct HitLight::Impl {
 
 Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const {
   if (source.indirect) {
-    float weight;  // their error is not asked for: that of the source as a whole is known
+    float weight;  // their error is not asked for: the error of the whole source is known
     const Rgb cached = source.indirect->irradiance(point.position, point.smooth_normal, weight);
     if (weight > 0) return cached;
     if (source.far) {
@@ -208,7 +208,7 @@ bool HitLight::Impl::counts_lamps_in_mirrors(std::uint32_t followed) const {
   return followed == 0 ? !caustics_apart : !source.caustics;
 }
 
-/// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for what is read there?
+/// Is a place that a ray found, of indirect light `lux`, to be followed, as too near for a reading there?
 bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
   // A zone of n photons of photon_lm each has the area n photon_lm / E.
   const double zone_lm = kNear * kNear * source.zone_photons * source.photon_lm;
@@ -352,8 +352,8 @@ Rgb HitLight::Impl::beyond(const SurfacePoint& point, const Step& step) const {
   return luminance * (step.density / (step.density + other));
 }
 
-/// One sample of light straight from the lamps, through the glossy lobes towards wo; that of an area light is
-/// weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
+/// One sample of light straight from the lamps, through the glossy lobes towards wo; a sample of an area
+/// light is weighted against the walk's next ray (balance heuristic, Veach 1997 ch. 9).
 Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                   float gloss_probability, RandomStream& random) const {
   if (lights.size() == 0) return Rgb(0);
@@ -371,8 +371,8 @@ Rgb HitLight::Impl::gloss_of_lamp(const SurfacePoint& point, const Bsdf& bsdf, c
   return arrives * f * light.value * (cosine / density);
 }
 
-/// One sample of what lamps send by flat mirrors, through the lobes whose light from there nothing else
-/// tells: the diffuse one where the source lacks it; the glossy ones of lamps without area, which no walk
+/// One sample of the light that lamps send by flat mirrors, through the lobes for which no other strategy
+/// finds it: the diffuse one where the source lacks it; the glossy ones of lamps without area, which no walk
 /// finds, and of all lamps where radiance records know the rest of their light.
 Rgb HitLight::Impl::from_images(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                                 std::int64_t bounces_left, bool gloss_known, RandomStream& random) const {
@@ -407,7 +407,7 @@ struct HitLight::Impl::Walk {
   /// Flat mirrors since the record, or a place that was followed: lamps have images in them there.
   std::vector<std::pair<std::uint32_t, bool>> mirrors{};
   bool by_images;
-  /// So far by mirrors and glass alone: what lamps send so is caustic light.
+  /// So far by mirrors and glass alone: light of lamps that comes so is caustic light.
   bool mirrors_alone = true;
   const bool count_all;
 

@@ -24,18 +24,18 @@ namespace phos::inline estimate {
 ///
 /// RecordOptions::gather_bounces counts reflections between the lamp and the record, those by gloss, mirrors
 /// and glass too, as PathOptions::bounces of the reference does (which also counts the one at the record):
-/// with 1, a diffuse place shows what lamps send it, and a mirror shows the lamps. Without that limit a
-/// diffuse place ends a path by what the source knows, gloss too where radiance records tell of it, and
-/// mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place: caustics
-/// seen in mirrors and all such light is there, without bias. Lamps without area are not seen in mirrors:
-/// where flat ones show their images to a place that rays land on, those are sampled if the source lacks
-/// them; their other caustics are in the source alone. With RecordOptions::caustics_apart, what mirrors and
-/// glass alone show the record of lamps does not count: it is caustic light, which photons tell of
-/// (estimate/caustic_light.h). Without, lamps of an extent count there, and light of others is missing. A
-/// diffuse place nearer than half the radius of the source's zones there is not read but followed by one more
-/// ray, cosine-weighted (Jensen 1996, of corners), eight times at most: zones tell little of what lies within
-/// them. Not so where light would be lost: of a source that holds light straight from the lamps, and with
-/// lamps without area where there are mirrors or glass.
+/// with 1, a diffuse place shows the light that lamps send it, and a mirror shows the lamps. Without that
+/// limit a diffuse place ends a path with the light of the source, and with gloss where radiance records hold
+/// it, and mirrors, glass and other gloss are followed, one ray at a time, until they lead to such a place:
+/// caustics seen in mirrors and all such light is there, without bias. Lamps without area are not seen in
+/// mirrors: where flat ones show their images to a place that rays land on, those are sampled if the source
+/// lacks them; their other caustics are in the source alone. With RecordOptions::caustics_apart, light of
+/// lamps that comes to the record by mirrors and glass alone does not count: it is caustic light, which
+/// photons carry (estimate/caustic_light.h). Without, lamps of an extent count there, and light of others is
+/// missing. A diffuse place nearer than half the radius of the source's zones there is not read but followed
+/// by one more ray, cosine-weighted (Jensen 1996, of corners), eight times at most: zones tell little of
+/// differences within them. Not so where light would be lost: of a source that holds light straight from the
+/// lamps, and with lamps without area where there are mirrors or glass.
 class HitLight {
  public:
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
@@ -73,8 +73,8 @@ class HitLight {
   /// Has this material no other lobe than a diffuse one? Only its points leave sights.
   bool is_diffuse(std::uint32_t material) const;
 
-  /// Sets radiance, distance_m, hit_normal, source and lamps of h from what its rays hit (distance_m
-  /// infinite: nothing), by samples of the lamps at each hit (LampSampler::samples(), low-discrepancy over
+  /// Sets radiance, distance_m, hit_normal, source and lamps of h from the hits of its rays (distance_m
+  /// infinite: none), by samples of the lamps at each hit (LampSampler::samples(), low-discrepancy over
   /// the hits) and `source`. Lamps' own emission is left out: a record's direct light is computed apart.
   /// Random numbers depend on (seed, item, pass, ray).
   void shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,

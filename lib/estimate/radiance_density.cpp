@@ -13,8 +13,8 @@ namespace {
 
 /// Least cosine of a source in a gradient, which it divides (as translation_term).
 constexpr float kLeastCosine = 0.1f;
-/// Of the variance of irradiance: that of a coefficient, so that E = sqrt(pi/2) c_00 + sqrt(pi/6) c_10 has
-/// its own; alone, c_00 is all of it.
+/// The variance of a coefficient over the variance of irradiance, so that E = sqrt(pi/2) c_00 + sqrt(pi/6)
+/// c_10 has its own; alone, c_00 has the whole variance.
 double white(int order) { return (order > 1 ? 1.5 : 2) / std::numbers::pi; }
 
 std::vector<float> narrowed(const std::vector<double>& v) { return {v.begin(), v.end()}; }
@@ -154,7 +154,7 @@ Made RadianceDensityEstimator::make(const RecordSite& site, Worker& worker) cons
     const int c = static_cast<int>(i % 3);
     if (found[c] > 0) record->stderr_light[i] *= e.stderr_lx[c] / found[c];
   }
-  if (dark) {  // known no better than by what one photon would have shown
+  if (dark) {  // known no better than by the light of one photon
     for (std::size_t i = 0; i < record->stderr_light.size(); ++i)
       record->stderr_light[i] =
           static_cast<float>(std::sqrt(white(impl_->order))) * e.stderr_lx[static_cast<int>(i % 3)];

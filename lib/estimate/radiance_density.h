@@ -23,14 +23,15 @@ class PhotonProjector {
   /// tangent plane, along the gradient (shortened where that would change the light by its own norm).
   ///
   /// The photons are moments of the light, sum of flux / area H_i(w), and CosineFit makes coefficients of
-  /// them: what leaves through a lobe f is then sum of flux / area f'(w), f' the fit of f by as many bands.
-  /// The irradiance is sum of flux / area. More bands add no noise to what leaves through a lobe, which sees
-  /// as many photons as before; so bands are neither cut off nor damped where their energy is below their
-  /// noise. (Measured for 50 to 1,000 photons: that would take up to 40 % of the noise of even light, and
-  /// double or quadruple the error of light from one wall or a ceiling. tests/bench has what the fit does.)
+  /// them: the light that leaves through a lobe f is then sum of flux / area f'(w), f' the fit of f by as
+  /// many bands. The irradiance is sum of flux / area. More bands add no noise to light that leaves through a
+  /// lobe, which sees as many photons as before; so bands are neither cut off nor damped where their energy
+  /// is below their noise. (Measured for 50 to 1,000 photons: that would take up to 40 % of the noise of even
+  /// light, and double or quadruple the error of light from one wall or a ceiling. tests/bench measures the
+  /// fit.)
   ///
-  /// In the gradients each photon's source stays where it is and shines on as it does (`hybrid` is as
-  /// analytic: photons do not show what hides light); its cosine is kept above 0.1.
+  /// In the gradients each photon's source stays where it is and keeps its luminance (`hybrid` is as
+  /// analytic: photons do not show occluders); its cosine is kept above 0.1.
   ///
   /// Errors are those of Poisson photons and of the area. Errors of coefficients from photons are not
   /// independent of each other; stated is the one white noise, of variance 3 / (2 pi) sum of (flux / area)^2
@@ -57,7 +58,7 @@ class RadianceDensityEstimator : public Estimator {
   ~RadianceDensityEstimator() override;
   std::unique_ptr<Worker> make_worker() const override;
 
-  /// The record at a site, without the site's own photon, is Made::radiance. Distance and radius are those of
+  /// The record at a site, without the site's own photon, is Made::radiance. Distance and radius come from
   /// the irradiance record, the radius also within_gradient_m, but for as near as zones overlap. Counted as
   /// irradiance records are. Throws Error(numerical) where a value exceeds the range of numbers.
   Made make(const RecordSite& site, Worker& worker) const override;

@@ -8,9 +8,9 @@
 namespace phos::inline estimate {
 namespace {
 
-/// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: what of a
-/// harmonic's square varies within the cell, since the addition theorem makes P_l of the sum over a band. On
-/// the sphere of which HSH are harmonics, cells are of equal area too.
+/// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: the part of
+/// a harmonic's square that varies within the cell, since the addition theorem makes P_l of the sum over a
+/// band. On the sphere of which HSH are harmonics, cells are of equal area too.
 std::vector<double> variation_in_cell(int ring, int rings, int slices, int order) {
   constexpr int kPoints = 6;
   std::vector<double> node, weight, variation(static_cast<std::size_t>(order));

@@ -7,7 +7,7 @@
 
 namespace phos::inline estimate {
 
-/// Remembers what it has found of the cells; for one thread.
+/// Remembers its results for the cells; for one thread.
 class RadianceError {
  public:
   explicit RadianceError(int order) : order_(order) {}
@@ -15,8 +15,8 @@ class RadianceError {
   /// hemispheres stratified by solid angle alone (else 0). The variances of a band's coefficients sum to that
   /// over cells of omega^2 (2l+1)/(2 pi) (Var L + L^2 (1 - mean of P_l between two points of the cell)), for
   /// by the addition theorem the light's slope within a cell and the harmonics' have no part in common; Var L
-  /// comes from neighbouring strata, less what even places on lamps take away (as standard_error_of).
-  /// Hemisphere::source is in it.
+  /// comes from neighbouring strata, less the part that even places on lamps take away (as
+  /// standard_error_of). Hemisphere::source is in it.
   std::vector<float> of(const Hemisphere& h);
 
  private:

@@ -11,7 +11,8 @@
 namespace phos::inline estimate {
 namespace {
 
-/// Sets the random numbers of radiance records apart from those of irradiance records at the same places.
+/// Sets the random numbers of radiance records apart from the numbers of irradiance records at the same
+/// places.
 constexpr std::uint64_t kOwnStreams = 0x72616469616e6365;
 
 struct RadianceWorker : Estimator::Worker {

@@ -21,9 +21,9 @@ struct SeenPass;
 /// GatherEstimator does. Const, usable from any thread, each with a worker of its own; holds references.
 class RadianceEstimator : public HemisphereEstimator {
  public:
-  /// Of `resolved` it takes rays, gather_bounces, radius and the bounds of it; all rays are spent. Random
-  /// numbers are apart from those of irradiance records with the same seed. Throws Error(usage) for an order
-  /// outside 1 .. HshRotator::kMaxOrder.
+  /// Of `resolved` it takes rays, gather_bounces, radius and its bounds; all rays are spent. Random
+  /// numbers differ from the numbers of irradiance records with the same seed. Throws Error(usage) for an
+  /// order outside 1 .. HshRotator::kMaxOrder.
   RadianceEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
                     const RecordOptions& resolved, int order, RadianceGradient gradient, std::uint64_t seed);
   ~RadianceEstimator() override;

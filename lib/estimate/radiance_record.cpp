@@ -45,8 +45,8 @@ struct RadianceProjector::Impl {
   LightSums sums;
   RadianceError error;
 
-  /// The edge between what is near and what is far moves with the near: what the analytic gradient takes to
-  /// move with the far is short of the difference, as solid angle: length of the edge across the movement x
+  /// The edge between a near and a far surface moves with the near one. The analytic gradient moves it with
+  /// the far one, and is short of the difference, as solid angle: length of the edge across the movement x
   /// difference of 1/r.
   void occlusion(const Hemisphere& seen, float least_m) {
     const auto edge = [&](std::size_t before, std::size_t cell, const Vec3& w, float length,

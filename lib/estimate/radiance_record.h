@@ -11,11 +11,11 @@
 
 namespace phos::inline estimate {
 
-/// How the change of coefficients with the place is found. What the rays hit shines on as it does; analytic
-/// and numeric let all of it stay in sight, and so are blind to occlusion.
+/// How the change of coefficients with the place is found. The hits of the rays keep their luminance;
+/// analytic and numeric let all hits stay in sight, and so are blind to occlusion.
 enum class RadianceGradient {
   analytic,  ///< derivative of each ray's own term (docs/methods.md#j3)
-  hybrid,    ///< and edges between neighbouring rays, that move with what is nearer (as docs/methods.md#b5 of
+  hybrid,    ///< and edges between neighbouring rays, that move with the nearer hit (as docs/methods.md#b5 of
              ///< irradiance); of hemispheres stratified by solid angle, else analytic
   numeric,   ///< differences between displaced places, the hits kept: the same as analytic to about 1e-4
   none,
@@ -44,10 +44,10 @@ class RadianceProjector {
 /// Throws Error(numerical), with the record's place in the world, unless all its numbers are finite.
 void require_finite(const DVec3& origin_m, const RadianceRecord& record);
 
-/// Of the variance of a record's luminance of irradiance, what Hemisphere::source makes of it.
+/// The part of the variance of a record's luminance of irradiance that comes from Hemisphere::source.
 float shared_part(const Hemisphere& h, const Rgb& stderr_lx);
 
-/// How much of radius_m the gradient leaves, m: to where that of a colour would change the coefficients by
+/// How much of radius_m the gradient leaves, m: to where a colour's gradient would change the coefficients by
 /// their own norm (as within_gradient_m of irradiance).
 float within_gradient_m(const RadianceRecord& record, float radius_m);
 

@@ -1,4 +1,4 @@
-// From what arrives at a place to the record of it.
+// From the light that arrives at a place to the record there.
 #pragma once
 
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace phos::inline estimate {
 
-/// Light at a place, with what the radius of a record follows from.
+/// Light at a place, with the lengths from which the radius of a record follows.
 struct PlaceLight {
   Rgb irradiance{0}, stderr_lx{0};
-  DVec3 shared_lx2{0};           ///< of its variance: what places about it have in common
+  DVec3 shared_lx2{0};           ///< the part of its variance that places nearby have in common
   float distance_m = kInfinity;  ///< of surroundings: harmonic mean or least, as RecordOptions::radius says
   float light_m = kInfinity;     ///< harmonic mean distance that the light comes from, by RadiusRule::light
   Gradients gradients;
@@ -50,7 +50,7 @@ void require_finite(const DVec3& origin_m, const Vec3& p, const Rgb& irradiance,
 Made record_of(const RecordSite& site, const PlaceLight& light, const RecordOptions& resolved,
                const DVec3& origin_m = DVec3(0));
 
-/// What a record's hemispheres (one or more passes, averaged) make of it: irradiance, standard error,
+/// The record that its hemispheres (one or more passes, averaged) give: irradiance, standard error,
 /// distance, radius and gradients (docs/methods.md#a7: harmonic or least distance, then limited by the
 /// gradient). Shared by all estimators that sample hemispheres.
 Made record_of(const RecordSite& site, std::span<const Hemisphere> passes, const RecordOptions& resolved);

@@ -29,9 +29,9 @@ enum class Footprint {
   adaptive,         ///< eight axes, each as long as surroundings and light allow (ARIC)
 };
 enum class RadiusRule {  ///< docs/methods.md#a7
-  harmonic,              ///< harmonic mean distance of what stands around
+  harmonic,              ///< harmonic mean distance of the surroundings
   light,                 ///< the same, and no more than the harmonic mean distance that the light comes from
-  least,                 ///< least distance of what stands around
+  least,                 ///< least distance of the surroundings
 };
 enum class LeakTest {
   none,
@@ -44,7 +44,7 @@ enum class GatherFrom {
 enum class RasterBorder {
   none,      ///< directions beyond the plane are dark
   coverage,  ///< divided by the share of the hemisphere that the plane covers (Larsen and Christensen 2004)
-  stretch,   ///< border pixels stand for what lies beyond them (docs/methods.md#r1)
+  stretch,   ///< border pixels stand for directions beyond them (docs/methods.md#r1)
 };
 
 /// How far surroundings are where light and cameras are at work (place/typical_distance.h), m.
@@ -94,22 +94,22 @@ struct RecordOptions {
   bool images_apart = true;
 
   /// Fills in absent radii: from a 25th of the least typical distance (1/4 m unless it is positive and
-  /// finite) to all of the most (footprints that follow surroundings do not know what comes into sight beside
-  /// them: half),
+  /// finite) to the whole greatest distance (half for footprints that follow surroundings, because
+  /// they do not know which surfaces come into sight beside them),
   /// the estimator's own gradients, and the rule of the radius that a footprint stands for. Throws
   /// Error(usage) if the smaller radius exceeds the larger, or if the estimator has no such gradients or
   /// footprint.
   void resolve(TypicalDistance typical);
 };
 
-/// All but those of --estimate raster.
+/// All estimates but --estimate raster.
 void declare_options(Options& options, RecordOptions& records);
 void declare_raster_options(Options& options, RecordOptions& records,
                             const InFiles& in_files = Adopted::estimate);
 /// --footprint, --rho and --direct (another name of --paths).
 void declare_footprint_options(Options& options, RecordOptions& records);
-// Some of them, for tools that read no others: how far a record reaches, what zones of photons are, and rays
-// with what they read where they land.
+// Some of them, for tools that read no others: the reach of a record, the zones of photons, and rays with the
+// light that they read where they land.
 void declare_reach_options(Options& options, RecordOptions& records);
 void declare_photon_options(Options& options, RecordOptions& records);
 void declare_gather_options(Options& options, RecordOptions& records);

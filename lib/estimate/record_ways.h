@@ -16,7 +16,7 @@ double samples_of(const RecordOptions& records);
 /// photons, which hold all.
 std::vector<LightWay> missed_ways(const RayScene& rays, const RecordOptions& records);
 
-/// Looks at the scene, warns (Tool::doubt) of what such records will not hold, and returns it.
+/// Looks at the scene, warns (Tool::doubt) of light that such records will not hold, and returns its ways.
 std::vector<LightWay> tell_missed_ways(Tool& tool, const RayScene& rays, const RecordOptions& records);
 
 }  // namespace phos::inline estimate

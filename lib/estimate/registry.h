@@ -25,7 +25,7 @@ struct EstimatorParts {
   const RayScene& rays;
   const Luminaires& lights;
   std::function<const PhotonMap&()> photons;
-  std::function<GatherSource()> source;  ///< what rays read where they land
+  std::function<GatherSource()> source;  ///< the light that rays read where they land
   const RecordOptions& options;          ///< resolved
   std::uint64_t seed = 0;
 };

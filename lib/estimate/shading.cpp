@@ -34,8 +34,8 @@ float light_weight(int light_samples, float light_density, int gloss_rays, float
   return l > 0 ? static_cast<float>(1 / (1 + (g / l) * (g / l))) : 0.f;
 }
 
-/// Shadow rays to each extended lamp from what a mirror or glass shows, by its share of the eye's light: it
-/// is seen as sharply as all else.
+/// Shadow rays to each extended lamp from a surface that a mirror or glass shows, by its share of the eye's
+/// light: it is seen as sharply as surfaces seen directly.
 constexpr int kManyLightSamples = 8;
 int light_samples_of(float share) { return share > 0.25f ? kManyLightSamples : share > 0.03f ? 2 : 1; }
 
@@ -49,8 +49,8 @@ constexpr float kNoMatter = 0.01f;
 /// several rays.
 constexpr float kCausticChance = 0.125f;
 
-/// Of n values, by their sum and that of their squares: in double, for the two nearly cancel where light is
-/// even.
+/// The variance of n values, from their sum and the sum of their squares: in double, for the two nearly
+/// cancel where light is even.
 DVec3 variance_of_mean(const DVec3& all, const DVec3& squares, int n) {
   const auto count = static_cast<double>(n);
   const DVec3 mean = all / count;
@@ -109,7 +109,7 @@ DirectLight Shading::direct(const SurfacePoint& point, const Bsdf& bsdf, const V
                             bool environment) const {
   DirectLight sum;
   const bool shared_gloss = gloss_rays > 0 && bsdf.has_gloss();
-  std::vector<DVec3> parts;  // what each sample adds to the mean: all, where there is more than one
+  std::vector<DVec3> parts;  // the part of each sample in the mean: all, where there is more than one
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const bool extended = lights_[i].extended();
     const float u0 = sequence.uniform();

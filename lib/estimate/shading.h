@@ -27,7 +27,7 @@ struct ShadingOptions {
   int gloss_samples = 8;       ///< rays per glossy visible surface
   int specular_depth = 64;     ///< longest chain of mirrors and glass
   bool cached_direct = false;  ///< the records hold direct light too: lamps add to glossy lobes alone
-  bool reflect_direct = true;  ///< what gloss and mirrors show is lit by the lamps
+  bool reflect_direct = true;  ///< lamps light the surfaces that gloss and mirrors show
 };
 
 /// Samples [first, first + count) of a low-discrepancy sequence of `total`, which several points (the samples
@@ -77,14 +77,14 @@ class Shading {
   /// answer (FarRecords); weight 0: there are none.
   Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
 
-  /// Caustic light at a point, of which the records hold none: irradiance, and what log.caustics needs for
-  /// its gloss. 0 where they hold it. An error far below `other_lx`, the rest of the irradiance there, is no
-  /// matter.
+  /// Caustic light at a point, of which the records hold none: irradiance, and the data that log.caustics
+  /// needs for its gloss. 0 where they hold it. An error far below `other_lx`, the rest of the irradiance
+  /// there, is no matter.
   LocalDensity caustic(const SurfacePoint& point, ShadingLog& log, float other_lx = 0) const;
   bool has_caustics() const { return caustics_ != nullptr; }
 
-  /// Light through the glossy lobes from radiance records, all but what lamps send straight there. Nothing
-  /// where it is to be traced; that no record reaches the point is noted.
+  /// Light through the glossy lobes from radiance records, all but the light that lamps send straight there.
+  /// Nothing where it is to be traced; that no record reaches the point is noted.
   std::optional<GlossyLight> recorded(const SurfacePoint& point, const Vec3& wo, ShadingLog& log) const;
 
   /// Light straight from the lights, `samples` shadow rays for each area light (low-discrepancy), one for
@@ -107,15 +107,15 @@ class Shading {
                     RandomStream& random) const;
 
   /// Light arriving through the glossy lobes, from `samples` rays that read direct light and the cache where
-  /// they land. `light_samples` is what direct() was called with; kOneLamp: from_one_lamp() was; 0 if
-  /// neither, so that lamps count whole.
+  /// they land. `light_samples` is the number that direct() was called with; kOneLamp: from_one_lamp() was; 0
+  /// if neither, so that lamps count whole.
   static constexpr int kOneLamp = -1;
   GlossLight gloss(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const SampleRange& samples,
                    int light_samples, int depth, RandomStream& sequence, RandomStream& random,
                    ShadingLog& log, bool environment = true) const;
 
   /// Light through mirrors and smooth glass, to options.specular_depth, cd/m2: of every branch; of one,
-  /// chosen by what it sends on, where the light is one `of_many` that are averaged.
+  /// chosen by the light that it sends on, where the light is one `of_many` that are averaged.
   Rgb specular(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, int depth, const Rgb& throughput,
                bool of_many, RandomStream& random, ShadingLog& log) const;
 
@@ -157,7 +157,7 @@ class Shading {
   /// of lamps are asked for.
   Rgb caustic_light(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss, float other_lx,
                     int light_samples, ShadingLog& log) const;
-  /// A lamp lights nothing that looks away from all of it.
+  /// A lamp lights no surface that faces away from the whole lamp.
   bool out_of_sight(const LampExtent& lamp, const SurfacePoint& point) const;
   const RayScene& rays_;
   const Luminaires& lights_;

@@ -1,4 +1,4 @@
-// Options that a run takes from what an earlier run recorded (Adopted).
+// Options that a run takes from the record of an earlier run (Adopted).
 #pragma once
 
 #include <string>

@@ -158,7 +158,7 @@ void AtomicFile::commit() {
   if (atomic && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
     fail(path_, errno);
   if (atomic) {
-    // A close tells what some file systems found out late. Our own descriptor stays: it holds the lock.
+    // A close reports errors that some file systems find late. Our own descriptor stays: it holds the lock.
     if (const int copy = ::fcntl(fd_, F_DUPFD_CLOEXEC, 0); copy >= 0 && ::close(copy) != 0 && errno != EINTR)
       fail(path_, errno);
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);

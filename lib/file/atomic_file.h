@@ -11,7 +11,7 @@
 namespace phos::inline file {
 
 /// Writes to a temporary file beside `path`; commit() syncs and renames it into place. Destroyed without
-/// commit(), it removes the temporary and leaves what was at `path`. Every failure (no folder, no right, full
+/// commit(), it removes the temporary and leaves the file at `path`. Every failure (no folder, no right, full
 /// disk) throws Error(bad_input) with the reason, which the system gives at the call that fails. A `path`
 /// that is not a regular file (/dev/stdout, a pipe) is written directly. The temporary is locked while its
 /// writer lives: one that nobody holds was left by a process killed outright, and the next on the same

@@ -99,7 +99,7 @@ struct Container::Impl {
   Provenance provenance;
   std::map<std::string, Tensor> tensors;
   std::map<std::string, std::string> checksums;
-  mutable std::atomic<bool> verified = false, sound = false;  ///< all of it, so that nobody needs to again
+  mutable std::atomic<bool> verified = false, sound = false;  ///< the whole file, so that it is checked once
 };
 
 Container::Impl::Impl(const std::string& p, std::optional<FileKind> kind) : path(p), file(p) {

@@ -38,7 +38,7 @@ bool is_container(const std::string& path);
 /// checked on open; checksums by verify(). Copies share the mapping.
 class Container {
  public:
-  /// Throws Error(bad_input) naming what is wrong: missing, not a phos file, truncated, damaged, another
+  /// Throws Error(bad_input) naming the fault: missing, not a phos file, truncated, damaged, another
   /// major version, a kind that this version does not know. Where a kind is given, another one is an error
   /// that names both.
   static Container open(const std::string& path, std::optional<FileKind> kind = {});
@@ -64,8 +64,8 @@ class Container {
   }
   /// Checks every tensor's checksum. Throws Error(bad_input) naming the first that differs.
   void verify() const;
-  /// verify(), and is every tensor there, and its numbers what the table of the kind
-  /// (file/kinds/tensor_row.h) says? Throws Error(bad_input) naming the first that is not. Looks only once.
+  /// verify(), and checks that every tensor is there, with numbers as the table of the kind
+  /// (file/kinds/tensor_row.h) says. Throws Error(bad_input) naming the first that is not. Looks only once.
   void require_sound() const;
 
  private:
@@ -74,8 +74,8 @@ class Container {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Collects any columns and writes them atomically; TensorWriter (file/kinds/tensor_io.h) writes those of a
-/// kind. Spans must stay alive until write().
+/// Collects any columns and writes them atomically; TensorWriter (file/kinds/tensor_io.h) writes the columns
+/// of a kind. Spans must stay alive until write().
 class ContainerWriter {
  public:
   template <class T>

@@ -16,7 +16,7 @@ struct FrameRange {
 };
 /// --frames A:B, or one frame A; `frames` empty: not given.
 void declare_frames(Options& options, std::string& frames, Recorded recorded = Recorded::yes);
-/// Throws Error(usage) for what is no range, a reversed one, or one that begins below 0.
+/// Throws Error(usage) for a text that is no range, a reversed range, or one that begins below 0.
 FrameRange parse_frames(const std::string& frames);
 
 /// A file's name with the frame's number in it, as printf has it: film/%04d.exr (0012), or %d (12); %% is %.

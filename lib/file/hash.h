@@ -1,4 +1,4 @@
-// XXH3-128: what identifies contents, keys and checksums.
+// XXH3-128, which identifies contents, keys and checksums.
 #pragma once
 
 #include <cstddef>

@@ -106,7 +106,7 @@ class Builder {
 }  // namespace
 
 Json parse_json(std::string_view s, const std::string& where) {
-  // The parser takes a zero byte for the end and would ignore what follows.
+  // The parser takes a zero byte for the end and would ignore the rest.
   if (const std::size_t zero = s.find('\0'); zero != std::string_view::npos)
     throw Error(ExitCode::bad_input, where, text("malformed JSON at byte ", zero + 1, ": a zero byte"));
   Builder builder;

@@ -1,4 +1,4 @@
-// A file's bytes in memory, without trusting what kind of file it is.
+// A file's bytes in memory, of any kind of file.
 #pragma once
 
 #include <cstddef>

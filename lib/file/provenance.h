@@ -22,9 +22,9 @@ struct Provenance {
   Json parameters;                            ///< object
   std::map<std::string, std::string> inputs;  ///< role ("scene", "photons") -> content hash
   std::string scene_hash;
-  Json scene_parts;  ///< what the scene hash is made of, so that a mismatch can be named (see scene/scene.h)
+  Json scene_parts;  ///< the parts of the scene hash, so that a mismatch can be named (see scene/scene.h)
   Json history = Json::Array{};  ///< the provenance of each earlier stage, oldest first
-  std::string key;               ///< what --reuse compares
+  std::string key;               ///< the value that --reuse compares
   Json extra;                    ///< kind-specific scalars (object): totals, bounds, shard, ...
   Counters counters;
 };

@@ -1,4 +1,4 @@
-// Why an existing output is not what a command would make.
+// The differences between an existing output and the output that a command would make.
 #pragma once
 
 #include <string>

@@ -5,9 +5,10 @@
 
 namespace phos::inline file {
 
-/// The same for all names of one regular file (links, ways through other folders), and for those of standard
-/// output. A file that is not there yet is told by its folder and name. "" for what cannot be lost by writing
-/// to it (a device, a pipe, standard error), for a folder, and where there is no such folder.
+/// The same for all names of one regular file (links, ways through other folders), and for all names of
+/// standard output. A file that is not there yet is told by its folder and name. "" for files that cannot be
+/// lost by writing to them (a device, a pipe, standard error), for a folder, and where there is no such
+/// folder.
 std::string file_key(const std::string& path);
 
 /// 1 or 2 where the path names that standard stream; else -1.

@@ -1,4 +1,4 @@
-// Shards: files that each hold a share of one run, "k/n" of it.
+// Shards: files that each hold the share "k/n" of one run.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace phos::inline file {
 struct Share {
   std::uint64_t index = 1, count = 1;
 };
-/// Reads "k/n"; an empty text is all of it, 1/1. Throws Error(usage) naming the option unless
+/// Reads "k/n"; an empty text is the whole run, 1/1. Throws Error(usage) naming the option unless
 /// 1 <= k <= n <= 1048576.
 Share parse_share(const std::string& option, const std::string& text);
 
@@ -29,8 +29,8 @@ std::string share_of(const Container& file);
 /// What one kind of shard is called.
 struct ShardKind {
   FileKind kind;      ///< of the container
-  FileForm form;      ///< shard or part: what messages call it, and the header's entry that holds "k/n"
-  std::string whole;  ///< "map": what the shards make together
+  FileForm form;      ///< shard or part: the word in messages, and the header's entry that holds "k/n"
+  std::string whole;  ///< "map": the whole that the shards make together
   std::string maker;  ///< command that makes shards: "phos-photons --shard i/n"
   const char* word() const { return name_of(form); }
 };
@@ -50,7 +50,7 @@ std::vector<Shard> open_shards(const std::vector<std::string>& paths, const Shar
 [[noreturn]] void refuse_other_run(const Shard& a, const Shard& b, const ShardKind& kind,
                                    const std::string& reason);
 
-/// A shard's key is that of the whole run's file with ":shard k/n" behind it.
+/// A shard's key is the key of the whole run's file, followed by ":shard k/n".
 std::string key_of_whole(const Provenance& shard);
 
 }  // namespace phos::inline file

@@ -78,8 +78,8 @@ class Tool {
   const std::string& output() const { return output_; }
   bool verbose() const { return verbose_; }
 
-  /// Declares --strict: what the result cannot answer for is refused (see doubt(), and tell_losses() of
-  /// scene/note.h). `help` says what it does where that is not what it does elsewhere. Call before run().
+  /// Declares --strict: results with a doubt are refused (see doubt(), and tell_losses() of scene/note.h).
+  /// `help` describes the option where it differs from other programs. Call before run().
   void takes_strict(const std::string& help = "");
   bool strict() const { return strict_; }
   /// Light that a result lacks, or an error that cannot be stated: a warning; with --strict, which every tool
@@ -97,8 +97,8 @@ class Tool {
   void add_input(const std::string& role, const std::string& path);
   void add_input(const std::string& role, const std::vector<std::string>& paths);
 
-  /// With --reuse: true if the output already holds what this command would make (then says so, and the
-  /// caller returns). With --why: prints what differs to stdout. Call after every add_input and before the
+  /// With --reuse: true if the output already holds the result of this command (then says so, and the caller
+  /// returns). With --why: prints the differences to stdout. Call after every add_input and before the
   /// work.
   bool up_to_date();
 
@@ -112,8 +112,7 @@ class Tool {
   /// What tells this output from others of the same command, though it is no parameter ("shard 1/4"): the key
   /// becomes "key:variant". Call before up_to_date() and provenance().
   void set_variant(const std::string& variant) { variant_ = variant; }
-  /// For a tool that makes what another tool makes (merged shards are the file of the whole run): the key of
-  /// that output.
+  /// The key of an output that another tool makes too (merged shards are the file of the whole run).
   void set_key(const std::string& key) { asked_key_ = key; }
 
   /// Header for the output: resolved parameters, inputs, history, key, counters so far.
@@ -178,7 +177,7 @@ class Tool {
   Counters counters_;
   std::map<std::string, std::string> inputs_;
   Json history_ = Json::Array{};
-  std::map<std::string, GivenFile> written_;  ///< outputs, by what file_key() says of them
+  std::map<std::string, GivenFile> written_;  ///< outputs, by their file_key()
   std::set<std::string> grown_;               ///< keys of inputs that the output may replace
   std::string frames_;                        ///< --frames
   std::optional<double>* frame_ = nullptr;    ///< --frame

@@ -5,7 +5,7 @@
 
 namespace phos::inline file {
 
-/// The whole of it, or nothing: see AtomicFile, with its errors.
+/// Writes the whole text, or nothing: see AtomicFile, with its errors.
 void write_text(const std::string& path, const std::string& bytes);
 
 }  // namespace phos::inline file

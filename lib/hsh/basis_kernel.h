@@ -14,7 +14,7 @@ struct BasisTables {
   /// By harmonic_index(l, m), m >= 0: Q_l^m = a z Q_{l-1}^m - b Q_{l-2}^m, and dQ_l^m/dz = d Q_l^{m+1}.
   Real a[harmonic_count(kMaxOrder)] = {}, b[harmonic_count(kMaxOrder)] = {},
        d[harmonic_count(kMaxOrder)] = {};
-  /// By m: Q_m^m, constant. That of HSH is sqrt(2) times that of SH, since the map halves the area.
+  /// By m: Q_m^m, constant. For HSH it is sqrt(2) times its value for SH, since the map halves the area.
   Real start_sh[kMaxOrder] = {}, start_hsh[kMaxOrder] = {};
   BasisTables();
 };

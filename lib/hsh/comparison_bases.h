@@ -10,7 +10,7 @@ namespace phos::inline hsh {
 
 /// All but `sh` (orthonormal on the sphere; a function is taken to be 0 below the horizon) are orthonormal on
 /// the hemisphere. Makhotkin's own definition (1996) is known here only from those who cite it: both
-/// readings of it are given.
+/// readings are given.
 enum class ComparisonBasis : unsigned char {
   hsh,
   sh,

@@ -8,7 +8,8 @@ namespace phos::inline hsh {
 
 /// C_ij = integral over the upper hemisphere of H_i Y_j dw, HSH order x SH order, nonzero for equal m alone.
 /// SH coefficients in the local frame to HSH: h = C s. HSH, zero below the horizon, to SH: s = C^T h (least
-/// squares, not an inverse: HSH -> SH -> HSH loses what the SH order cannot show, less the higher it is).
+/// squares, not an inverse: HSH -> SH -> HSH loses the part that the SH order cannot show, less the higher
+/// the order is).
 class HarmonicConversion {
  public:
   /// Throws Error(usage) for orders outside 1 .. HarmonicBasis::kMaxOrder.

@@ -28,14 +28,14 @@ std::vector<double> project_samples(BasisKind kind, int order, std::span<const d
                                     std::span<const double> value, std::span<const double> pdf,
                                     std::size_t* rejected = nullptr);
 
-/// sum c_i H_i at a direction; the order is that of coefficients.size(). Here and below: throws Error(usage)
-/// where that is no square of an order.
+/// sum c_i H_i at a direction; the order follows from coefficients.size(). Here and below: throws
+/// Error(usage) where that is no square of an order.
 double reconstruct(std::span<const double> coefficients, BasisKind kind, double x, double y, double z);
 
 /// Energy (sum of squares) of each band.
 std::vector<double> energy_by_band(std::span<const double> coefficients);
-/// 1 - sum of squares of the bands below each order / energy: entry n-1 is what order n leaves out, relative,
-/// clamped at 0. `energy` is the integral of f^2 over the domain.
+/// 1 - sum of squares of the bands below each order / energy: entry n-1 is the relative energy that order n
+/// leaves out, clamped at 0. `energy` is the integral of f^2 over the domain.
 std::vector<double> error_by_order(std::span<const double> coefficients, double energy);
 
 /// Damping of high bands l against ringing, in place, with u = l / order: (1 + cos(pi u)) / 2 (hann),

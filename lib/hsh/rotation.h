@@ -11,7 +11,7 @@
 namespace phos::inline hsh {
 
 /// Angles of R = Rz(gamma) Ry(beta) Rz(alpha), radians; Ry(beta) takes +z to (sin beta, 0, cos beta). beta in
-/// [0, pi]. Where beta is next to 0 (or pi) gamma is 0 and alpha holds all of it.
+/// [0, pi]. Where beta is next to 0 (or pi) gamma is 0 and alpha holds the whole turn.
 struct ZyzAngles {
   float alpha = 0, beta = 0, gamma = 0;
 };
@@ -22,12 +22,12 @@ ZyzAngles rotation_angles(const Frame& from, const Frame& to);
 /// About z, SH or HSH, in place, O(coefficients). `channels` numbers side by side per index.
 void rotate_about_z(std::span<float> coefficients, float angle, int channels = 1);
 
-/// How HSH are rotated, and what the light is taken to be below the old horizon.
+/// How HSH are rotated, and the light that is assumed below the old horizon.
 enum class HshRotation : unsigned char {
   via_sh,         ///< to SH of twice the order, rotated, and back: nothing below the horizon
   digon,          ///< the digon that leaves the hemisphere deleted, then as SH, angle mapped (Gautron 2004)
   zero_fill,      ///< precomputed matrices (Gautron 2004): nothing below the horizon
-  constant_fill,  ///< the default: what the horizon shows goes on below it; keeps a constant exactly
+  constant_fill,  ///< the default: the light at the horizon goes on below it; keeps a constant exactly
   even_fill,      ///< mirrored at the horizon
 };
 
@@ -45,8 +45,8 @@ class HshRotator {
   /// in and out [channels * order^2], not the same memory. A beta below 0.1 degrees only turns about z.
   void rotate(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
               int channels = 1) const;
-  /// The transpose: the sum of out_i f_i is that of in_i (rotated f)_i for every f. Turns what rotated
-  /// functions are to be multiplied by instead of turning them.
+  /// The transpose: the sum of out_i f_i equals the sum of in_i (rotated f)_i for every f. It turns the
+  /// factor of rotated functions in place of the functions.
   void rotate_transposed(const ZyzAngles& angles, std::span<const float> in, std::span<float> out,
                          int channels = 1) const;
 

@@ -24,8 +24,8 @@ class HshSlopes {
   static float p(float z);
   static float q(float z);
 
-  /// Subtracts from x and y [order^2][3] the sums of light x G_x and light x G_y, made of those of p and q:
-  /// `with_p` [order^2] and `with_q` [(order + 1)^2], each colour c of harmonic i at i * stride + c.
+  /// Subtracts from x and y [order^2][3] the sums of light x G_x and light x G_y, made of the sums with p and
+  /// q: `with_p` [order^2] and `with_q` [(order + 1)^2], each colour c of harmonic i at i * stride + c.
   void subtract(std::span<const double> with_p, std::span<const double> with_q, std::size_t stride,
                 std::span<double> x, std::span<double> y) const;
 

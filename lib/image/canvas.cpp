@@ -124,7 +124,7 @@ struct Canvas::Surface {
     return extents.x_advance;
   }
 
-  std::string svg;  ///< what the surface writes to
+  std::string svg;  ///< the text that the surface writes to
   cairo_surface_t* surface = nullptr;
   cairo_t* context = nullptr;
 };

@@ -15,7 +15,8 @@ class CompareLimits {
  public:
   /// --max-... and --min-...; `this` must outlive the options.
   void declare(Options& options);
-  /// Throws Error(usage) for a limit on what is not measured: of one image pair (flicker), or of a sequence.
+  /// Throws Error(usage) for a limit on a measure that is not computed: for one image pair (flicker), or for
+  /// a sequence.
   void require_measured(bool sequence) const;
   /// What is wrong, in one line; "" if nothing is.
   std::string verdict(std::span<const LayerMetrics> layers) const;

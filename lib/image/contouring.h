@@ -1,4 +1,4 @@
-// The options of lines of equal value, and what they draw: layers of images, columns of tables.
+// The options of lines of equal value, which they draw for layers of images and columns of tables.
 #pragma once
 
 #include <cstddef>

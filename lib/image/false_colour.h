@@ -35,8 +35,8 @@ struct FalseColourRange {
   double lo = 0, hi = 1;
 };
 
-/// Fills in what is not given. hi is the 98th percentile of the finite values, rounded up to a round
-/// number; lo is 0 on a linear scale, and on a logarithmic one the first percentile of positive values,
+/// Fills in the values that are not given. hi is the 98th percentile of the finite values, rounded up to a
+/// round number; lo is 0 on a linear scale, and on a logarithmic one the first percentile of positive values,
 /// rounded down, at most 10,000 times below hi. Throws Error(usage) if lo >= hi, or if a logarithmic scale
 /// does not start above 0.
 FalseColourRange false_colour_range(std::span<const float> values, Scale scale, std::optional<double> lo,

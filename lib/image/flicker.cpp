@@ -39,7 +39,7 @@ void FlickerMeter::choose_layers(const Image& image, const Image& reference, con
   for (const std::string& name : common_layers(image, reference, options_)) {
     const std::vector<std::string> components = components_of(reference, name);
     if (!is_scalar(components) && options_.layers.empty()) continue;
-    layer_values(reference, name);  // refuses what is no single quantity
+    layer_values(reference, name);  // refuses layers that are no single quantity
     layers_.push_back({});
     Layer& layer = layers_.back();
     layer.name = name, layer.components = components;

@@ -19,9 +19,9 @@ namespace phos::inline image {
 ///
 ///   h_t = d_t - (d_{t-1} + d_{t+1}) / 2,
 ///
-/// and flicker is sqrt(2/3 mean h^2): s for white noise of standard deviation s, 0 for what is constant or
-/// drifts evenly, 2 s sqrt(2/3) for what turns its sign from frame to frame. Noise of the references that
-/// differs from frame to frame counts in; with a second reference it averages out.
+/// and flicker is sqrt(2/3 mean h^2): s for white noise of standard deviation s, 0 for errors that are
+/// constant or drift evenly, 2 s sqrt(2/3) for errors that turn their sign from frame to frame. Noise of the
+/// references that differs from frame to frame counts in; with a second reference it averages out.
 struct FlickerMetrics {
   std::string layer, unit;  ///< as LayerMetrics
   std::size_t pixels = 0, ignored = 0,
@@ -48,8 +48,8 @@ class FlickerMeter {
   explicit FlickerMeter(const CompareOptions& options) : options_(options) {}
 
   /// The frame after those added before; `second` (the reference once more, with another seed) at every frame
-  /// or at none. Throws Error(mismatch) as compare_images(), and where size or layers are not those of the
-  /// first frame; Error(bad_input) for a layer asked for that is no single quantity (normals).
+  /// or at none. Throws Error(mismatch) as compare_images(), and where size or layers differ from the first
+  /// frame; Error(bad_input) for a layer asked for that is no single quantity (normals).
   void add(std::int64_t frame, const Image& image, const Image& reference, const Image* second = nullptr);
 
   /// One entry per layer. At least three frames, else flicker is 0.

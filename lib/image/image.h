@@ -77,7 +77,7 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  ///< 3 * width * height, sRGB
 };
 void write_png(const std::string& path, const Picture& picture);
-/// For tests: reads what write_png wrote (8-bit RGB or RGBA or grey).
+/// For tests: reads a file that write_png wrote (8-bit RGB or RGBA or grey).
 Picture read_png(const std::string& path);
 
 }  // namespace phos::inline image

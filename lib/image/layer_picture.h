@@ -32,7 +32,7 @@ std::string given_picture_option(const Options& options);
 /// Error(bad_input) for a layer that is absent.
 std::vector<Rgb> layer_colours(const Image& image, const std::string& layer);
 
-/// The options with what is automatic as it is for this image, so that every frame of a sequence is shown
+/// The options with the automatic values of this image, so that every frame of a sequence is shown
 /// alike; as they are where the image is black.
 LayerPictureOptions fixed_exposure(const Image& image, const LayerPictureOptions& options);
 

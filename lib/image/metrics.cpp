@@ -23,7 +23,7 @@ std::string list(const std::vector<std::string>& layers) {
   return s.empty() ? "none" : s;
 }
 
-/// Clears what is not finite in either image, and says how many pixels that was.
+/// Clears the pixels that are not finite in either image, and returns their number.
 std::size_t leave_out_non_finite(const Image& image, const Image& reference, const std::string& layer,
                                  const std::vector<std::string>& components, std::vector<char>& counts) {
   std::vector<char> bad(counts.size(), 0);

@@ -36,7 +36,7 @@ struct LayerMetrics {
   /// Of beauty: share of pixels whose luminance differs by more than 20 % of the reference's (and of epsilon)
   /// and by more than 5 standard errors of both, as far as these have a layer `stderr`.
   std::optional<double> outliers;
-  /// rmse and relative_rmse against what the reference converges to, from two references of independent
+  /// rmse and relative_rmse against the limit of the reference, from two references of independent
   /// noise: root of mean (image - reference)(image - second), 0 where that is negative. A pixel that is not
   /// finite in the second counts as equal to it.
   std::optional<double> converged_rmse, relative_converged_rmse;

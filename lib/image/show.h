@@ -20,8 +20,8 @@ struct PictureSequence {
   std::optional<double> frames_per_s;  ///< of a video; else as the first image says, else 24
 };
 
-/// Every frame with one exposure, that of the first which is not black: pictures, or a video where the
-/// output's name says so. Throws as show_image(), FramePattern and VideoFile do.
+/// Every frame with one exposure, which fits the first frame that is not black: pictures, or a video where
+/// the output's name says so. Throws as show_image(), FramePattern and VideoFile do.
 void show_sequence(Tool& tool, const PictureSequence& sequence, LayerPictureOptions options);
 
 }  // namespace phos::inline image

@@ -71,7 +71,7 @@ ToneOptions fixed_exposure(std::span<const Rgb> values, const ToneOptions& optio
   const double key = options.key_cd_m2.value_or(levels.key);
   if (!(key > 0)) return fixed;
   fixed.key_cd_m2 = key;
-  // Below 1 relative to the key, Reinhard's curve would darken what is white already.
+  // Below 1 relative to the key, Reinhard's curve would darken values that are white already.
   if (!options.white_cd_m2) fixed.white_cd_m2 = std::max(levels.white, key / kMiddleGrey);
   return fixed;
 }

@@ -1,4 +1,4 @@
-// From cd/m2 to what a screen shows.
+// From cd/m2 to the values of a screen.
 #pragma once
 
 #include <cstddef>

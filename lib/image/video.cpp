@@ -45,7 +45,7 @@ std::vector<std::string> command(const std::string& path, const std::string& out
       // Raw pictures on its standard input ...
       "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", text(width, 'x', height), "-framerate",
       shortest(frames_per_s), "-i", "pipe:0",
-      // ... to what every player shows.
+      // ... to the format that every player shows.
       "-vf",
       "crop=floor(iw/2)*2:floor(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,"
       "format=yuv420p",

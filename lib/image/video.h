@@ -13,7 +13,7 @@
 
 namespace phos::inline image {
 
-/// Does the name end as that of a video that VideoFile writes (.mp4, .mkv: H.264; .webm: VP9)?
+/// Does the name end as a video that VideoFile writes (.mp4, .mkv: H.264; .webm: VP9)?
 bool is_video(const std::string& path);
 
 /// A video that appears whole or not at all. sRGB, BT.709 at video range, 4:2:0; an odd last row or column is
@@ -23,7 +23,7 @@ class VideoFile {
  public:
   /// Starts ffmpeg. Throws Error(bad_input) if it is not installed, or nothing can be written at `path`.
   VideoFile(const std::string& path, int width, int height, double frames_per_s);
-  /// Without commit(): stops ffmpeg and leaves what was at `path`.
+  /// Without commit(): stops ffmpeg and leaves the file at `path`.
   ~VideoFile();
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
@@ -47,7 +47,7 @@ class VideoFile {
   std::string path_;
   int width_, height_;
   AtomicFile file_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;  ///< what ffmpeg says
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;  ///< messages of ffmpeg
   NoSigpipe no_sigpipe_;
   int input_ = -1;
   pid_t ffmpeg_ = -1;

@@ -28,8 +28,8 @@ class CausticAim {
     EmittedPhoton photon;  ///< flux 0: no light goes there
     std::uint32_t triangle = 0;
   };
-  /// A path of light `light`; the expected sum of the flux of those that count is what the light sends to
-  /// mirrors and glass.
+  /// A path of light `light`; the expected flux of all paths that count is the flux that the light sends
+  /// to mirrors and glass.
   Start start(std::size_t light, RandomStream& random) const;
 
  private:

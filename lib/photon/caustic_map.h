@@ -23,7 +23,7 @@ struct CausticPhotons {
   std::vector<std::uint32_t> normal;     ///< octahedral, smooth, of the side it landed on
   std::vector<float> distance;           ///< m, to the last surface that turned it
   Flights flights;
-  Rgb photon_lm{0};  ///< that a path of the run starts with, mean: what one photon brings where there is none
+  Rgb photon_lm{0};  ///< mean flux at the start of a path of the run: of one photon where there is none
   std::size_t size() const { return position.size(); }
   bool empty() const { return size() == 0 && flights.size() == 0; }
 };

@@ -140,8 +140,9 @@ Coverage probe(std::span<const Vec2> points, const Hull& hull, const Edge& edge,
 }
 
 /// Surface in the strip of the zone between an edge that leaves the centre out (h < 0) and the centre, as a
-/// fraction of the zone: what the photons there must have missed if the centre is lit. Probed in the strip
-/// itself: it is often too thin for probes of the whole zone. `least`: a smaller strip is not looked at.
+/// fraction of the zone: the strip that all photons must have missed if the centre is lit. Probed in the
+/// strip itself: it is often too thin for probes of the whole zone. `least`: a smaller strip is not looked
+/// at.
 double strip_fraction(const Edge& edge, double least, float radius_m, const OnSurface& on_surface) {
   constexpr int kProbes = 64;
   const double strip = cap_fraction(edge.h) - 0.5;
@@ -257,7 +258,7 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
   const double dark_strip = options.dark_photons * strip_holding_one;
   const double strip = edge.h < 0 ? strip_fraction(edge, dark_strip, radius_m, on_surface) : 0;
   if (strip > 0 && strip >= dark_strip) {
-    if (options.centre_lit) return over_surface(ZoneKind::few);  // the hull is a part of what is lit
+    if (options.centre_lit) return over_surface(ZoneKind::few);  // the hull is a part of the lit surface
     e = ZoneEstimate{.kind = ZoneKind::dark,
                      .area_m2 = disc * strip,
                      .edge_m = static_cast<float>(-edge.h) * radius_m,

@@ -45,7 +45,7 @@ struct ZoneEstimate {
   ZoneKind kind = ZoneKind::few;
   Rgb irradiance{0};      ///< lx, mean over the area
   Rgb stderr_lx{0};       ///< from the Poisson photons and the probed area
-  double area_m2 = 0;     ///< what the flux was divided by; dark: the empty surface between centre and hull
+  double area_m2 = 0;     ///< divides the flux; dark: the empty surface between centre and hull
   double area_error = 0;  ///< relative standard error of area_m2 from the probes
   Vec2 centroid_m{0};     ///< of that area, from the zone's centre: where `irradiance` holds to first order
   float edge_m = kInfinity;  ///< distance to the nearest edge of the lit region if surface goes on beyond it
@@ -65,7 +65,7 @@ struct DensityScratch {
 
 /// Irradiance in a disc of `radius_m` about the origin. `offsets_m` are the photons in it without the one
 /// that the zone was centred on; `flux_lm` is per unit of tangent-plane area. No photon: zero, its error too
-/// (the caller knows what one photon carries). Never returns a value that is not finite for finite input.
+/// (the caller knows the flux of one photon). Never returns a value that is not finite for finite input.
 ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
                              const OnSurface& on_surface, const DensityOptions& options,
                              DensityScratch& scratch);
@@ -78,8 +78,8 @@ ZoneEstimate zone_irradiance(std::span<const Vec2> offsets_m, std::span<const Rg
 ZoneEstimate kernel_irradiance(std::span<const Vec2> offsets_m, std::span<const Rgb> flux_lm, float radius_m,
                                Kernel kernel, DensityScratch& scratch);
 
-/// Weight of a kernel relative to that of the disc, at a distance of `r` radii (0 to 1): its mean over the
-/// disc is 1.
+/// Weight of a kernel relative to the weight of the disc, at a distance of `r` radii (0 to 1): its mean over
+/// the disc is 1.
 double kernel_weight(Kernel kernel, double r);
 
 /// Fraction of a disc that lies beyond a chord at signed distance h (in radii) from the centre.

@@ -147,8 +147,8 @@ EmittedPhoton Emitter::from_area(std::size_t i, RandomStream& random) const {
   return photon;
 }
 
-/// First the direction, by the intensities; then a place on what is seen of the opening from there. All
-/// photons of a luminaire have the same flux.
+/// First the direction, by the intensities; then a place on the part of the opening that is seen from there.
+/// All photons of a luminaire have the same flux.
 EmittedPhoton Emitter::from_opening(std::size_t i, RandomStream& random) const {
   const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(luminaires_[i].fitting)];
   const Vec3 direction = fitting.sample_direction(random.uniform2());
@@ -242,7 +242,8 @@ EmittedPhoton Emitter::from_infinity(const Vec3& direction, const Rgb& lux, Rand
   const Frame frame = make_frame(direction);
   const Vec2 disc = radius_m * sample_disc(random.uniform2());
   EmittedPhoton photon;
-  // A thousandth of the radius before the sphere, so that what touches the sphere is not behind the start.
+  // A thousandth of the radius before the sphere, so that surfaces that touch the sphere are not behind the
+  // start.
   photon.ray.origin =
       scene_->bounds.centre() - 1.001f * radius_m * frame.z + disc.x * frame.x + disc.y * frame.y;
   photon.ray.direction = direction;

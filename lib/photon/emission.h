@@ -26,7 +26,7 @@ class Emitter {
  public:
   /// Each light gets a share of the paths in proportion to its flux, but at least minimum_share / (number of
   /// lights). Throws Error(bad_input) if no light shines. Where the scene has portals, nine in ten paths of
-  /// the environment are aimed at them, and its flux counts as what comes through them.
+  /// the environment are aimed at them, and its flux counts as the flux that comes through them.
   Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, std::uint64_t seed);
 
   /// The light that a path starts from. Lights are dealt by a van der Corput sequence with a random start:
@@ -41,8 +41,7 @@ class Emitter {
   /// Starts a path; draws from `random` (the path's stream at bounce 0). The expected sum over all paths is
   /// the flux of every light.
   EmittedPhoton emit(std::uint64_t path, RandomStream& random) const;
-  /// 1 / (share of a light x all paths): what the flux of a photon that stands for a light's whole is
-  /// multiplied by.
+  /// 1 / (share of a light x all paths): the factor on the flux of a photon that carries all flux of a light.
   float scale(std::size_t light) const { return scale_[light]; }
   /// About the luminous flux of a photon that is aimed at the portals, lm; 0: there are none.
   double aimed_lm() const;
@@ -68,7 +67,7 @@ class Emitter {
   std::vector<double> share_;
   std::vector<float> scale_;  // of a photon of light i, for its share of the paths
   std::vector<std::uint64_t>
-      last_;  // light i takes the ticks up to and including last_[i], after those of i-1
+      last_;  // light i takes the ticks up to and including last_[i], after the tickets of i-1
   float bounding_radius_m_ = 0;
   int flux_exponent_ = 0;
 };

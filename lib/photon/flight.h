@@ -1,4 +1,4 @@
-// A photon in flight, and what flights leave behind.
+// A photon in flight, and the photons and sums that flights leave.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct PathPart {
   std::vector<std::uint32_t> turn, flight_turn;
   std::uint32_t turns = 0;
   PathSums sums;
-  PathSums aimed;  ///< of aimed paths, whose light is in `sums` already: only what is stored counts
+  PathSums aimed;  ///< of aimed paths, whose light is in `sums` already: only stored photons count
   std::vector<Ray> rays;
 
   void restart() {
@@ -51,13 +51,13 @@ struct Flight {
   bool in_glass = false;  // in solid glass
   Vec3 stretch_from{0};   // where the ray began, or the pane that it has passed last
   enum class Keep : std::uint8_t { all, others, caustics } keep = Keep::all;  // photons that are stored
-  // Light that is not aimed at portals: what is scattered through them goes by children of it (PortalSplit).
-  // A child is one up to the portal.
+  // Light that is not aimed at portals: light that is scattered through them goes by its children
+  // (PortalSplit). A child is one up to the portal.
   enum class Astray : std::uint8_t { no, parent, child } astray = Astray::no;
   float portal_m = kInfinity;  // along the ray, of one astray
   std::uint64_t number = 0;    // of the path
-  std::uint32_t turn = 0;      // of the path among those of its part
-  bool aimed_class = false;    // the first event was on what paths are aimed at
+  std::uint32_t turn = 0;      // of the path among the paths of its part
+  bool aimed_class = false;    // the first event was on a surface at which paths are aimed
   std::uint32_t aimed_at = 0;  // triangle
 
   /// Is the photon, or the stretch, this path's to tell of?

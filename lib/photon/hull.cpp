@@ -25,7 +25,7 @@ struct Scratch {
   std::vector<float> x, y, inside;
 };
 
-/// Picks those of the finite points that can be vertices: all but those inside of the octagon of the points
+/// Picks the finite points that can be vertices: all but those inside of the octagon of the points
 /// that lie furthest in eight directions (Akl and Toussaint 1978), some hundreds being asked. Told in floats,
 /// with room for rounding: exact work is left for the few near the rim. `x` and `y` lie within 1/2 of the
 /// origin.

@@ -11,11 +11,12 @@ namespace phos::inline photon {
 namespace {
 
 /// Half width of a confidence interval, in standard errors. Measured over edges, folds, foci, waves and even
-/// light with 512 photons at most: at 1.5 the rms error of even light is twice that of half of them, at 1.75
-/// it is 1.2 times that; more smears edges and folds. Stated errors then hold in 91 to 99 of 100.
+/// light with 512 photons at most: at 1.5 the rms error of even light is twice the error with half of them,
+/// at 1.75 it is 1.2 times that error; more smears edges and folds. Stated errors then hold in 91 to 99 of
+/// 100.
 constexpr double kAgree = 1.6;
 /// The bias of a disc may be so many times its difference from the disc of twice the area, or of half.
-/// Measured likewise. Where light bends evenly it is once and twice.
+/// Measured over the same light. Where light bends evenly it is once and twice.
 constexpr double kOfLarger = 1.5, kOfSmaller = 2;
 constexpr int kMostDiscs = 40;
 /// Discs go on to be halved until the photons of the largest would leave 1/8 in them.
@@ -79,7 +80,8 @@ LocalDensity local_density(std::span<const float> distance2_m2, std::span<const 
   for (int j = discs - 1; j >= 0; --j) {
     const Disc& d = disc[static_cast<std::size_t>(j)];
     // Upwards the score interval of a Poisson number: small discs that happen to hold no photons are not sure
-    // of the dark. Downwards one photon more than were counted: nor are those of one or two sure of light.
+    // of the dark. Downwards one photon more than were counted: nor are discs with one or two photons sure of
+    // light.
     const double up = kAgree * kAgree / 2 * photon_lm +
                       kAgree * std::sqrt(d.lum2 + kAgree * kAgree / 4 * photon_lm * photon_lm);
     const double down = kAgree * std::sqrt(d.lum2 + photon_lm * photon_lm);
@@ -95,7 +97,8 @@ LocalDensity local_density(std::span<const float> distance2_m2, std::span<const 
   const DVec3 one = all.squares / glm::max(all.sum, DVec3(1e-300));
   const DVec3 squares = chosen.count > 0 ? chosen.squares : one * one;
   const auto bias2 = [&](const Disc& larger, const Disc& smaller, double factor) {
-    // Nested discs of areas A and A/2: the variance of the difference is that of the larger one's mean.
+    // Nested discs of areas A and A/2: the variance of the difference is the variance of the larger one's
+    // mean.
     const DVec3 variance = larger.squares / (larger.area_m2 * larger.area_m2);
     return factor * factor * beyond_noise(larger.irradiance() - smaller.irradiance(), variance);
   };

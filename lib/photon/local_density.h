@@ -10,7 +10,7 @@
 
 namespace phos::inline photon {
 
-/// Share of the disc of this radius (m) about the place that is part of what is measured, in (0, 1], and its
+/// Share of the disc of this radius (m) about the place that is on the measured surface, in (0, 1], and its
 /// relative standard error.
 struct DiscShare {
   double share = 1, error = 0;
@@ -19,7 +19,7 @@ using ShareOfDisc = std::function<DiscShare(double radius_m)>;
 
 struct LocalDensity {
   Rgb irradiance{0};  ///< lx
-  /// Poisson noise of the photons counted; where there are none, what one of them would bring.
+  /// Poisson noise of the photons counted; where there are none, the light of one photon.
   Rgb noise_lx{0};
   Rgb bias_lx{0};  ///< bound on how far the disc's mean is off its middle, as larger and smaller discs tell
   float radius_m = 0;
@@ -38,7 +38,7 @@ struct LocalDensity {
 /// Where light bends, E(r) - E(r / sqrt 2) is the bias of the smaller disc.
 ///
 /// `distance2_m2` are the squared distances of all photons nearer than `radius_m`, nearest first, `flux_lm`
-/// their fluxes per unit of area of the disc's plane; `one_photon_lm` is what a photon carries where there is
+/// their fluxes per unit of area of the disc's plane; `one_photon_lm` is the flux of a photon where there is
 /// none. The photon that decided on `radius_m` must not be among them. `share`: empty, where all is measured.
 /// No photons: 0, with the noise of one photon in the largest disc. Always finite for finite input.
 LocalDensity local_density(std::span<const float> distance2_m2, std::span<const Rgb> flux_lm, float radius_m,

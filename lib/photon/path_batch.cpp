@@ -8,7 +8,7 @@
 namespace phos::inline photon {
 namespace {
 
-constexpr std::size_t kBatch = 64;       // paths: what they hold stays in the first caches
+constexpr std::size_t kBatch = 64;       // paths: their data stay in the first caches
 constexpr std::size_t kLarge = 4096;     // triangles: where fewer stay in the caches, batches only cost
 constexpr std::size_t kTexelsAhead = 6;  // paths
 
@@ -90,7 +90,7 @@ class Batch {
     if (!met(i)) return tracer_.escape(flight, part_), false;
     const Bsdf bsdf(tracer_.rays().scene(), point_[i]);
     const PathTracer::After after = tracer_.land(point_[i], bsdf, draws_[i], flight, random_[i], part_);
-    // Without panes there is nothing behind what is passed straight.
+    // Without panes no light passes straight.
     if (after == PathTracer::After::passed) return tracer_.escape(flight, part_), false;
     return after == PathTracer::After::scattered && PathTracer::carries_light(flight);
   }

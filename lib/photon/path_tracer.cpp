@@ -27,7 +27,7 @@ std::uint64_t mixed(std::uint64_t path, std::uint32_t event, std::size_t child) 
   std::uint64_t z = path + 0x9e3779b97f4a7c15u * ((std::uint64_t{event} << 32 | child) + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return (z ^ (z >> 31)) | std::uint64_t{1} << 63;  // apart from those of parents
+  return (z ^ (z >> 31)) | std::uint64_t{1} << 63;  // apart from the streams of parents
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ bool PathTracer::step(Flight& flight, RandomStream& random, PathPart& part) cons
     SurfacePoint point;
     const bool met = way.next(point);
     if (flight.astray != Flight::Astray::no && (met ? point.distance_m : kInfinity) > flight.portal_m) {
-      // Others tell of it.
+      // Other photons carry this light.
       if (flight.astray == Flight::Astray::parent) return part.sums.absorbed += flight.units, false;
       flight.astray = Flight::Astray::no;
     }

@@ -41,7 +41,7 @@ void add_totals(PhotonTotals& totals, const PhotonTotals& other);
 /// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
 Json bounds_to_json(std::span<const Vec3> position);
 
-/// Adds the rows of `from` behind those of `to`.
+/// Adds the rows of `from` behind the rows of `to`.
 void append(Photons& to, const Photons& from);
 void append(Flights& to, const FlightColumns& from);
 

@@ -17,7 +17,7 @@ constexpr std::uint8_t kMostBounces = 255;
 /// Photons of more than 16 to 32 times the median are not usual ones.
 constexpr int kUsualBinaryOrders = 4;
 
-/// Photons by the binary order of what they carry.
+/// Photons by the binary order of their flux.
 class Orders {
  public:
   void add(double lm) {

@@ -14,8 +14,8 @@ struct PhotonNoise {
   double photon_lm = 0;
   /// Photons of one path are not independent: sum over paths of N (N - 1), over the square of all photons.
   double pairs = 0;
-  /// Relative variance that all light over many places has in common: that of the number of photons that
-  /// paths leave, for their own number is no chance. 1 / paths below pairs, and below 0 where each path
+  /// Relative variance that all light over many places has in common: the variance of the number of photons
+  /// that paths leave, for their own number is no chance. 1 / paths below pairs, and below 0 where each path
   /// leaves as many.
   double common = 0;
 

@@ -22,7 +22,8 @@ struct MergedShards {
 /// Throws Error(mismatch) for shards of different runs, a shard given twice, or one that is missing (naming
 /// it); Error(bad_input) for damaged files and for files that are no shards.
 MergedShards read_shards(const std::vector<std::string>& paths);
-/// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
+/// The key of the whole run's file, by the headers alone; makes the same checks that the files belong
+/// together.
 std::string key_of_merged(const std::vector<std::string>& paths);
 
 }  // namespace phos::inline photon

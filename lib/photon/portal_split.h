@@ -26,8 +26,9 @@ class PortalSplit {
     Vec3 direction{0};
     Rgb weight{0};  ///< of the flux that met the surface
   };
-  /// Children of the light that meets a surface from wo with `flux_lm`, in place of what is scattered towards
-  /// portals: the expected sum of their weights is what the surface scatters there. Draws from `random`.
+  /// Children of the light that meets a surface from wo with `flux_lm`, in place of the light that is
+  /// scattered towards portals: the expected sum of their weights is the light that the surface scatters
+  /// there. Draws from `random`.
   void children(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, const Rgb& flux_lm,
                 RandomStream& random, std::vector<Child>& out) const;
 

@@ -15,7 +15,8 @@ Portals::Portals(std::span<const Portal> pieces, const Environment& light)
     const DVec3 normal = glm::normalize(glm::cross(DVec3(p.edge[0]), DVec3(p.edge[1])));
     area_m2_.push_back(p.area_m2() * (p.inwards == Vec3(0) ? normal : DVec3(p.inwards)));
   }
-  // A texel is judged by its middle: a little more, so that what is seen of a portal from its edge is not 0.
+  // A texel is judged by its middle: a little more, so that the visible part of a portal from its edge is not
+  // 0.
   double all_m2 = 0;
   for (const DVec3& area : area_m2_) all_m2 += glm::length(area);
   PHOS_CHECK(all_m2 > 0, "portals without area");

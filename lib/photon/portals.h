@@ -25,7 +25,7 @@ class Portals {
 
   /// Where the light comes from, unit.
   Vec3 sample_direction(const Vec2& u) const { return guide_->sample_flux(u).direction; }
-  /// A point on a portal, by what is seen of each by light that travels in `direction`. False: none of it.
+  /// A point on a portal, by the area of each that light in `direction` sees. False: it sees none.
   bool sample_point(const Vec3& direction, float u_piece, const Vec2& u, Vec3& point) const;
   /// Density with which a line through `point` is aimed: sr^-1 m^-2.
   double density(const Vec3& point, const Vec3& direction) const;
@@ -38,7 +38,7 @@ class Portals {
 
   std::vector<Portal> pieces_;
   std::vector<DVec3> area_m2_;        // vectors, by winding or inwards
-  std::optional<Environment> guide_;  // light times what is seen of the portals from there
+  std::optional<Environment> guide_;  // light times the visible area of the portals from there
   double flux_lm_ = 0;
 };
 

@@ -10,7 +10,8 @@
 namespace phos::inline place {
 namespace {
 
-/// Roundings of positions by which a place may lie beside its surface: its own, and that of a CSV file.
+/// Roundings of positions by which a place may lie beside its surface: its own rounding, and the rounding of
+/// a CSV file.
 constexpr float kBeside = 16;
 constexpr int kMostSurfaces = 8;  // looked at about a place: others do not lie so near each other
 

@@ -39,7 +39,7 @@ struct Candidates {
 /// Number j of 4^k places that are tried coarse to fine, as one walks over them: its pairs of bits, reversed.
 std::size_t grid_order(std::size_t j, int k);
 
-// Random streams of records, by what they were placed for.
+// Random streams of records, by the kind of their candidates.
 inline constexpr std::uint64_t kPointItems = std::uint64_t{1} << 40;    ///< + number of the point
 inline constexpr std::uint64_t kViewItems = std::uint64_t{1} << 41;     ///< + number of the site
 inline constexpr std::uint64_t kSurfaceItems = std::uint64_t{1} << 42;  ///< + number of the site

@@ -78,7 +78,7 @@ void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<Rad
     }
     const float raw = std::min(clamp_.radius_m(i), limit_m_[i]);
     const bool raised = raw < r.radius_m;
-    const float slope = raised ? raw / r.radius_m : 1;  // what is left of gradients
+    const float slope = raised ? raw / r.radius_m : 1;  // the part of gradients that is left
     if (raised) {
       ++raised_to_least_;
       for (Vec3& g : r.translation_gradient) g *= slope;

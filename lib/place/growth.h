@@ -1,4 +1,4 @@
-// The cache while it grows: radii that neighbours and bounds settle, and what is covered.
+// The cache while it grows: radii that neighbours and bounds settle, and the places that are covered.
 #pragma once
 
 #include <functional>
@@ -71,15 +71,15 @@ RadiusBounds bounds_of(const RecordOptions& resolved);
 enum class GrowthBy {
   rules,  ///< RadiusRules
   /// docs/methods.md#h7: records start with a reach of kStartReach times their harmonic distance (or the
-  /// light's), whatever their gradients say, and are judged afterwards (Refinement). Those that have been
-  /// found to reach too far clamp new ones by half of what lies between; others clamp none, for at an edge
-  /// the distance goes to zero, and all records about it would be small. Not of footprints.
+  /// light's), whatever their gradients say, and are judged afterwards (Refinement). Records that were
+  /// found to reach too far clamp new records by half of the distance between; other records clamp none, for
+  /// at an edge the distance goes to zero, and all records about it would be small. Not of footprints.
   error,
 };
 /// In harmonic distances.
 inline constexpr float kStartReach = 0.8f;
 
-/// RadiusRules with a lookup of what the records so far cover.
+/// RadiusRules with a lookup of the places that the records so far cover.
 class Growth {
  public:
   /// Takes the cache's own records as they are. Holds a reference to rays.
@@ -99,7 +99,7 @@ class Growth {
   /// Adaptive caching (Krivanek et al. 2006), of footprints that ask for it: a new record that foretells
   /// another's light wrongly, where it would be read, comes to reach less far: not there, but at least half
   /// as far as before. Wrong is by more than twice the stated errors of both and a share of the light, the
-  /// tolerance. Returns how many have been shrunk; what they covered may be open.
+  /// tolerance. Returns how many have been shrunk; places that they covered may be open.
   std::size_t compare();
   /// Lowers the radius of a new record. False: bounds hold it where it is.
   bool lower(std::size_t record, float radius_m);

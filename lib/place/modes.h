@@ -1,4 +1,4 @@
-// The modes of placement: what goes with what, and the choice.
+// The modes of placement: the options that go with each, and the choice.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct PlacementSource {
 };
 
 /// Fills in place, and width, height and least radius of a view, whose records have this accuracy. Throws
-/// Error(usage) for what does not go together: photons or points that are not there, points that nobody
+/// Error(usage) for options that do not go together: photons or points that are not there, points that nobody
 /// reads, part without every, bounds the wrong way round.
 void resolve(PlacementOptions& placement, const Scene& scene, const PlacementSource& source, double accuracy);
 

@@ -17,7 +17,7 @@ enum class ClampBy {
 
 /// Keeps R_i <= R_j + slope |p_i - p_j| for every pair of points that face the same half space, while points
 /// are added, as far as ClampBy says. A radius that is small because something is near thereby warns its
-/// neighbourhood of what they may have missed.
+/// neighbours of surfaces that they may have missed.
 class NeighbourClamp {
  public:
   explicit NeighbourClamp(const Bounds& bounds, ClampBy by = ClampBy::all, float slope = 1);

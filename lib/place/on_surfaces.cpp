@@ -49,7 +49,7 @@ enum class Finding : std::uint8_t {
   covered,  ///< by one record, or well enough
   open,     ///< nothing covers its middle
   cut,      ///< to be looked at in halves
-  closed,   ///< in a solid, all of it
+  closed,   ///< the whole side is in a solid
 };
 
 struct Look {
@@ -87,9 +87,9 @@ class SurfaceCover {
                  [&](Side side) { return !wanted || wanted(sides_.point(side, Vec2(1 / 3.f)).material); });
   }
 
-  /// Looks at all surface and covers what is open.
+  /// Looks at all surfaces and covers open places.
   void pass(int number);
-  /// The share that fresh points find open of what light can reach, by area or each triangle alike.
+  /// The share of the surface in reach of light that fresh points find open, by area or each triangle alike.
   double open_share(int pass, bool by_area) const;
 
   std::uint64_t pieces() const { return pieces_; }
@@ -113,7 +113,7 @@ class SurfaceCover {
   Growth& growth_;
   Placer& placer_;
   float accuracy_, least_reach_m_;
-  std::vector<std::uint8_t> reachable_;  // per side: some of it is not closed
+  std::vector<std::uint8_t> reachable_;  // per side: some part is not closed
   std::uint64_t pieces_ = 0;
 };
 
@@ -124,8 +124,8 @@ bool SurfaceCover::valid(const IrradianceRecord& record, const SurfacePoint& poi
   return options_.leak_test == LeakTest::none || record_in_sight(rays_, record, p, n);
 }
 
-/// A disc is convex on a flat triangle: what covers all corners covers the piece. A footprint is not: pieces
-/// are cut until they are small beside its shortest axis.
+/// A disc is convex on a flat triangle: a record that covers all corners covers the piece. A footprint is
+/// not: pieces are cut until they are small beside its shortest axis.
 Finding SurfaceCover::find(const Piece& piece, const SurfacePoint& middle, const SurfacePoint (&corner)[3],
                            float length_m) const {
   const bool last = piece.depth >= kDeepest;
@@ -162,7 +162,7 @@ Look SurfaceCover::look(const Piece& piece) const {
   return look;
 }
 
-/// Looks at pieces, covers what is open, and returns what to look at next.
+/// Looks at pieces, covers open places, and returns the pieces to look at next.
 std::vector<Piece> SurfaceCover::round(const std::vector<Piece>& pieces, Progress& progress) {
   std::vector<Piece> next;
   const Jumps order(pieces.size());

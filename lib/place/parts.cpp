@@ -10,7 +10,7 @@ namespace {
 
 const ShardKind kKind{FileKind::irradiance, FileForm::part, "cache",
                       "phos-irradiance --place every --part k/n"};
-constexpr const char* kRun = "run";  // entry of a part's header: what it must know of the whole
+constexpr const char* kRun = "run";  // entry of a part's header: the facts of the whole run
 
 Json to_json(const Vec3& v) { return Json::Array{Json(v.x), Json(v.y), Json(v.z)}; }
 
@@ -110,7 +110,7 @@ std::vector<PartFile> open_parts(const std::vector<std::string>& paths) {
   return parts;
 }
 
-/// As the whole run's: what a part's header has more is left out.
+/// As the whole run's header: further entries of a part's header are left out.
 Json extra_of_whole(const Json& extra) {
   Json whole(Json::Object{});
   for (const auto& [name, value] : extra.as_object()) {

@@ -26,13 +26,13 @@ struct IrradiancePart {
   Bounds scene;
 };
 
-/// Makes records [(k-1)N/n, kN/n) of N points. `cache` says what they are made for and holds no records.
-/// Throws Error(usage) if it does, and for a part that is not "k/n", 1 <= k <= n.
+/// Makes records [(k-1)N/n, kN/n) of N points. `cache` states their quantity and options, and holds no
+/// records. Throws Error(usage) if it does, and for a part that is not "k/n", 1 <= k <= n.
 IrradiancePart make_part(const IrradianceCache& cache, const Estimator& estimator, const RayScene& rays,
                          const RecordOptions& resolved, const std::string& part,
                          std::span<const SurfaceSample> points);
 
-/// `provenance` is that of the run; its counters hold what came before (a coarse cache), not the part's own.
+/// `provenance` belongs to the run; its counters hold earlier work (a coarse cache), not the part's own.
 void write_part(const std::string& path, const IrradiancePart& part, Provenance provenance);
 
 /// A whole run.
@@ -44,7 +44,8 @@ struct MergedParts {
 /// it); Error(bad_input) for damaged files and for files that are no parts.
 MergedParts read_parts(const std::vector<std::string>& paths);
 
-/// The key of the whole run's file, by the headers alone; makes the same checks of what belongs together.
+/// The key of the whole run's file, by the headers alone; makes the same checks that the files belong
+/// together.
 std::string key_of_merged_parts(const std::vector<std::string>& paths);
 
 }  // namespace phos::inline place

@@ -17,8 +17,9 @@ namespace phos::inline place {
 namespace {
 
 constexpr std::size_t kTaskPlaces = 256;  // looked up by one task
-// Places that are looked up together before what is open is made. Many where next to none of a block was: one
-// then walks from each to the next. Few where many were: neighbours that are open together are made in vain.
+// Places that are looked up together before records are made at open places. Many where next to none of a
+// block was: one then walks from each to the next. Few where many were: neighbours that are open together are
+// made in vain.
 constexpr std::size_t kLeastBlock = 64, kOpenBlock = std::size_t{1} << 14, kMostBlock = std::size_t{1} << 20;
 constexpr std::size_t kNextToNone = 1024;  // one place in so many
 
@@ -38,7 +39,7 @@ class Walk {
 };
 
 /// Of each place the record that covered it when it was looked at last, so that later passes look again only
-/// where that one has lost reach. Places with several sites, and what is beyond a number of places, are not
+/// where that one has lost reach. Places with several sites, and places beyond a certain number, are not
 /// remembered.
 class CoveredPlaces {
  public:
@@ -141,7 +142,7 @@ std::size_t block_at(std::size_t begin, std::size_t most) {
   return block;
 }
 
-/// One pass over the candidates: what it found, and how many records it had to add.
+/// The result of one pass over the candidates, and the number of records that it added.
 struct Pass {
   Cover cover;
   std::size_t placed = 0;

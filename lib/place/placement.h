@@ -24,8 +24,8 @@ struct PlacementReport {
   double making_s = 0;  ///< wall time spent in making records
   // Of surface.
   std::uint64_t sides = 0, sides_inside = 0;  ///< of triangles; those in solids, where nothing is placed
-  /// By fresh points, of what light can reach: of its area, and with each triangle counting alike, so that
-  /// small things beside large ones count too.
+  /// By fresh points on the surface in reach of light: by area, and with each triangle counting alike, so
+  /// that small objects beside large ones count too.
   std::optional<double> uncovered_share, uncovered_share_of_triangles;
   /// What the new records stand for, in their order, where the estimator makes radiance records.
   std::vector<RadianceRecord> radiance;

@@ -14,7 +14,7 @@ enum class Place {
   photons,    ///< where photons landed
   given,      ///< given points that no record covers yet
   every,      ///< every given point, covered or not
-  view,       ///< what a camera sees
+  view,       ///< the surfaces that a camera sees
   surface,    ///< every surface of the scene, lit or not
 };
 

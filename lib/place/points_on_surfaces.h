@@ -23,9 +23,9 @@ struct PointsOnSurfaces {
 /// A surface is one within 60 degrees of the point's plane. Same result for any number of threads.
 PointsOnSurfaces put_on_surfaces(const RayScene& rays, std::span<const SurfaceSample> points, float within_m);
 
-/// Those points of the file `path` (--at) which can have a record that is of a surface. `records` names what
-/// needs one, and `instead` what does without. Warns of points that are left out; throws Error(bad_input)
-/// where none remains.
+/// The points of the file `path` (--at) that can have a record on a surface. `records` names the records that
+/// need a surface, and `instead` the records that do not. Warns of points that are left out; throws
+/// Error(bad_input) where none remains.
 std::vector<SurfaceSample> require_surfaces(Tool& tool, const RayScene& rays,
                                             std::span<const SurfaceSample> points, float within_m,
                                             const std::string& path, const std::string& records,

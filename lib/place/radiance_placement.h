@@ -45,8 +45,8 @@ std::vector<RadianceRun> place_radiance(RadianceCache& cache, const GlossTables&
                                         const RecordOptions& resolved, const PlacementOptions& placement,
                                         PlacementSource source, Counters& counters);
 
-/// May records of these orders be added to what a file holds? Throws Error(mismatch), naming the file, where
-/// it holds one of an order that no material wants: nothing would read it.
+/// May records of these orders be added to the records of a file? Throws Error(mismatch), naming the file,
+/// where it holds one of an order that no material wants: nothing would read it.
 void require_same_orders(const RadianceCache& earlier, const GlossTables& tables, const std::string& path);
 
 }  // namespace phos::inline place

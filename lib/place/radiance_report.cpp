@@ -12,7 +12,7 @@ namespace {
 /// Records that are there.
 struct Summary {
   std::map<int, std::size_t> records;  // by order
-  double error = 0;  // of the light, relative: norm of the coefficients' standard errors over that of them
+  double error = 0;  // of the light, relative: norm of the coefficients' standard errors over their norm
 };
 
 Summary summarize(const RadianceCache& cache) {

@@ -13,7 +13,7 @@ struct RadianceReport {
   Json figures;                    ///< an object, by name, for --stats
   std::vector<std::string> lines;  ///< for people
 };
-/// `cache` holds what the runs added, and perhaps earlier records.
+/// `cache` holds the records that the runs added, and perhaps earlier records.
 RadianceReport report_of(const RadianceCache& cache, const std::vector<RadianceRun>& runs);
 
 }  // namespace phos::inline place

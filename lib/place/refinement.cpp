@@ -18,7 +18,7 @@ constexpr std::size_t kLooked = 32, kNeighbours = 10;           // nearest ones 
 constexpr double kNeighbourhood = 3;                            // in reaches
 constexpr float kSameFacing = 0.9396926f;                       // cos 20 deg, as zones of photons
 constexpr float kFlat = 0.1f;      // neighbours lie within this share of the distance of the tangent plane
-constexpr double kTolerance = 3;   // in target errors: what a plane misses is more than what reading does
+constexpr double kTolerance = 3;   // in target errors: a plane misses more than reading does
 constexpr std::size_t kPlane = 4;  // neighbours that a plane is fitted to, at least
 constexpr double kLeastNoise = 1e-6;
 constexpr std::size_t kTask = 64;
@@ -69,7 +69,7 @@ class Neighbourhoods {
 
 double light_of(const IrradianceRecord& r) { return static_cast<double>(luminance(r.irradiance)); }
 
-/// Weights of neighbours by distance: 0 at 1.3 times that of the farthest.
+/// Weights of neighbours by distance: 0 at 1.3 times the distance of the farthest.
 std::vector<double> weights_of(std::span<const Neighbour> neighbours) {
   double farthest = 0;
   for (const Neighbour& n : neighbours) farthest = std::max(farthest, glm::length(n.offset_m));
@@ -81,8 +81,8 @@ std::vector<double> weights_of(std::span<const Neighbour> neighbours) {
   return weights;
 }
 
-/// The coefficients by which values at the neighbours make up that of the weighted plane of least squares at
-/// the middle. Nothing where they lie on a line, or are too few.
+/// The coefficients by which values at the neighbours make up the value of the weighted plane of least
+/// squares at the middle. Nothing where they lie on a line, or are too few.
 std::optional<std::vector<double>> plane_through(std::span<const Neighbour> neighbours) {
   if (neighbours.size() < kPlane) return std::nullopt;
   const std::vector<double> weights = weights_of(neighbours);
@@ -104,7 +104,7 @@ std::optional<std::vector<double>> plane_through(std::span<const Neighbour> neig
 
 /// How wrongly a record's neighbours foretell it.
 struct Residual {
-  double excess = 0;  ///< square, lx2, less what noise makes of it
+  double excess = 0;  ///< square, lx2, less its expectation by noise alone
   bool known = false;
   std::vector<std::size_t> neighbours{};
 };

@@ -35,8 +35,8 @@ class Refinement {
   /// surfaces, > 0. Holds references.
   Refinement(Growth& growth, ParallelMaker& maker, const RecordOptions& resolved, double target);
 
-  /// Judges the records so far. Returns how many have been shrunk, down to a half each; what they covered may
-  /// be open. The first call makes up to 32 records again, with other rays, to know their noise.
+  /// Judges the records so far. Returns how many have been shrunk, down to a half each; places that they
+  /// covered may be open. The first call makes up to 32 records again, with other rays, to know their noise.
   std::size_t refine();
 
   /// Gradients along the surface that fit the neighbours' irradiance as well as their own noise lets them

@@ -20,7 +20,7 @@ namespace phos::inline place {
 namespace {
 
 /// Records are read somewhat beyond the reach at which they were placed, so that few places have none; not as
-/// far as pictures read them, for rays average over many places anyway, and lookups are what they cost.
+/// far as pictures read them, for rays average over many places anyway, and lookups are their cost.
 constexpr double kReadBeyond = 1.2;
 
 /// Records of photons that carry more than so many times the median are not usual ones.
@@ -120,7 +120,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const R
   IrradianceCache cache;
   cache.accuracy = coarse.accuracy;
   Counters own;
-  // One pass: what neighbours uncover is within reach of records that are read beyond theirs.
+  // One pass: places that neighbours uncover are within reach of records that are read beyond theirs.
   place_records(cache, *photons_, rays, coarse, {.passes = 1},
                 photon_candidates(photons, coarse.paths, seed, kCoarseCandidates), own);
   read(rays, cache);

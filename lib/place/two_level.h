@@ -1,5 +1,5 @@
-// The coarse level of two-level caching: indirect light that gathered rays read where they land, and what
-// gloss shows there.
+// The coarse level of two-level caching: indirect light that gathered rays read where they land, and the
+// gloss there.
 #pragma once
 
 #include <cstddef>
@@ -45,14 +45,14 @@ struct EquivalentPhotons {
 /// Zero of records that are exact. Records of far noisier photons than usual do not count: with portals, they
 /// lie out of doors.
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy);
-/// Luminance of the mean irradiance over what records cover, each by its area; 0 of none.
+/// Luminance of the mean irradiance over the places that records cover, each by its area; 0 of none.
 double mean_irradiance_lx(std::span<const IrradianceRecord> records);
 /// Photons tried as places for them: a coarse cache needs far fewer records than that.
 inline constexpr std::int64_t kCoarseCandidates = 400'000;
 
-/// Holds what a GatherSource refers to. Rays average over many places, so that few, far-reaching records of
-/// many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same end); where
-/// there is none, the photons there are asked. Holds references to `rays` and `photons`.
+/// Holds the data to which a GatherSource refers. Rays average over many places, so that few, far-reaching
+/// records of many photons each serve them (Christensen 1999 precomputes irradiance at photons to the same
+/// end); where there is none, the photons there are asked. Holds references to `rays` and `photons`.
 class CoarseLevel {
  public:
   /// From photons: records by hull at options.source_accuracy, placed at photons; none with
@@ -63,7 +63,7 @@ class CoarseLevel {
   /// From an earlier cache; `photons` may be null: then there is no light where it has no record.
   CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, const PhotonMap* photons,
               const RecordOptions& resolved, std::uint64_t seed);
-  /// Nothing: rays show what lamps light directly.
+  /// Nothing: rays show surfaces that lamps light directly.
   CoarseLevel();
   ~CoarseLevel();
   CoarseLevel(CoarseLevel&&) noexcept;

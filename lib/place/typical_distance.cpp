@@ -40,7 +40,7 @@ float harmonic_distance_m(const RayScene& rays, const SurfaceSample& place, std:
   return inverse > 0 ? static_cast<float>(kRays / inverse) : kInfinity;
 }
 
-/// To three digits: what depends on it does so no finer than it is known.
+/// To three digits, because it is known no finer.
 float rounded(float m) {
   const double unit = std::pow(10, std::floor(std::log10(static_cast<double>(m))) - 2);
   return static_cast<float>(unit * std::round(static_cast<double>(m) / unit));

@@ -16,7 +16,7 @@ struct PlacementOptions;
 struct PlacementSource;
 
 /// Median over the places of the harmonic mean distance of their surroundings, m (docs/methods.md#v1):
-/// that of 64 cosine-weighted rays from each (some thousand of them); a ray that leaves the scene counts as
+/// of 64 cosine-weighted rays from each (some thousand places); a ray that leaves the scene counts as
 /// infinitely long. A far ground or background changes it little, unlike the scene's bounds. Half of the
 /// scene's diagonal at most; a quarter of it where there is no place, or most see nothing; 1/4 m in a scene
 /// of no size. Rounded to three digits. Same for any number of threads.
@@ -28,11 +28,11 @@ std::vector<SurfaceSample> seen_places(const RayScene& rays, const std::string& 
 /// few.
 std::vector<SurfaceSample> lit_places(const PhotonMap& photons);
 
-/// Of what the records of a run are for: of what the camera sees with Place::view; else of where photons
-/// landed, if there are any, or of the points given, or of where light lands on a few thousand paths, and
-/// beside it of what the scene's first camera sees, if it has one: photons may crowd in a lamp shade, and a
-/// camera may look at a house from far. `source` is as of extend_cache(), the options as resolve() leaves
-/// them.
+/// Of the places that the records of a run serve: places that the camera sees, with Place::view; else places
+/// where photons landed, if there are any, or the points given, or places where light lands on a few thousand
+/// paths, and beside these the places that the scene's first camera sees, if it has one: photons may crowd in
+/// a lamp shade, and a camera may look at a house from far. `source` is as of extend_cache(), the options as
+/// resolve() leaves them.
 TypicalDistance typical_distance(const RayScene& rays, const PlacementOptions& placement,
                                  const PlacementSource& source);
 

@@ -18,7 +18,7 @@ struct View {
   double least_radius_pixels = 0, most_radius_pixels = 0;
 };
 
-inline constexpr int kViewSamples = 4;  ///< of a pixel: those of phos-splat by default
+inline constexpr int kViewSamples = 4;  ///< of a pixel: as many as phos-splat has by default
 
 /// What each pixel shows: its visible point and all that mirrors, smooth glass and a few glossy rays show
 /// from there, where they have a diffuse part (or are `wanted`, if that is given). Coarse to fine over the
@@ -26,8 +26,8 @@ inline constexpr int kViewSamples = 4;  ///< of a pixel: those of phos-splat by 
 Candidates view_candidates(const RayScene& rays, const View& view, const MaterialFilter& wanted = {});
 
 /// Side of the patch of surface that one pixel covers: the root of its area, m. `st` is the middle of the
-/// pixel in [0,1]^2, `travelled_m` the length of the ray's way (mirrors: all of it), `cosine` that between
-/// ray and surface normal. A grazing pixel's patch counts as one seen at a cosine of 0.05.
+/// pixel in [0,1]^2, `travelled_m` the length of the ray's way (by mirrors too), `cosine` the cosine
+/// between ray and surface normal. A grazing pixel's patch counts as one seen at a cosine of 0.05.
 float pixel_side_m(const View& view, const Vec2& st, float travelled_m, float cosine);
 
 /// The same for many pixels: `eye` sees the view.

@@ -25,8 +25,8 @@ namespace phos::inline plan::calibration {
 // mean squares are relative to the square of the mean of the picture.
 
 /// Power of the number of photons: mean square bias of gathered records, as their coarse cache blurs light
-/// near edges and contacts over its zones. Sponza, 400 pixels wide, 40,000 to 10 million photons: what falls
-/// with them has -0.58.
+/// near edges and contacts over its zones. Sponza, 400 pixels wide, 40,000 to 10 million photons: the part
+/// that falls with them has -0.58.
 inline constexpr double kZoneBlurPhotons = -0.5;
 /// Power of the number of records that a place reads (records_read()): mean square noise of gathered rays.
 /// Records share their noise, less than in proportion to their number. Five scenes, 64 rays, accuracies 0.56
@@ -60,17 +60,17 @@ inline constexpr double kPlacesOfAPixel = 0.8;
 inline constexpr double kRunTimeDoubt = 0.1;
 /// Seconds by which the start of a program varies (standard deviation).
 inline constexpr double kRunTimeLeast = 0.005;
-/// Relative standard deviation, of a predicted mean square, of what the terms of the model leave out. The
-/// errors of 45 plans' first rounds over the predicted ones: 0.90 to 1.23 and, once, 1.5, with the pilot's
-/// doubts in them. The script measures both together: an upper bound.
+/// Relative standard deviation, of a predicted mean square, by effects that the terms of the model leave out.
+/// The errors of 45 plans' first rounds over the predicted ones: 0.90 to 1.23 and, once, 1.5, with the
+/// pilot's doubts in them. The script measures both together: an upper bound.
 inline constexpr double kErrorDoubt = 0.15;
 /// The same of predicted seconds.
 inline constexpr double kTimeDoubt = 0.15;
 
 // 2. Measured once.
 
-/// Smallest radius of a picture's records, over accuracy times the typical distance, so that the bias of what
-/// they leave out falls with their noise. Sponza, 400 pixels wide: 0.057 of the distance
+/// Smallest radius of a picture's records, over accuracy times the typical distance, so that the bias of the
+/// light that they leave out falls with their noise. Sponza, 400 pixels wide: 0.057 of the distance
 /// leaves 4.5e-4, 2.7e-4 and 1.9e-4 of the mean's square, in mean square, by 7.7, 8.6 and 12.1 s of records
 /// of accuracy 0.4, 0.28 and 0.14; half of that radius 2.1e-4, 1.4e-4 and 1.4e-4 by 8.9, 10.1 and 13.1 s; the
 /// noise of their 128 rays is 14e-4, 7e-4 and 4e-4.
@@ -99,7 +99,7 @@ inline constexpr double kEdgeSecondsPixels = 0.75;
 inline constexpr double kRecordRoom = 1.25;
 /// Least power of detail_power(): nothing is known, or detail is everywhere.
 inline constexpr double kLeastDetailPower = 0.125;
-/// Relative standard deviation of any mean square that a pilot measured, of what the terms leave out.
+/// Relative standard deviation of any mean square that a pilot measured, by effects that the terms leave out.
 inline constexpr double kOwnDoubt = 0.1;
 /// Way from the best guess of an error to the top of its interval, up to which the error asked for has to
 /// hold.

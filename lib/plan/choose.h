@@ -10,13 +10,13 @@
 namespace phos::inline plan {
 
 /// Knobs that are chosen together, each from a list of levels. `derive` fills in knobs that follow from them;
-/// what it says is not `allowed` is not tried.
+/// settings that it does not allow are not tried.
 struct KnobGroup {
   std::vector<Knob> knobs;
   std::vector<std::vector<double>> levels;      ///< of each
   std::function<void(Knobs&)> derive{};         ///< null: none do
   std::function<bool(const Knobs&)> allowed{};  ///< null: all
-  std::vector<Knob> derived{};                  ///< what `derive` writes
+  std::vector<Knob> derived{};                  ///< the knobs that `derive` writes
 };
 
 struct PlanPoint {

@@ -12,8 +12,8 @@
 
 namespace phos::inline plan {
 
-/// What the figures of a plan depend on. The first are settings; records and pixels follow from them and from
-/// what is asked.
+/// The quantities on which the figures of a plan depend. The first are settings; records and pixels follow
+/// from them and from the goal.
 enum class Knob : std::size_t {
   photons,        ///< paths from the lamps
   accuracy,       ///< a of the records
@@ -33,7 +33,7 @@ inline constexpr std::size_t at(Knob knob) { return static_cast<std::size_t>(kno
 using Knobs = std::array<double, kKnobs>;
 const char* name_of(Knob knob);
 
-/// Product of powers of knobs. `what` says in words what it stands for.
+/// Product of powers of knobs. `what` names it in words.
 struct Monomial {
   std::string what;
   std::vector<std::pair<Knob, double>> powers;
@@ -57,14 +57,15 @@ class Posynomial {
   explicit Posynomial(std::vector<Monomial> terms) : terms_(std::move(terms)) {}
   void fit(std::span<const Observation> observations, std::uint64_t seed);
   /// To measured noise, of which few places may have most (a ring about a lamp): one that came out low does
-  /// not know what it missed. Each is in doubt as all of them are together, relative to what the fit says of
-  /// it, not to itself.
+  /// not know what it missed. Each is in doubt as all of them are together, relative to the fit's
+  /// value, not to itself.
   void fit_noise(std::vector<Observation> observations, std::uint64_t seed);
   /// As if the coefficients had been measured so, without doubt.
   void set(std::vector<double> coefficients);
   /// What a later measurement says, by one guess: a draw, or kBest. All coefficients times `factor`.
   void scale(std::size_t guess, double factor);
-  /// With another term, whose coefficient is `factor` times that of the term which is called `like`, if any.
+  /// With another term, whose coefficient is `factor` times the coefficient of the term called `like`, if
+  /// any.
   void extend(const std::string& like, Monomial term, double factor);
   /// That term i is `more` larger than thought.
   void add(std::size_t guess, std::size_t i, double more);
@@ -92,8 +93,8 @@ struct PlanModel {
   double measured = 0;
 
   double best(const Knobs& knobs) const;
-  /// With what the fit does not know, and `doubt` (relative standard deviation, of what the model itself
-  /// leaves out): of the whole, or, after a measurement, of what differs from it.
+  /// With the doubt of the fit, and `doubt` (relative standard deviation, by effects that the model itself
+  /// leaves out): of the whole, or, after a measurement, of the difference from it.
   Interval predict(const Knobs& knobs, double doubt) const;
   Posynomial* find(const std::string& name);
   const Posynomial* find(const std::string& name) const;

@@ -27,11 +27,12 @@ struct PlanOptions {
 };
 void declare_options(Options& options, PlanOptions& plan);
 
-/// 0.05 of "5%", "5 %" and "0.05". Throws Error(usage) for what is no such number, or not between 0 and 100
+/// 0.05 of "5%", "5 %" and "0.05". Throws Error(usage) for a text that is no such number, or not between 0
+/// and 100
 /// %.
 double read_error(const std::string& word);
 
-/// Throw Error(usage) for a goal that is none, and for what does not go together.
+/// Throw Error(usage) for an impossible goal, and for options that do not go together.
 PlanGoal goal_of(const Options& options, const PlanOptions& plan);
 /// Without the size of the picture, which is the scene's to say.
 PlanTask task_of(const Options& options, const PlanOptions& plan, const std::string& scene,

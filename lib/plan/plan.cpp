@@ -31,7 +31,7 @@ std::vector<double> rays_of_rings(int least, double most) {
   }
 }
 
-/// And what lies halfway, where it is whole.
+/// And the value halfway, where it is whole.
 std::vector<double> half_doubling(double first, double last) {
   std::vector<double> out;
   for (const double v : doubling(first, last)) {
@@ -44,7 +44,7 @@ std::vector<double> half_doubling(double first, double last) {
 
 std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
   std::vector<KnobGroup> groups;
-  // From half of what the pilot's least cache has.
+  // From half of the pilot's least cache.
   groups.push_back({{Knob::photons}, {half_doubling(10000, 1e8)}});
   const std::vector<double> rays = task.by_photons
                                        ? std::vector<double>{1}

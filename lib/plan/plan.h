@@ -1,4 +1,4 @@
-// The settings that meet what is asked, by the models of a pilot.
+// The settings that meet the goal, by the models of a pilot.
 #pragma once
 
 #include <optional>
@@ -49,15 +49,15 @@ Prediction predict(const PlanTask& task, const Pilot& pilot, const Knobs& knobs)
 
 /// With an error asked for: the cheapest settings whose error_to_meet() is within it: some miss it, which
 /// another round of --run mends. (Seconds go as the error to a power of -2 or so, and another round costs as
-/// much again: least are expected about 1.4 standard deviations below what is asked.) Where there are none,
+/// much again: least are expected about 1.4 standard deviations below the goal.) Where there are none,
 /// or only at a price that its doubt alone would make one pay, because the pilot cannot tell so little: the
-/// cheapest that meet kMargin of it by the best guess, or, if that is not out of the question, by the guess
-/// without what no setting mends (or, if that is not much dearer, the whole of it by the best guess); and a
-/// warning. Pictures of few rays have rare bright pixels, which a small pilot seldom shows: these settings
-/// then get more rays from pixels and sensors, up to kEnoughRays of a kind, as far as kNextToNothing of the
-/// time pays for all of them. (These numbers: plan/calibration.h.) With seconds: the least error whose time,
-/// likewise, is within them. Throws Error(usage) where no settings reach the error or keep the time, naming
-/// what can be had.
+/// cheapest that meet kMargin of the error by the best guess, or, if that is not out of the question, by the
+/// guess without the part that no setting mends (or, if that is not much dearer, the whole error by the best
+/// guess); and a warning. Pictures of few rays have rare bright pixels, which a small pilot seldom shows:
+/// these settings then get more rays from pixels and sensors, up to kEnoughRays of a kind, as far as
+/// kNextToNothing of the time pays for all of them. (These numbers: plan/calibration.h.) With seconds: the
+/// least error whose time is within them in the same sense. Throws Error(usage) where no settings reach the
+/// error or keep the time, naming the error or the time that can be had.
 Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal);
 
 /// The same for an error alone; nothing if it is out of reach. `wide`: set where kMargin had to do.

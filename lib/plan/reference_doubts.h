@@ -18,7 +18,7 @@ class ReferenceDoubts {
   void add(const Json& stats, double places);
   /// Have too many places too few bright paths? More samples may mend that.
   bool too_few_bright() const { return untrusted_share_ > calibration::kFewUntrusted; }
-  /// For people, one each; none: what the references say can be trusted.
+  /// Sentences for people, one for each doubt; none: the references can be trusted.
   std::vector<std::string> lines() const;
 
  private:

@@ -1,4 +1,5 @@
-// What the light of a scene requires, and what it does not, each with a reason.
+// The parts of a pipeline that the light of a scene requires, and the parts that it does not, each with a
+// reason.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +19,12 @@ struct Needs {
   std::vector<LightWay> ways;  ///< of lamps to surfaces, by mirrors, curved glass or sharp gloss
   bool animated = false;
   std::int64_t frames = 0;
-  std::vector<Requirement> wanted;    ///< what the plan makes, and why
-  std::vector<Requirement> unwanted;  ///< what it leaves out, and why
+  std::vector<Requirement> wanted;    ///< the parts that the plan makes, and why
+  std::vector<Requirement> unwanted;  ///< the parts that it leaves out, and why
 };
 
-/// `gloss`: gloss_report() of the scene. A picture is one view: gloss is traced, and what radiance records
-/// could serve is said.
+/// `gloss`: gloss_report() of the scene. A picture is one view: gloss is traced, and the gloss that
+/// radiance records could serve is named.
 Needs plan_needs(const Scene& scene, const Json& gloss);
 
 Json to_json(const Needs& needs);

@@ -35,7 +35,7 @@ void agree(std::span<Posynomial* const> parts, const Knobs& knobs, std::size_t g
   }
 }
 
-/// What was measured, where the references could tell it, goes into the models; of times, those of a pipeline
+/// Puts measured errors, where the references could show them, into the models, and the times of a pipeline
 /// that was run whole.
 void learn(Pilot& pilot, const PlanRound& round, bool whole) {
   const Knobs& knobs = round.predicted.knobs;
@@ -54,8 +54,8 @@ void learn(Pilot& pilot, const PlanRound& round, bool whole) {
 }
 
 /// Seconds that a pipeline saves where one with the knobs of `there` ran before: by the photons, if they are
-/// the same, and by the records. (Those of sensors, added to those of a picture, are made anew: so are
-/// these.)
+/// the same, and by the records. (Records of sensors that are added to a picture's records are made anew: so
+/// are these.)
 double left_over_s(const PlanTask& task, const Pilot& pilot, const Knobs& there, const Knobs& knobs) {
   const auto same = [&](Knob knob) { return there[at(knob)] == knobs[at(knob)]; };
   std::vector<const char*> parts;
@@ -171,7 +171,7 @@ PlanReport run_plan(const PlanTask& task, const Needs& needs, const Pilot& first
   };
   write_plan(plan);
   PlanRunner runner(task, options);
-  Pilot pilot = first;  // and what is learnt
+  Pilot pilot = first;  // and the results of the rounds
   const double aim = goal.error.value_or(plan.chosen.error());
   const double most_s = options.reference_seconds > 0
                             ? options.reference_seconds

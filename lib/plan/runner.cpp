@@ -49,7 +49,7 @@ double PlanRunner::better_references(const PlanRound& round, double error, doubl
   for (const bool lux : {false, true}) {
     const std::optional<MeasuredError>& e = lux ? round.lux : round.image;
     if (!e) continue;
-    // The pair before tells what a sample takes.
+    // The pair before gives the time of a sample.
     const double wanted = std::max(times_as_many(*e, error), doubts_[lux].too_few_bright() ? kForBright : 1);
     const double times = std::min(wanted, (seconds - took) / pair_s_[lux]);
     if (times >= 2) took += make_pair(lux, std::floor(samples_[lux] * times));

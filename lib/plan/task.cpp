@@ -76,7 +76,7 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
   // Photons tell nothing in free air: records of them lie on surfaces, and phos-sense makes those in the air.
   if (!task.by_photons) add(words, {"--at", points, "--place", "given"});
   if (add_to.empty())
-    add(words, estimated(task, knobs));  // else they are those of the file
+    add(words, estimated(task, knobs));  // else the file's options hold
   else
     add(words, {"--add-to", add_to});
   return {"phos-irradiance", words, out};

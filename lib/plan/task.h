@@ -10,13 +10,13 @@
 
 namespace phos::inline plan {
 
-/// Of which scene what is wanted.
+/// The scene, and the quantities that are wanted.
 struct PlanTask {
   std::string scene;                     ///< path
   std::vector<std::string> scene_words;  ///< options that every stage needs: "--environment", "sky.hdr"
   std::string camera;                    ///< "": the scene's first
   std::int64_t width = 0, height = 0;    ///< of the picture, pixels, both resolved
-  float typical_m = 0;         ///< typical_distance_m() of what is seen; 0: radii are the usual ones
+  float typical_m = 0;         ///< typical_distance_m() of the visible places; 0: radii are the usual ones
   double pixels_of_final = 1;  ///< the same pixel of the picture that is meant, in pixels of this one
   bool image = true, lux = false;
   std::string points;             ///< CSV of the sensors
@@ -30,7 +30,7 @@ struct PlanTask {
 /// One line of the pipeline.
 struct PlanStage {
   std::string name;  ///< "photons"
-  std::string what;  ///< what it does, for people
+  std::string what;  ///< its purpose, for people
   Command command;
 };
 
@@ -49,7 +49,7 @@ Command photons_command(const PlanTask& task, const Knobs& knobs, const std::str
 /// Records where the camera looks.
 Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                              const std::string& photons, const std::string& out);
-/// Records where sensors are; added to those of a file unless `add_to` is empty.
+/// Records where sensors are, added to the records of a file unless `add_to` is empty.
 Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                                const std::string& photons, const std::string& points,
                                const std::string& add_to, const std::string& out);

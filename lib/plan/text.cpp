@@ -86,7 +86,7 @@ std::string alternatives(const Plan& plan) {
   return out;
 }
 
-/// What is wrong where, and what it comes from: the larger parts of the mean square.
+/// The error at each place and its causes: the larger parts of the mean square.
 std::string largest_parts(const PlanModel& model, const Knobs& knobs) {
   std::vector<std::pair<double, std::string>> parts;
   double sum = 0;

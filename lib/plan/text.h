@@ -13,7 +13,8 @@ std::string goal_line(const PlanTask& task, const PlanGoal& goal);
 std::string prediction_line(const Prediction& prediction);
 
 /// A bash script that makes the plan's files in the folder of its first argument; its comments hold the
-/// prediction and the reasons, and what was `measured` of it, if it was. The scene's path is as it was given.
+/// prediction and the reasons, and its `measured` error, if there is one. The scene's path is as it was
+/// given.
 std::string plan_script(const PlanTask& task, const Needs& needs, const Pilot& pilot, const PlanGoal& goal,
                         const Plan& plan, std::uint64_t seed, const std::string& measured = "");
 

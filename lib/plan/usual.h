@@ -1,4 +1,4 @@
-// Settings that are usual for an error, where no pilot tells what a scene takes.
+// Settings that are usual for an error, where no pilot measures the scene.
 #pragma once
 
 #include "plan/options.h"

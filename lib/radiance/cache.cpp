@@ -28,7 +28,7 @@ bool all_finite(const std::vector<float>& v) {
 }  // namespace
 
 const char* what_is_wrong(const RadianceRecord& r) {
-  const NoFloatTraps traps;  // files may hold what is not a number
+  const NoFloatTraps traps;  // files may hold numbers that are not finite
   const std::size_t n = 3 * count_of(r.order()), slopes = r.gradient_x.size();
   if (r.stderr_light.size() % 3 != 0 || r.light.size() != n || r.gradient_y.size() != slopes ||
       (slopes != 0 && slopes != n))

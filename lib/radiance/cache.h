@@ -46,9 +46,9 @@ bool is_finite(const RadianceRecord& record);
 /// sqrt(pi/6) c_10 (docs/methods.md#j1). May be below 0 by ringing.
 Rgb irradiance_of(std::span<const float> light);
 
-/// What a radiance record says of irradiance, its gradient of translation from theirs, none of rotation.
-/// Place, radius and distance are the record's own: what settles radii of irradiance records settles these
-/// too.
+/// The irradiance record of a radiance record: its translation gradient comes from the gradients of the
+/// coefficients, and it has no rotation gradient. Place, radius and distance are the record's own, so that
+/// rules for radii of irradiance records serve radiance records too.
 IrradianceRecord irradiance_of(const RadianceRecord& record);
 
 struct RadianceCache {
@@ -59,20 +59,21 @@ struct RadianceCache {
   int order() const;                                 ///< the greatest; 0: there are no records
 };
 
-/// All of it, in order.
+/// All records, in order.
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
-/// reading_accuracy() of radiance records: what leaves through a lobe gathers the noise of many coefficients.
+/// reading_accuracy() of radiance records: light that leaves through a lobe has the noise of many
+/// coefficients.
 inline double reading_accuracy(const RadianceCache& cache) {
   return phos::reading_accuracy(cache.accuracy, 0.6);
 }
 
 /// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy x
 /// max(1, R / D). A record's radius R is where its light is about another one (at most the mean distance D,
-/// but where it has been raised): on a step s, what it sees turns by about s / R, and harmonics of band l by
-/// l times that. They change like a sine, of which this is the best linear part where steps are spread
-/// normally; sqrt(0.3) of its reach is the rms step of those that a record serves (its weight counted). Full
-/// slopes overshoot in the higher bands, and bring in more noise than change.
+/// but where it has been raised): on a step s, the light that it sees turns by about s / R, and harmonics of
+/// band l by l times that. They change like a sine, of which this is the best linear part where steps are
+/// spread normally; sqrt(0.3) of its reach is the rms step of those that a record serves (its weight
+/// counted). Full slopes overshoot in the higher bands, and bring in more noise than change.
 void settle_slopes(RadianceRecord& record, double accuracy);
 
 /// The `.radiance` file (file/kinds/tables.cpp). The header names the basis. Of a film there are `more`

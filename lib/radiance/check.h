@@ -1,4 +1,4 @@
-// Can a radiance record be one? For what reads them.
+// Checks radiance records that were read.
 #pragma once
 
 #include "radiance/cache.h"

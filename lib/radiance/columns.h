@@ -20,7 +20,7 @@ inline std::vector<float> from_column(const float* column, std::size_t n, std::s
   return record;
 }
 
-/// Is what a record does not use of its column 0?
+/// Are the unused numbers of each record's column 0?
 inline bool rest_is_zero(const float* column, std::size_t n, std::size_t used) {
   for (std::size_t c = 0; c < 3; ++c)
     if (std::any_of(column + c * n + used, column + (c + 1) * n, [](float x) { return x != 0; }))

@@ -10,7 +10,7 @@
 
 namespace phos::inline radiance {
 
-/// Lookups of what glossy surfaces show, at the eye and where secondary rays land. Materials that want equal
+/// Lookups of the gloss of surfaces, at the eye and where secondary rays land. Materials that want equal
 /// orders share their records; a record of fewer bands than a material wants does not serve it, one of an
 /// order that no material wants serves all that want fewer bands. Const once filled, usable from any thread,
 /// each with a worker of its own.
@@ -31,8 +31,8 @@ class GlossCache {
   };
   /// Is the lobe of this point towards wo (unit, world) read from records? Sets worker.lobe.
   bool serves(const SurfacePoint& point, const Vec3& wo, Worker& worker) const;
-  /// Light that leaves along wo through the lobe, but for what lamps send straight there. Nothing: it is to
-  /// be traced. weight 0: no record reaches the point (a miss).
+  /// Light that leaves along wo through the lobe, but for the light that lamps send straight there. Nothing:
+  /// it is to be traced. weight 0: no record reaches the point (a miss).
   std::optional<GlossyLight> outgoing(const SurfacePoint& point, const Vec3& wo, Worker& worker) const;
 
  private:

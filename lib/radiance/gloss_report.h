@@ -15,7 +15,7 @@ Json gloss_report(const Scene& scene, const GlossTables& tables);
 /// A line for each.
 std::string gloss_text(const Json& report);
 
-/// Adds the report to the answer of describe_scene() as "gloss", and to what is required there: radiance
+/// Adds the report to the answer of describe_scene() as "gloss", and to the requirements there: radiance
 /// records and traced gloss stand in for "gloss".
 void add_gloss(Json& description, const Json& report);
 

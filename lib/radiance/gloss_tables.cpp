@@ -38,7 +38,7 @@ bool lobe_varies(const Scene& scene, std::uint32_t material) {
   return row.base_in_gloss && row.base_in_gloss(m) && (m.base_colour.used() || coloured(scene, material));
 }
 
-/// 1/sr: what the lobe may take from the Lambert part.
+/// 1/sr: the part that the lobe may take from the Lambert part.
 Rgb least_of(const Scene& scene, std::uint32_t material) {
   if (!row_of(scene.material[material]).takes_from_lambert) return Rgb(0);
   return -Bsdf(scene, material).diffuse_reflectance() / kPi;

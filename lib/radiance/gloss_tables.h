@@ -1,4 +1,4 @@
-// Who computes what glossy surfaces show: radiance records or rays, per material and direction.
+// Whether radiance records or rays compute the gloss of surfaces, per material and direction.
 #pragma once
 
 #include <cstdint>
@@ -51,8 +51,8 @@ class GlossTables {
  public:
   GlossTables() = default;  ///< every lobe is traced
   /// `tables`: of this scene (a .brdf file); materials that it lacks are projected here, and so are, with
-  /// GlossBy::cached, those of which it leaves directions to rays (with bands cut off at max_order). Events
-  /// as of project_brdf. Throws Error(usage) for an order out of range.
+  /// GlossBy::cached, materials of which it leaves directions to rays (with bands cut off at max_order).
+  /// Events as of project_brdf. Throws Error(usage) for an order out of range.
   GlossTables(const Scene& scene, std::span<const BrdfTable> tables, GlossBy by,
               const BrdfTableOptions& options, Counters& counters);
 

@@ -18,7 +18,7 @@ namespace phos::inline radiance {
 
 /// Light that leaves a point by its glossy lobe.
 struct GlossyLight {
-  Rgb radiance{0};   ///< cd/m2; what harmonics ring below the least is cut off
+  Rgb radiance{0};   ///< cd/m2; harmonics that ring below the least are cut off
   Rgb stderr_cd{0};  ///< cd/m2, of the mean of records (blended_error)
   float weight = 0;  ///< sum of weights; 0: a miss
 };
@@ -37,10 +37,10 @@ class RadianceTree {
   std::size_t size() const;
   const RadianceRecord& operator[](std::size_t record) const;
   void insert(RadianceRecord record);
-  /// Their irradiance, radii and what they cover.
+  /// Their irradiance, their radii and the places that they cover.
   const RecordTree& irradiance() const;
 
-  /// Memory of one thread, and what the last lookup found.
+  /// Memory of one thread, with the result of the last lookup.
   struct Worker {
     std::vector<const IrradianceRecord*> found;
     std::vector<float> sum, turned;
@@ -54,7 +54,7 @@ class RadianceTree {
   /// R (c + dx g_x + dy g_y) / sum of w, where a step towards p that would change a record by more than its
   /// own energy is shortened to that. Returns the sum of weights; 0: no record is valid, all is 0.
   float interpolate(const Vec3& p, const Frame& frame, int order, Worker& worker) const;
-  /// Light that leaves p through a lobe, [order^2][3] in `frame`: the lobe times what interpolate() finds.
+  /// Light that leaves p through a lobe, [order^2][3] in `frame`: the lobe times the result of interpolate().
   /// The least is `least` (1/sr, 0 or below) times the irradiance. Where records are turned it is the lobe
   /// that is turned to each of them (transposed), at half the cost where it has no colour.
   GlossyLight outgoing(const Vec3& p, const Frame& frame, std::span<const float> lobe, const Rgb& least,

@@ -1,4 +1,4 @@
-// The standard error of what several records say of one place.
+// The standard error of several records at one place.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,11 @@ inline constexpr float kSharedByZones = 0.30f;
 /// Noise of a record's value where it is carried to by its gradient, which has noise of its own, over that at
 /// the record.
 inline constexpr double kCarriedNoise = 1.5;
-/// Of the variance among records that noise does not account for: what it says of their mean, where records
-/// know their own light exactly, and where they are of photons, whose gradients have noise too that averages
-/// out.
+/// The part of the records' variance beyond noise that is an error of their mean, for records that know their
+/// own light exactly, and for records from photons, whose gradients have noise too that averages out.
 inline constexpr double kCommonDisagreement = 0.28, kCommonOfPhotons = 0.11;
 
-/// Sums over the records valid at a place, of weight w, besides those of w and w E.
+/// Sums over the records valid at a place, of weight w, besides the sums of w and of w E.
 struct BlendSums {
   float weight2 = 0;  ///< of w^2
   float shared = 0;   ///< of w x the part of a record's variance that others have too

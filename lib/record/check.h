@@ -1,4 +1,4 @@
-// Can an irradiance record be one? For what reads them.
+// Checks irradiance records that were read.
 #pragma once
 
 #include "record/irradiance_cache.h"

@@ -3,8 +3,8 @@
 //
 // A record without one serves a disc: it reaches accuracy x radius_m all round, and its light changes by
 // first order gradients. With one, reach and change depend on the direction: eight axes on the tangent plane,
-// 45 degrees apart, each with a length and a parabola of the light along it. What reads records asks
-// record_error() and extrapolate() and need not know which kind it has; radius_m is that of the longest axis,
+// 45 degrees apart, each with a length and a parabola of the light along it. Code that reads records asks
+// record_error() and extrapolate() and need not know which kind it has; radius_m belongs to the longest axis,
 // so that whatever bounds a record's zone by a sphere stays right. Both kinds weigh alike and may be mixed.
 //
 // Border: between axes of lengths d1 and d2 it is |RP''| of E1, (1 - t) d1 + t d2, t from the chord. With
@@ -12,8 +12,8 @@
 // Weight: s' = sqrt(s^2 + (h / shortest)^2), h the height over the tangent plane, is continuous above the
 // record too. The error of A1 is the reach of s' and the turn, so that the weight is 1 at the record and 0
 // where the weight of E2 is, which is infinite there.
-// Change along an axis: slope s + bend s^2 / 2 (E4; both in lx over all of its length). Between axes slopes
-// are those of the plane through both ends (linear light is met exactly), bends linear in b / (a + b).
+// Change along an axis: slope s + bend s^2 / 2 (E4; both in lx over the whole length). Between axes the slope
+// follows the plane through both ends (linear light is met exactly), bends linear in b / (a + b).
 // Change by a turn: the same, with the sine of the angle in the place of lengths (E5).
 // E = E_R + both changes, at least 0. Beyond the axes the light of the border stands.
 #pragma once

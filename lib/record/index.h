@@ -1,5 +1,5 @@
-// Read-only lookup of records as columns: what a file of many records holds, so that opening it builds
-// nothing.
+// Read-only lookup of records as columns, which a file of many records holds, so that a program that opens
+// the file builds none.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline DVec3 corner_of(const DVec3& cell_lo, double half, unsigned o) {
 }
 
 /// RecordTree's octree as columns. Cells are numbered breadth first, so that the children of one follow each
-/// other and first children only grow: what violates that is no tree, and is refused.
+/// other and first children only grow: columns that violate this are no tree, and are refused.
 struct RecordIndex {
   std::array<double, 4> box{0, 0, 0, 1};  ///< lower corner and side of the root, m
   std::vector<std::uint8_t> children;     ///< per cell: bit o tells whether octant o has a cell
@@ -52,7 +52,7 @@ class RecordLookup {
   explicit RecordLookup(const Container& file, const RayScene* leak_test = nullptr);
   const RecordColumns& records() const { return records_; }
   double accuracy() const { return accuracy_; }  ///< at which they are read
-  /// Is the index that of the file?
+  /// Does the index come from the file?
   bool stored() const { return made_.children.empty(); }
   bool covered(const Vec3& p, const Vec3& n) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;

@@ -27,7 +27,7 @@ bool row_is_finite(const IrradianceRecord& r) {
 }  // namespace
 
 const char* what_is_wrong(const IrradianceRecord& r) {
-  const NoFloatTraps traps;  // files may hold what is not a number
+  const NoFloatTraps traps;  // files may hold numbers that are not finite
   if (!row_is_finite(r)) return "a value that is not finite";
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
   if (std::fabs(glm::length(r.normal) - 1) > 1e-3f) return "a normal that is not of unit length";
@@ -49,7 +49,7 @@ bool clear_between(const RayScene& rays, const Vec3& from, const Vec3& to) {
   return direction == Vec3(0) || !rays.occluded({from, direction, 0, glm::dot(to - from, direction)});
 }
 
-/// p raised along n by `most_m`, but no more than halfway to what is above it.
+/// p raised along n by `most_m`, but no more than halfway to the surface above.
 Vec3 raised(const RayScene& rays, const Vec3& p, const Vec3& n, float most_m) {
   Hit hit;
   if (rays.intersect({p, n, 0, 2 * most_m}, hit)) most_m = 0.5f * hit.distance_m;

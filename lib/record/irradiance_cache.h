@@ -1,4 +1,4 @@
-// Irradiance records: what they hold, their file, and interpolation between them.
+// Irradiance records: their content, their file, and interpolation between them.
 #pragma once
 
 #include <algorithm>
@@ -64,10 +64,10 @@ void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, TensorW
 /// Null: the records of the file hold it.
 std::shared_ptr<const CausticPhotons> caustics_of(const Container& file);
 
-/// a at which records are read that were placed with accuracy `placed`. Placement leaves few of them about a
-/// point, which show their noise; where more are blended it averages out (as Tabellion and Lamorlette 2004
-/// do). Up to 2.5 times `placed`, but no farther than `most`, where blur begins to outweigh what noise it
-/// takes away (measured), or `placed`.
+/// The accuracy a for reading records that were placed with accuracy `placed`. Placement leaves few records
+/// about a point, which show their noise; where more are blended it averages out (as Tabellion and Lamorlette
+/// 2004 do). Up to 2.5 times `placed`, but no farther than `most`, where blur begins to outweigh the noise
+/// that it takes away (measured), or `placed`.
 inline double reading_accuracy(double placed, double most = 0.5) {
   return std::min(2.5 * placed, std::max(placed, most));
 }
@@ -76,10 +76,10 @@ inline double reading_accuracy(double placed, double most = 0.5) {
 bool any_footprint(std::span<const IrradianceRecord> records);
 
 /// Appends the records of another cache of the same light, each with the reach that it was placed with. Where
-/// both have caustic photons, those of `all` stay.
+/// both have caustic photons, the photons of `all` stay.
 void append(IrradianceCache& all, const IrradianceCache& more);
 
-/// Throws Error(bad_input), saying what to do, unless the file, which holds records, is of this form.
+/// Throws Error(bad_input) with the remedy, unless the file, which holds records, is of this form.
 void require_form(FileForm form, const Container& file);
 
 /// The file also holds an index (record/index.h) where there are many records of a cache.
@@ -126,8 +126,8 @@ class RecordColumns {
 inline float height_over(const IrradianceRecord& r, const Vec3& p) {
   return std::fabs(glm::dot(p - r.position, r.normal)) / r.radius_m;
 }
-/// eps (docs/methods.md#a1): |p - p_i|/R_i + |n - n_i|/sqrt(2); R_i is that of the direction where the
-/// record has a footprint.
+/// eps (docs/methods.md#a1): |p - p_i|/R_i + |n - n_i|/sqrt(2); R_i is the radius in the direction of p where
+/// the record has a footprint.
 inline float record_error(const IrradianceRecord& r, const Vec3& p, const Vec3& n) {
   if (r.footprint) return r.footprint->error(p - r.position, n, r.normal, r.radius_m);
   return disc_error(p - r.position, n - r.normal, r.radius_m);
@@ -145,8 +145,8 @@ bool record_apart(const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 inline constexpr float kRoughness = 0.125f;
 /// Can the record and a point p that faces n see each other? Both ends are raised along their normals by the
 /// rounding of positions and by the height of the ridge between two flat pieces with these normals that meet
-/// halfway; if that is not clear, by kRoughness of their distance, but no more than halfway to what is above
-/// them, so that neither flat nor gently curved surfaces stand in their own way, and thin walls do.
+/// halfway; if that is not clear, by kRoughness of their distance, but no more than halfway to the surface
+/// above them, so that neither flat nor gently curved surfaces stand in their own way, and thin walls do.
 bool record_in_sight(const RayScene& rays, const IrradianceRecord& r, const Vec3& p, const Vec3& n);
 /// docs/methods.md#a5: E_i + (n_i x n).g_r + (p - p_i).g_t per channel, limited to [0, 2 E_i]; or E_i +
 /// change() of its footprint, which has been tested, at least 0. lx
@@ -186,8 +186,8 @@ struct Interpolated {
   float weight = 0;   ///< sum of weights; 0: a miss
   BlendSums sums;
 
-  /// Adds what a valid record says of the point p that faces n; until finish(), irradiance and the records'
-  /// own errors are sums.
+  /// Adds the light that a valid record states at the point p that faces n; until finish(), irradiance and
+  /// the records' own errors are sums.
   void add(const IrradianceRecord& r, float w, const Vec3& p, const Vec3& n) {
     const Rgb e = extrapolate(r, p, n);
     irradiance += w * e;

@@ -36,10 +36,10 @@ class RecordTree {
   /// The same. `record`, one of records() or any number beyond them, is asked first; it becomes the one that
   /// was found, which is likely to cover the next point too.
   bool covered(const Vec3& p, const Vec3& n, std::size_t& record) const;
-  /// The irradiance of interpolate() alone, lx, without what its errors cost. `weight` becomes the sum of
+  /// The irradiance of interpolate() alone, lx, without the cost of its errors. `weight` becomes the sum of
   /// weights; 0: a miss.
   Rgb irradiance(const Vec3& p, const Vec3& n, float& weight) const;
-  /// The records valid at p, n, replacing what `found` held; pointers last until the next insert().
+  /// The records valid at p, n, replacing the records in `found`; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// Adds the records valid at p, n that are no farther from it across their planes than `most_height`

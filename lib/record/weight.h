@@ -12,9 +12,9 @@ namespace phos::inline record {
 inline constexpr float kLeastWeight = 1e-6f;
 /// How far a record may lie behind the plane between itself and the point it lights, in units of its radius.
 inline constexpr float kFrontTolerance = 0.01f;
-/// How far over a record's plane a point may lie that it lights: its mean distance to what it sees, however
-/// large its radius has been made. In a niche or behind a cornice that is little, and what lies beyond has
-/// other light.
+/// How far over a record's plane a point may lie that it lights: its mean distance to the surroundings,
+/// however large its radius has been made. In a niche or behind a cornice this distance is small, and places
+/// beyond have other light.
 inline float over_limit_m(float distance_m, float radius_m) {
   return std::max(distance_m, kFrontTolerance * radius_m);
 }

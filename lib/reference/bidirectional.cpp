@@ -20,8 +20,8 @@ constexpr float kSameSurface = 0.5f;
 
 bool positive(const Rgb& c) { return max_component(c) > 0; }
 
-/// Does nothing stand between two places of one surface? Both are lifted over what a curved surface rises
-/// between them.
+/// Does nothing stand between two places of one surface? Both are lifted over the height that a curved
+/// surface rises between them.
 bool nothing_between(const RayScene& rays, const SurfacePoint& a, const SurfacePoint& b) {
   const Vec3 way = b.position - a.position;
   const float rise_m =
@@ -39,7 +39,7 @@ void add_indirect(const Rgb& light, const Rgb& glossy, PathSample& sum) {
   sum.indirect += (Rgb(1) - glossy) * light;
 }
 
-/// Share of what a surface reflects from wi to wo that its gloss does.
+/// Share of the light reflected from wi to wo that is gloss.
 Rgb glossy_share(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
   Rgb share(0);
   if (!bsdf.has_gloss()) return share;
@@ -66,7 +66,7 @@ struct BidirectionalTracer::Walk {
   bool camera = false;      // the ray is a camera's
   double light_paths = 1;   // connected to the vertex there for each path
   bool mirrored = false;    // the visible surface is a mirror or glass
-  Rgb glossy{0};            // share of what comes along the path that the visible surface's gloss reflects
+  Rgb glossy{0};            // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int32_t events = 0;  // scatterings and panes passed: numbers the random draws
 };

@@ -1,4 +1,5 @@
-// Light along paths from both ends: unbiased, but for the merging of what nothing else can make.
+// Light along paths from both ends: unbiased, but for merging, which finds light that no other strategy
+// finds.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +27,8 @@ struct EyeStart {
 /// Of one eye path.
 struct BidirectionalSample {
   PathSample sum;
-  Rgb bias{0};  ///< what merging within the whole radius adds to that within 1/sqrt(2) of it: an estimate of
-                ///< the bias of the latter, to second order
+  Rgb bias{0};  ///< the light of merging within the whole radius less within 1/sqrt(2) of the radius: an
+                ///< estimate of the bias of the latter, to second order
 };
 
 /// Bidirectional path tracing with multiple importance sampling (balance heuristic) over all connections
@@ -40,14 +41,14 @@ class BidirectionalTracer {
   BidirectionalTracer(const RayScene& rays, const Luminaires& luminaires, const LightStarts& lamps,
                       const PathOptions& options = {});
 
-  /// Luminance along a camera ray, cd/m2, but for what light paths bring to the camera themselves (splat()).
-  /// `path`: number of the light path that it is connected to.
+  /// Luminance along a camera ray, cd/m2, but for the light that light paths bring to the camera themselves
+  /// (splat()). `path`: number of the light path that it is connected to.
   BidirectionalSample luminance(const Ray& ray, const EyeStart& start, const LightPass& pass,
                                 std::size_t path, RandomStream& random) const;
 
-  /// Illuminance of a sensor on the side of its geometric normal, lx, by one path, but for what light paths
-  /// bring to the disc about it themselves (SensorDisc). `disc_eta`: (light paths a sensor path) x area of
-  /// that disc.
+  /// Illuminance of a sensor on the side of its geometric normal, lx, by one path, but for the light that
+  /// light paths bring to the disc about it themselves (SensorDisc). `disc_eta`: (light paths a sensor path)
+  /// x area of that disc.
   BidirectionalSample irradiance(const SurfacePoint& sensor, double disc_eta, const LightPass& pass,
                                  std::size_t path, RandomStream& random) const;
   /// The same of a point of a surface, by merging instead of a disc.

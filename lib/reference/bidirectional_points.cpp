@@ -22,7 +22,7 @@ constexpr std::size_t kLightPaths = 8192;
 /// Light paths that tell the radius of the discs, and the random stream of the first.
 constexpr std::size_t kProbingPaths = 65536;
 constexpr std::uint64_t kProbingItem = kLightItem | std::uint64_t{1} << 56;
-/// Radius of the largest disc over that of the scene.
+/// Radius of the largest disc over the radius of the scene.
 constexpr float kLargestDisc = 0.25f;
 constexpr std::size_t kPathsPerChunk = 64;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr double kNoise = 2.5;
 /// Radii with fewer expected paths tell nothing.
 constexpr double kLeastPaths = 8;
-/// Of the square of such a difference, what is taken as noise: so many variances. Of light that is even,
-/// straight, curved, a peak, a strip, and beside edges, 92 to 100 % lay within two errors.
+/// The part of the square of such a difference that is taken as noise: so many variances. Of light that is
+/// even, straight, curved, a peak, a strip, and beside edges, 92 to 100 % lay within two errors.
 constexpr double kTaken = 0.5;
 /// So many smaller radii tell the bias.
 constexpr std::size_t kDoubting = 4;
@@ -47,7 +47,7 @@ double DiscLight::noise_lx(std::size_t j, double paths) const {
   return std::max(row.disc[kLuminance].standard_error(), one * std::sqrt(std::max(1.0, paths)) / row.area_m2);
 }
 
-/// Within one radius, if the light is that of another.
+/// Within one radius, if the light is the light within another radius.
 double DiscLight::expected_paths(std::size_t of, std::size_t within) const {
   return static_cast<double>(rows_[of].paths) * rows_[within].area_m2 / rows_[of].area_m2;
 }

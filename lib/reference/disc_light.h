@@ -36,7 +36,7 @@ class DiscLight {
     DVec3 error{0};  ///< standard error with the estimated bias of the disc
     double illuminance_lx = 0, stderr_lx = 0;
   };
-  /// By the largest radius within which the disc's light is that of all smaller ones, to within their noise
+  /// By the largest radius within which the disc's light agrees with all smaller discs, to within their noise
   /// (Lepski's rule): where noise and bias are alike. The bias stated is the largest difference from discs of
   /// 1/2 to 1/16 of its area, as far as it is more than noise. An edge of light that is nearer than the
   /// distance between paths is not seen.

@@ -29,7 +29,7 @@ bool positive(const Rgb& c) { return max_component(c) > 0; }
 
 }  // namespace
 
-/// A path on its way: the next ray, and what the light found along it is worth.
+/// A path on its way: the next ray, and the weight of the light found along it.
 struct EyePathTracer::Walk {
   Ray ray;
   Vec3 from{0};  // where the ray was chosen, before it was lifted off the surface
@@ -47,7 +47,7 @@ struct EyePathTracer::Walk {
       0;                  // of the ray that left that event; 0: no event, or light has gone another way since
   float travelled_m = 0;  // from there to where the ray starts
   bool mirrored = false;  // the visible surface is a mirror or glass
-  Rgb glossy{0};          // share of what comes along the path that the visible surface's gloss reflects
+  Rgb glossy{0};          // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int64_t events = 0;  // scatterings and panes passed: numbers the random draws
 };
@@ -128,7 +128,7 @@ Rgb EyePathTracer::emission_at(const SurfacePoint& point, const Walk& walk) cons
   Vec3 from = walk.from;
   if (!(walk.density > 0)) {
     const std::int32_t chain = image_chain(walk);
-    if (chain == MirrorPlanes::kNone) return luminance;  // no image tells of it
+    if (chain == MirrorPlanes::kNone) return luminance;  // no image counts this light
     from = luminaires_->mirrors().image(chain, walk.from);
   }
   const float density =

@@ -45,8 +45,8 @@ bool LightTracer::meet(const SurfacePoint& point, const Bsdf& bsdf, double eta, 
     const LightStarts::Start& lamp = walk.lamp;
     const double choice = lamps_->share(lamp.light), cos_lamp = static_cast<double>(lamp.cos_lamp);
     every_light = 1 / choice;
-    // Densities of the lamp's place are of that place per m2, or of the direction per sr; what they share
-    // with those of the shadow rays, cos_lamp / d^2, is cancelled.
+    // Densities at the lamp are of the place per m2, or of the direction per sr. The factor cos_lamp / d^2,
+    // which they share with the densities of shadow rays, is cancelled.
     const double own = lamp.density * cosine;
     if (lamp.infinite)
       walk.end.connect =

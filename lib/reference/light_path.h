@@ -1,5 +1,5 @@
-// Paths of light from the lamps: the vertices that eye paths are connected to or merged with, and what
-// crosses the air after a sharp reflection.
+// Paths of light from the lamps: the vertices that eye paths are connected to or merged with, and
+// the segments that cross the air after a sharp reflection.
 #pragma once
 
 #include <cstdint>

@@ -22,8 +22,8 @@ constexpr std::size_t kMostTargets = 32;
 /// A target seen under less than this, as the sine of half its angle, is not aimed at: directions in single
 /// precision would not tell it from its surroundings.
 constexpr double kLeastSine = 1e-4;
-/// Rays from infinity start this far before the sphere about the scene, in its radii, so that what touches
-/// the sphere is not behind the start.
+/// Rays from infinity start this far before the sphere about the scene, in its radii, so that surfaces that
+/// touch the sphere are not behind the start.
 constexpr double kBeforeScene = 1.001;
 
 double ratio(const Rgb& part, const Rgb& whole) {
@@ -217,7 +217,7 @@ bool LightStarts::start_at_infinity(const Light& light, RandomStream& random, St
   return true;
 }
 
-/// First the direction, by the intensities; then a place on what is seen of the opening from there.
+/// First the direction, by the intensities; then a place on the part of the opening that is seen from there.
 bool LightStarts::start_at_opening(const Light& light, RandomStream& random, Start& result) const {
   const Fitting& fitting = scene_->fitting[static_cast<std::size_t>(light.fitting)];
   const Vec3 direction = fitting.sample_direction(random.uniform2());

@@ -10,9 +10,9 @@
 
 namespace phos::inline reference {
 
-/// Draws a lamp, a place on it and a direction. Half of the rays are aimed at what casts caustics, where that
-/// is small: spheres about the instances that reflect or refract sharply. Const and usable from any thread;
-/// holds references.
+/// Draws a lamp, a place on it and a direction. Half of the rays are aimed at surfaces that cast caustics,
+/// where these are small: spheres about the instances that reflect or refract sharply. Const and usable from
+/// any thread; holds references.
 class LightStarts {
  public:
   LightStarts(const Scene& scene, const Luminaires& luminaires);
@@ -27,7 +27,7 @@ class LightStarts {
     bool infinite = false;       ///< directional light or environment
     bool extended = false;       ///< can be hit by chance: area light or environment
   };
-  /// False where nothing leaves that way. The expected flux is that of all lamps.
+  /// False where nothing leaves that way. The expected flux is the flux of all lamps.
   bool start(RandomStream& random, Start& result) const;
 
   /// Density of start() for the ray along `direction` (unit, the way light travels) from `place` of light i

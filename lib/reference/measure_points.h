@@ -1,4 +1,4 @@
-// Irradiance at points by the method that a scene asks for, with what the errors do not hold.
+// Irradiance at points by the method that a scene asks for, with the light that the errors do not hold.
 #pragma once
 
 #include <span>
@@ -16,9 +16,9 @@ struct MeasuredPoints {
   std::uint64_t samples = 0, rejected = 0;  ///< of all points; rejected: not finite, left out
 };
 
-/// `ways` of the scene by which light can reach the points (light_ways()): they decide what `automatic` means
-/// and which errors are doubted. Point i has the random numbers of item options.item + i. Shows progress.
-/// Same bytes for any number of threads.
+/// `ways` of the scene by which light can reach the points (light_ways()): they decide the meaning of
+/// `automatic` and which errors are doubted. Point i has the random numbers of item options.item + i. Shows
+/// progress. Same bytes for any number of threads.
 MeasuredPoints measure_points(const RayScene& rays, const Luminaires& luminaires,
                               std::span<const SensorPoint> points, ReferenceMethod method,
                               const std::vector<LightWay>& ways, PointOptions options);

@@ -4,7 +4,7 @@
 // A sub-path grows vertex by vertex from a lamp or from an eye. f_i is the area density with which vertex i
 // was made, g'_i = |cos_i| / d^2 the geometry factor back along the edge to i+1, rho_i the density per sr
 // with which i sends back to i-1 when entered from i+1. Summed over all strategies that leave the end of the
-// sub-path to the other side, the densities over that of the connection at vertex i are
+// sub-path to the other side, the densities over the density of the connection at vertex i are
 //   b_i (U_i + rho_i V_i),   U_i = kappa_i / f_i + eta_i,   V_(i+1) = (g'_i / f_(i+1)) (U_i + rho_i V_i),
 // where b_i is the area density with which the other side would make i, kappa_i is 1 where i-1 and i can be
 // connected (neither scatters as a mirror does), and eta_i = (light paths an eye path) x pi r^2 where the two

@@ -28,7 +28,7 @@ constexpr std::size_t kSamplesPerChunk = 4096;
 /// and at least so many where eye paths are merged with them.
 constexpr std::size_t kMostLightPaths = 32768, kLeastLightPaths = 8192;
 constexpr std::size_t kVerticesPerChunk = 1024, kPixelsPerChunk = 256;
-// Bit 63 tells the paths of the illuminance layer from those of the picture (pixel < 2^31).
+// Bit 63 distinguishes the paths of the illuminance layer from the picture's paths (pixel < 2^31).
 constexpr std::uint64_t kIlluminanceItem = std::uint64_t{1} << 63;
 
 struct Channels {
@@ -47,7 +47,7 @@ struct Pixel {
   Channels total, indirect, bias;
   DVec3 emission{0}, direct{0}, glossy{0}, specular{0};
   Moments scattered, illuminance, illuminance_bias;
-  CentralMoments spread;  // of what is scattered
+  CentralMoments spread;  // of the scattered light
 };
 
 PathSample& operator+=(PathSample& sum, const PathSample& part) {
@@ -136,7 +136,7 @@ bool Renderer::sample_illuminance(const Ray& ray, std::uint64_t item, float& lux
   return std::isfinite(lux);
 }
 
-/// Where the pixel's next sample goes; `item` is that of its random numbers.
+/// Where the pixel's next sample goes; `item` is the item of its random numbers.
 Ray Renderer::next_ray(std::size_t pixel, RandomStream& random, std::uint64_t& item) {
   const std::uint32_t s = pixels_[pixel].taken++;
   item = (static_cast<std::uint64_t>(pixel) << 32) | static_cast<std::uint64_t>(s);

@@ -16,8 +16,8 @@ inline constexpr float kMostSurvival = 0.999f;
 /// The bounce of the numbers that a path starts with.
 inline constexpr std::uint32_t kStartBounce = 0xffff;
 
-/// False: the path ends. Else `throughput` is divided by the chance to go on, which is `share`, what is left
-/// of its light.
+/// False: the path ends. Else `throughput` is divided by the chance to go on, which is `share`, the part of
+/// its light that is left.
 inline bool survives(std::int64_t scatterings, float share, RandomStream& random, Rgb& throughput) {
   if (scatterings < kRouletteFrom) return true;
   const float survival = std::min(kMostSurvival, share);

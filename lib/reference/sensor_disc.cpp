@@ -7,7 +7,7 @@
 namespace phos::inline reference {
 namespace {
 
-/// Of the distance to what stands in the plane, so much is taken as free: a sector's sides reach it before
+/// Of the distance to surfaces in the plane, so much is taken as free: a sector's sides reach it before
 /// its middle.
 constexpr float kFree = 0.9f;
 /// Rounding of a segment's end, and of the sensor's place, in their bounds.

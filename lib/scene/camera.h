@@ -5,7 +5,7 @@
 
 namespace phos::inline scene {
 
-/// Camera::ray for many rays: what they share is worked out once. Same bits.
+/// Camera::ray for many rays: their common terms are worked out once. Same bits.
 class CameraRays {
  public:
   CameraRays(const Camera& camera, float image_aspect);

@@ -21,7 +21,7 @@ struct MeshData {
 /// Appends one instance. Winding is flipped under a mirroring transform, so that fronts stay fronts.
 /// Triangles without area and vertices without a triangle are left out, normals made or repaired; events of
 /// the scene count each. An instance that has no triangle left is not added. In a scene that has animations
-/// only those are left out that have no area at any time, so that what is added does not depend on the time:
+/// only those are left out that have no area at any time, so that the result does not depend on the time:
 /// by their own coordinates, or, where those deform, by their indices. `make_tangents`: from uv0 where the
 /// mesh has none. Throws Error(bad_input) for an index out of range or a position that is not finite,
 /// naming `what` and the vertex.

@@ -45,7 +45,7 @@ inline constexpr const char* kLightTooFaint = "light-too-faint";
 inline constexpr const char* kSunTooBright = "sun-too-bright";
 inline constexpr const char* kMetalByDefault = "metal-by-default";
 inline constexpr const char* kExtension = "extension";
-/// Of what lint_scene() says itself, from the scene.
+/// A fact that lint_scene() reports itself, from the scene.
 inline constexpr const char* kSaidByLint = "said-by-lint";
 
 /// One note for all that differ in their names alone, in the order of the first of each: its name lists a few

@@ -23,10 +23,11 @@ namespace phos::inline scene {
 
 namespace {
 
-// Geometries: what is hit; what is hit but for holes; what light may pass straight through.
+// Geometries: surfaces that are hit; surfaces that are hit but for holes; surfaces that light may pass
+// straight.
 constexpr unsigned kOpaque = 0, kMasked = 1, kPane = 2, kGeometries = 3;
 
-/// What every hit on a triangle needs of it, in one cache line.
+/// The data of a triangle that every hit needs, in one cache line.
 struct alignas(64) Facet {
   Vec3 corner[3];
   Vec3 normal;  // of the front side
@@ -150,7 +151,7 @@ struct RayScene::Impl {
   std::vector<Facet> facet;      // per triangle
   std::vector<Reads> reads;      // per material
 
-  std::string trouble;  // what Embree said last
+  std::string trouble;  // the last message of Embree
 
   void make_device(const std::string& isa);
   void throw_if_failed() const;

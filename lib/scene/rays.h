@@ -1,4 +1,4 @@
-// Rays against the scene (Embree), and what they find.
+// Rays against the scene (Embree), and their hits.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ struct Hit {
 struct SurfacePoint {
   Vec3 position{0};
   Vec3 geometric_normal{0, 0, 1};  ///< on the side it is seen from
-  Vec3 smooth_normal{0, 0, 1};     ///< interpolated vertex normal on the same side; what caches use
-  Vec3 normal{0, 0, 1};            ///< smooth_normal with the normal map applied; what BSDFs use
+  Vec3 smooth_normal{0, 0, 1};     ///< interpolated vertex normal on the same side, which caches use
+  Vec3 normal{0, 0, 1};            ///< smooth_normal with the normal map applied, which BSDFs use
   Vec3 tangent{1, 0, 0};           ///< orthogonal to normal; of an anisotropic material, x of its frame
   Vec2 uv0{0}, uv1{0};             ///< of the sets that the material's textures use; else 0
   Vec4 colour{1};
@@ -58,7 +58,7 @@ struct Crossing;
 struct RayOptions {
   std::string isa;  ///< "" = best of this machine; "sse2" for byte-exact files across machines
 };
-/// --isa: what RayOptions::isa is set to.
+/// --isa: the value of RayOptions::isa.
 void declare_isa(Options& options, std::string& isa);
 
 /// The acceleration structure. Queries are const and may be made from any thread. Holds a reference to the
@@ -78,8 +78,8 @@ class RayScene {
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Is there anything that light passes straight through (scene/material/passage.h)?
   bool has_panes() const;
-  /// Nearest hit on what does not pass the ray straight, and the crossings before it, in order. False if
-  /// there is no such hit; `crossings` are then all there are.
+  /// Nearest hit on a surface that does not pass the ray straight, and the crossings before it, in order.
+  /// False if there is no such hit; `crossings` are then all there are.
   bool through(const Ray& ray, Hit& hit, std::vector<Crossing>& crossings) const;
   /// Share of unpolarised light, by channel, that goes along a ray to its end, straight through panes; 0
   /// where anything else is in the way. Of a ray that ends at a finite distance also the factor of
@@ -100,7 +100,7 @@ class RayScene {
   /// The point a hit stands for, seen against the ray.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
   /// The facets and vertex normals of a large scene lie about in memory: before the surface() of each hit in
-  /// turn this asks for what those a few hits after it will read. Changes no result.
+  /// turn this fetches the data that hits a few places later will read. Changes no result.
   void ask_ahead(std::span<const Hit> hits, std::size_t turn) const;
   /// The Embree handle (RTCScene), for benchmarks that measure its bound.
   void* native() const;
@@ -111,8 +111,8 @@ class RayScene {
 };
 
 /// The ray that must be free for a point in space (a light's sample), known to `error_m`, to be seen from a
-/// surface point: it ends short of it by that or by the surface's own rounding. t_max_m is not above 0 where
-/// the two are too close to each other for anything to stand between: do not ask then.
+/// surface point: it ends short of the point by that error or by the surface's own rounding. t_max_m is not
+/// above 0 where the two are too close to each other for anything to stand between: do not ask then.
 Ray ray_between(const SurfacePoint& from, const Vec3& to, float error_m);
 
 /// intersect + surface.

@@ -80,17 +80,17 @@ struct Material {
   float specular = 1;      ///< KHR_materials_specular
   Rgb specular_colour{1};  ///< KHR_materials_specular
   float transmission = 0;  ///< KHR_materials_transmission; multiplied by the red of transmission_map
-  /// Glass: factor of what passes a thin pane, or each face of a solid; multiplied by the base_colour
-  /// texture.
+  /// Glass: factor on the light that passes a thin pane, or each face of a solid; multiplied by the
+  /// base_colour texture.
   Rgb tint{1};
-  /// thin_dielectric: internal transmittance of one passage along the normal; its transmittance is that of
-  /// the pane (scene/material/pane.h), or `curve` where there is one, times `tint`.
+  /// thin_dielectric: internal transmittance of one passage along the normal; its transmittance is the
+  /// pane's (scene/material/pane.h), or `curve` where there is one, times `tint`.
   Rgb inside{1};
   std::shared_ptr<const TransmittanceCurve> curve;
-  /// dielectric: what is absorbed inside of it, per m: light falls as exp(-absorption length); infinity: none
+  /// dielectric: absorption inside, per m: light falls as exp(-absorption length); infinity: none
   /// passes.
   Rgb absorption_per_m{0};
-  float thickness_m = 0;  ///< dielectric of KHR_materials_volume: of a sheet of it that encloses nothing
+  float thickness_m = 0;  ///< dielectric of KHR_materials_volume: of a sheet that encloses nothing
   /// Diffuse transmission of a thin sheet, Lambert's (KHR_materials_diffuse_transmission): share of the base
   /// that does not reflect but passes, and its colour; multiplied by the alpha of diffuse_transmission_map
   /// and by diffuse_transmission_colour_map. lambert: share times colour passes, and kd reflects whole.
@@ -172,7 +172,7 @@ struct Light {
   std::int32_t fitting = -1;   ///< of Scene::fitting: measured, or area (then its instance's); -1: none
   Rgb flux_lm{0};  ///< total emitted; directional, environment: through the scene's bounding disc (filled by
                    ///< finalize)
-  /// Has an extent as seen from a point, so that more than one sample of it is worth while; else it lights
+  /// Has an extent as seen from a point, so that more than one sample is worth while; else it lights
   /// from a single direction.
   bool extended() const { return kind == Kind::area || kind == Kind::environment; }
 };
@@ -240,7 +240,7 @@ struct Scene {
   BandTriplet bands;
   std::map<std::string, std::string> light_spectrum;  ///< as Material::spectrum, by the light's name
   std::int64_t frames = 0;     ///< of scenes[0].extras.animation, or from the longest animation
-  std::vector<Note> warnings;  ///< what the loader mended, ignored or put in place of something
+  std::vector<Note> warnings;  ///< parts that the loader mended, ignored or replaced
   std::map<std::string, std::uint64_t> events;  ///< degenerate triangles dropped, normals made, ...
   // Filled by finalize().
   Bounds bounds;

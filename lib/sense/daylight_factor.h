@@ -5,8 +5,8 @@
 
 namespace phos::inline sense {
 
-/// Horizontal illuminance in the open by the scene's sky or environment map (luminance of RGB), lx: what
-/// daylight factors are shares of. Throws Error(usage) where there is none, and where the scene has other
+/// Horizontal illuminance in the open by the scene's sky or environment map (luminance of RGB), lx, of which
+/// daylight factors are shares. Throws Error(usage) where there is none, and where the scene has other
 /// light, which they are not of: a sun, or lamps.
 double open_sky_lx(const Scene& scene);
 

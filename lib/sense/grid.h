@@ -33,7 +33,7 @@ float floor_level_m(const RayScene& rays, Axis up);
 
 /// On the front of the node's surfaces. A flat piece that fills most of its smallest rectangle and has room
 /// for four points, or is the whole mesh, has a grid of its own: along the rectangle's sides, centred, points
-/// not nearer to them than the margin. Other pieces (of what is curved) have points as often as their area
+/// not nearer to them than the margin. Other pieces (of curved surfaces) have points as often as their area
 /// asks, and no margin. Throws Error(usage) for an unknown node.
 Sensors mesh_grid(const Scene& scene, const GridOptions& grid);
 

@@ -85,7 +85,7 @@ Reading together(const Direct& direct, const Rgb& indirect, float stderr_lx) {
           indirect_lx, direct.components_lx + indirect};
 }
 
-/// Of a whole that holds the direct light: what is left is indirect, or noise. Null: that is not known.
+/// The direct light in a whole that holds it: the rest is indirect, or noise. Null: it is not known.
 Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* direct_or_null) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   if (!direct_or_null) return {whole_lx, stderr_lx, kUnknown, kUnknown, whole};
@@ -93,7 +93,7 @@ Reading apart(float whole_lx, const Rgb& whole, float stderr_lx, const Direct* d
   return {whole_lx, stderr_lx, direct.value_lx, std::max(whole_lx - direct.value_lx, 0.f), whole};
 }
 
-/// Records at the sensors that no cache covers, and what they say there.
+/// Records at the sensors that no cache covers, and the light that they state there.
 std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const RayScene& rays,
                                 const Luminaires& lights, const SensorCaches& caches,
                                 const std::shared_ptr<const CausticMap>& caustics,
@@ -142,7 +142,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   return readings;
 }
 
-/// Adds caustic light to what sensors read.
+/// Adds caustic light to the readings of sensors.
 void add_caustics(const Sensors& sensors, const RayScene& rays,
                   const std::shared_ptr<const CausticMap>& caustics, std::vector<Reading>& readings) {
   if (!caustics) return;
@@ -164,7 +164,8 @@ void add_caustics(const Sensors& sensors, const RayScene& rays,
 }
 
 /// How high over a record a sensor may be that it serves, of its radius. Gradients of surface records tell of
-/// light along the surface: what a sensor in the air over a desk or the edge of a screen sees is not theirs.
+/// light along the surface: the light at a sensor in the air over a desk or at the edge of a screen is not
+/// theirs.
 float most_height(double accuracy) { return static_cast<float>(0.2 * accuracy); }
 
 }  // namespace
@@ -246,7 +247,7 @@ std::unique_ptr<RecordTree> SensorCaches::tree(const Scene& scene) const {
 
 namespace {
 
-/// Light besides the direct, or all of it (`whole`), at a sensor.
+/// Light besides direct light, or all light (`whole`), at a sensor.
 struct Cached {
   Rgb light{0};
   float stderr_lx = 0;

@@ -85,7 +85,7 @@ class SensorCaches {
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// That at which tree() is read; there must be a cache.
   double accuracy() const;
-  /// All records in memory, each with its reach: what gathered rays read.
+  /// All records in memory, each with its reach, which gathered rays read.
   std::unique_ptr<RecordTree> tree(const Scene& scene) const;
 
  private:

@@ -13,10 +13,10 @@
 namespace phos::inline splat {
 
 struct SplatCaches {
-  /// Of all files together, the accuracy of the first (the others' radii are fitted to it); what radiance
-  /// records say of irradiance among it.
+  /// Of all files together, the accuracy of the first (the others' radii are fitted to it), with the
+  /// irradiance of radiance records.
   IrradianceCache irradiance;
-  RadianceCache radiance;       ///< likewise; empty where there is no such file, or nothing glossy
+  RadianceCache radiance;  ///< of all files together; empty where there is no such file, or nothing glossy
   std::vector<BrdfTable> brdf;  ///< empty where there is no such file
 };
 

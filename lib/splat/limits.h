@@ -6,7 +6,7 @@
 namespace phos::inline splat {
 
 inline constexpr Limit kMostNoiseRays{"rays of a pixel that `--noise` chooses", 4096,
-                                      "the noise is above the noise asked for; a warning says so"};
+                                      "the noise exceeds the noise asked for; a warning says so"};
 
 inline constexpr const Limit* kSplatLimits[] = {&kMostNoiseRays};
 

@@ -19,7 +19,7 @@ void to_pixels(double lo, double hi, int size, int& first, int& end) {
 Projection::Projection(const Camera& camera, int width, int height)
     : width_(width), height_(height), perspective_(camera.perspective), eye_(Vec3(camera.to_world[3])) {
   PHOS_CHECK(width > 0 && height > 0, width, " x ", height);
-  // From the camera's own matrix, so that what it makes of scales and mirrors in its node holds here too.
+  // From the camera's own matrix, so that scales and mirrors in its node hold here too.
   const glm::dmat4 rows = glm::transpose(glm::dmat4(camera.view_projection(1, 1, 2)));
   const DVec3 right = glm::normalize(DVec3(rows[0])), up = glm::normalize(DVec3(rows[1]));
   axes_ = glm::transpose(glm::dmat3(right, up, glm::cross(right, up)));

@@ -1,5 +1,5 @@
-// Square blocks of a G-buffer with bounds on what is visible in them, so that records are only drawn where
-// they can weigh something.
+// Square blocks of a G-buffer with bounds on the visible surfaces in them, so that records are only drawn
+// where they can weigh something.
 #pragma once
 
 #include <span>

@@ -16,7 +16,7 @@ struct BandsCommand {
   std::vector<std::string> dark;   ///< numbers of triplets
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const BandsCommand& asked);
 
 }  // namespace phos::stage

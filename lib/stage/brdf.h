@@ -18,7 +18,7 @@ struct BrdfCommand {
   BrdfTableOptions brdf;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const BrdfCommand& asked);
 
 }  // namespace phos::stage

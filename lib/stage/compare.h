@@ -20,7 +20,7 @@ struct CompareCommand {
   double range = 0;  ///< that full colours of a difference picture stand for; 0: automatic
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const CompareCommand& asked);
 
 }  // namespace phos::stage

@@ -1,4 +1,4 @@
-// phos-info: what a phos file holds and how it was made.
+// phos-info: the contents of a phos file, and how it was made.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct InfoCommand {
   PlyFormat ply = PlyFormat::ascii;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const InfoCommand& asked);
 
 }  // namespace phos::stage

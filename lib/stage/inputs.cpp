@@ -32,7 +32,7 @@ InputFiles tell_apart(const std::vector<std::string>& paths, Beside beside) {
       files.phos.push_back(path);
       continue;
     }
-    hash_file(path);  // what cannot be read is said before which scene it would be
+    hash_file(path);  // a file that cannot be read is reported before its scene
     take_scene(files.scene, path, beside);
   }
   return files;

@@ -29,8 +29,8 @@ struct IrradianceCommand {
   bool allow_mismatch = false;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
-/// that were left to it.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets
+/// the values that were left to it.
 void run(Tool& tool, IrradianceCommand& asked);
 
 }  // namespace phos::stage

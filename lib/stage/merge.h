@@ -15,7 +15,7 @@ struct MergeCommand {
   std::vector<std::string> shards;  ///< or parts
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const MergeCommand& asked);
 
 }  // namespace phos::stage

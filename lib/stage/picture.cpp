@@ -18,7 +18,7 @@ void refuse_given(const std::string& option, const char* what_for, const std::st
     throw Error(ExitCode::usage, option, text("is for ", what_for, "; ", input, " is ", what));
 }
 
-/// The name says what is written, the content of the input what can be.
+/// The name chooses the kind of output, among the kinds that the content of the input allows.
 void check_output(const std::string& output, const std::string& input, bool image) {
   if (image && output.ends_with(".svg"))
     throw Error(ExitCode::usage, "--output",

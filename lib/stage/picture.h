@@ -17,7 +17,7 @@ struct PictureCommand {
   bool goniometric = false;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const PictureCommand& asked);
 
 }  // namespace phos::stage

@@ -18,7 +18,8 @@ namespace phos::stage {
 /// What an estimate may read, besides the scene.
 struct RecordInputs {
   std::optional<PhotonMap> photons;
-  /// Read by rays where they land, in place of a coarse cache; what radiance records say among it.
+  /// Records that rays read where they land, in place of a coarse cache, with the irradiance of radiance
+  /// records.
   std::optional<IrradianceCache> source;
   std::optional<RadianceCache> radiance;  ///< read by rays where they land on gloss
   std::vector<BrdfTable> brdf;            ///< lobes of glossy materials
@@ -27,18 +28,19 @@ struct RecordInputs {
 RecordInputs open_record_inputs(const RecordFiles& files, const Scene& scene, bool allow_mismatch);
 
 /// Caustic photons that are to travel with records made from these inputs, which then leave such light out
-/// (RecordOptions::caustics_apart): those of the cache that is added to, or of the photons, or of a cache
-/// that is read. Null: records hold what they find of it. That is so without photons, where lamps without
-/// area and the sun are not found by way of mirrors; and where nothing in the scene is a mirror or glass.
-/// Throws Error(mismatch) for an earlier cache whose records hold such light, and photons that would not.
+/// (RecordOptions::caustics_apart): the photons of the cache that is added to, or of the photon map, or of a
+/// cache that is read. Null: records hold the caustic light that they find. That is so without photons, where
+/// lamps without area and the sun are not found by way of mirrors; and where nothing in the scene is a mirror
+/// or glass. Throws Error(mismatch) for an earlier cache whose records hold such light, and photons that
+/// would not.
 std::shared_ptr<const CausticPhotons> caustics_of_run(const RecordInputs& inputs, const Scene& scene,
                                                       const IrradianceCache* earlier_or_null,
                                                       const std::string& earlier_path);
 
-/// Lets radiance records cover what an irradiance cache need not hold again.
+/// Lets radiance records cover places that an irradiance cache need not cover again.
 class CoveredBy {
  public:
-  /// Appends what they say of irradiance to the cache, if that holds indirect light as they do.
+  /// Appends their irradiance to the cache, if the cache holds indirect light as they do.
   CoveredBy(IrradianceCache& cache, const std::optional<RadianceCache>& radiance);
   /// Once others have been appended: leaves those in alone.
   void take_out(IrradianceCache& cache) const;

@@ -40,7 +40,7 @@ ReferenceMethod method_of(const ReferenceOptions& reference) {
                                                                     : reference.method;
 }
 
-/// Warns of what the picture's error does not hold. Is it to be stated?
+/// Warns of light that the picture's error does not hold. Is the error to be stated?
 bool can_state_error(Tool& tool, const std::vector<LightWay>& ways, const ReferencePicture& picture) {
   const auto samples = static_cast<double>(picture.image.pixels()) * static_cast<double>(picture.samples);
   const std::vector<LightWay> missed = unsampled(ways, Sampler::path_tracing, samples);

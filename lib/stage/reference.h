@@ -18,8 +18,8 @@ struct ReferenceCommand {
   ReferenceOptions reference;
 };
 
-/// The body of the program, for each frame: `asked` holds what the options of `tool` are declared to set, and
-/// gets the values that were left to it.
+/// The body of the program, for each frame: `asked` holds the values that the options of `tool` are declared
+/// to set, and gets the values that were left to it.
 void run(Tool& tool, ReferenceCommand& asked);
 
 }  // namespace phos::stage

@@ -1,4 +1,4 @@
-// phos-scene: scene or photometry -> what it holds, what its light requires, and what is wrong with it.
+// phos-scene: scene or photometry -> its contents, the stages that its light requires, and its faults.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct SceneCommand {
   bool json = false;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set.
 void run(Tool& tool, const SceneCommand& asked);
 
 }  // namespace phos::stage

@@ -44,7 +44,7 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
   file.commit();
 }
 
-/// Of sensors whose records do not hold all light: those of files that say so, and those made here.
+/// Sensors whose records do not hold all light: records of files that say so, and records made here.
 void leave_out_errors(Tool& tool, const std::vector<Container>& files, const std::vector<LightWay>& ways,
                       bool caustics, const SensorOptions& sense, const SensorReport& report,
                       std::vector<Reading>& readings) {

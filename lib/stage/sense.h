@@ -28,8 +28,8 @@ struct SenseCommand {
   bool exact = false, allow_mismatch = false, factors = false;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
-/// that were left to it.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets
+/// the values that were left to it.
 void run(Tool& tool, SenseCommand& asked);
 
 }  // namespace phos::stage

@@ -60,7 +60,7 @@ class Site {
     for (std::string& name : names_of<DaylightOptions>()) by_rule_.insert(std::move(name));
   }
 
-  /// The line that says what was taken; "" for nothing.
+  /// The line that lists the values taken; "" for none.
   std::string take(const Container& file) {
     taken_.clear();
     file_ = &file;

@@ -11,9 +11,9 @@
 
 namespace phos::stage {
 
-/// Sets the options of SceneOptions that were not given to what the first of these files records, and returns
-/// one line for each file that says what was taken. Files of lobes are passed over: they are of materials
-/// alone. --time and --frame are left where a sequence is made. Throws Error(mismatch), unless
+/// Sets the options of SceneOptions that were not given to the values that the first of these files records,
+/// and returns one line for each file that lists the values taken. Files of lobes are passed over: they are
+/// of materials alone. --time and --frame are left where a sequence is made. Throws Error(mismatch), unless
 /// `allow_mismatch`, for an option that was given and contradicts a file, and for a file that was made with
 /// an environment map, luminaires or spectra where none are given: their paths are not recorded. What the
 /// scene hash tells better (another map, other bands) is left to require_together().

@@ -23,7 +23,7 @@
 namespace phos::stage {
 namespace {
 
-/// What was given for nothing, and what it lacks.
+/// Tells of inputs that are not used. Throws Error(usage) where gloss from records lacks the records.
 void tell_of_files(const Tool& tool, const std::vector<Container>& files, const RenderOptions& render,
                    bool glossy) {
   const bool radiance = std::any_of(files.begin(), files.end(), is_radiance);

@@ -26,8 +26,8 @@ struct SplatCommand {
   std::vector<Container> opened;  ///< the caches, from the first frame on
 };
 
-/// The body of the program, for each frame: `asked` holds what the options of `tool` are declared to set, and
-/// gets the values that were left to it.
+/// The body of the program, for each frame: `asked` holds the values that the options of `tool` are declared
+/// to set, and gets the values that were left to it.
 void run(Tool& tool, SplatCommand& asked);
 
 }  // namespace phos::stage

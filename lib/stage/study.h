@@ -1,4 +1,4 @@
-// phos-study: what settings cost and what they buy, measured.
+// phos-study: measures the cost and the error of settings.
 #pragma once
 
 #include "file/tool.h"
@@ -13,8 +13,8 @@ struct StudyCommand {
   StudyOptions study;
 };
 
-/// The body of the program: `asked` holds what the options of `tool` are declared to set, and gets the values
-/// that were left to it.
+/// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets
+/// the values that were left to it.
 void run(Tool& tool, StudyCommand& asked);
 
 }  // namespace phos::stage

@@ -12,12 +12,12 @@ namespace phos::inline study {
 struct Command {
   std::string tool;                    ///< "phos-photons"
   std::vector<std::string> arguments;  ///< inputs and options, without -o
-  std::string output{};                ///< what follows -o; empty: none
+  std::string output{};                ///< the value of -o; empty: none
 };
 
 /// As it is typed into a shell: words quoted where they need it.
 std::string shell_line(const Command& command);
-/// One word of it.
+/// One word of a command.
 std::string shell_word(const std::string& word);
 
 /// What a run took and said.

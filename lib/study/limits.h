@@ -5,7 +5,7 @@
 
 namespace phos::inline study {
 
-inline constexpr Limit kMostSettings{"settings of a study: every value with every other", 100000,
+inline constexpr Limit kMostSettings{"settings of a study: all combinations of its values", 100000,
                                      "exit code 2"};
 inline constexpr Limit kMostRepeats{"repeats of a study", 100000, "exit code 2"};
 

@@ -116,7 +116,7 @@ class Pixels {
 MeasuredError measure_picture(const Image& image, const Image& reference, const Image* second,
                               const MeasureOptions& options) {
   const std::string layer = layer_from_label(options.layer);
-  common_layers(image, reference, {{options.layer}, false});  // or it says what is wrong
+  common_layers(image, reference, {{options.layer}, false});  // or it throws with the fault
   const Names components = components_of(reference, layer);
   if (second) require_alike(*second, reference, layer, components);
   Image mean = mean_of(reference, second ? *second : reference, layer, components);

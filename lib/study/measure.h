@@ -26,13 +26,13 @@ struct MeasuredError {
   double bias = 0, relative_bias = 0;   ///< mean d
   double p99 = 0, relative_p99 = 0;     ///< 99th percentile of |d|; the reference's noise is in it
   double max = 0;                       ///< largest |d|; so it is here
-  std::optional<double> psnr_db, ssim;  ///< of what the eye sees (image/pu21.h); of layers in cd/m2
+  std::optional<double> psnr_db, ssim;  ///< as the eye sees (image/pu21.h); of layers in cd/m2
 
   // What the reference can tell. Absent where nothing says how noisy it is.
   std::optional<double> noise;       ///< its standard error, RMS over places / magnitude
   std::optional<double> resolution;  ///< least relative_rmse that is told from none: two standard deviations
   std::optional<double> rmse_stderr, bias_stderr;  ///< of the relative ones, by the noise of the reference
-  /// Is the error larger than what the reference's noise may feign? True where that is not known.
+  /// Is the error larger than the error that the reference's noise may feign? True where this is not known.
   bool resolved() const { return !resolution || relative_rmse > *resolution; }
 
   // What the result says of itself. Absent without a layer or column of standard errors.

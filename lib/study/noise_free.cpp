@@ -59,7 +59,7 @@ void NoiseFree::finish(MeasuredError& to) const {
     to.resolution = ratio(std::sqrt(2 * none), to.magnitude);
     to.bias_stderr = ratio(std::sqrt(variance_ / values / n), to.magnitude);
     const double spread = std::sqrt(variance_of_square(square_variance_ / n, variance2_ / n) / n);
-    // d rmse = d (rmse^2) / (2 rmse), and at no error what the reference may feign.
+    // d rmse = d (rmse^2) / (2 rmse), and where there is no error, the error that the reference may feign.
     const double feigned = std::sqrt(spread);
     to.rmse_stderr = ratio(to.rmse > feigned ? spread / (2 * to.rmse) : feigned, to.magnitude);
   }

@@ -1,4 +1,4 @@
-// Sums over places for an error without the noise of what it is measured against.
+// Sums over places for an error without the noise of its reference.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ class NoiseFree {
     double result = 0, reference = 0;
     double variance = 0;  ///< of the reference
     double stated = 0;    ///< standard error of the result, as it says
-    double spread2 = 0;   ///< variance of the reference as best known here, for what lies within two errors
+    double spread2 = 0;   ///< variance of the reference as best known here, for places within two errors
   };
   NoiseFree(NoiseFrom from, bool stated) : from_(from), stated_(stated) {}
   /// The components of a place. A place with a value that is not finite is passed over.
   void add(std::span<const Value> place);
-  /// Fills in places, magnitude, rmse, and what the reference and the result say.
+  /// Fills in places, magnitude, rmse, and the values of the reference and of the result.
   void finish(MeasuredError& to) const;
 
  private:

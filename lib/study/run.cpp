@@ -31,7 +31,7 @@ std::string without_digits(std::string s) {
   return s;
 }
 
-/// Is it what a program says is lost of a scene, which the study itself has said?
+/// Is it a program's warning of a part of the scene that is left out, which the study itself has given?
 bool is_told(const std::vector<SceneLoss>& losses, const std::string& line) {
   return std::any_of(losses.begin(), losses.end(),
                      [&](const SceneLoss& loss) { return line.ends_with(": " + loss.line); });
@@ -52,8 +52,8 @@ bool is_done(const StageRun& stage, const StudyJournal& journal) {
          size_of(stage.command.output) == cost->file_bytes;
 }
 
-// Commands that are not finished, or whose results the study itself reads and which are gone; and what these
-// read, as far as that is gone.
+// Commands that are not finished, or whose results the study itself reads and which are gone; and the
+// commands for the files that these read, where such files are gone.
 std::vector<std::size_t> work_left(const StudyWork& work, const StudyJournal& journal) {
   const std::vector<std::size_t> order = work.order();
   std::set<std::size_t> read_by_us, run;
@@ -67,7 +67,7 @@ std::vector<std::size_t> work_left(const StudyWork& work, const StudyJournal& jo
     const bool there = is_done(work.stages[i], journal);
     if (!journal.find(work.stages[i].id) || (read_by_us.contains(i) && !there)) run.insert(i);
   }
-  for (auto i = order.rbegin(); i != order.rend(); ++i)  // readers come after what they read
+  for (auto i = order.rbegin(); i != order.rend(); ++i)  // readers come after the makers of their inputs
     if (run.contains(*i))
       for (const std::size_t input : work.stages[*i].inputs)
         if (!is_done(work.stages[input], journal)) run.insert(input);
@@ -86,7 +86,7 @@ class Readers {
     for (const std::size_t i : left)
       for (const std::size_t input : work.stages[i].inputs) ++left_[input];
   }
-  /// One reader has run: removes what nobody reads any more.
+  /// One reader has run: removes the files that no command reads any more.
   void discard_inputs(const StageRun& reader) {
     for (const std::size_t input : reader.inputs) {
       std::error_code none;
@@ -99,12 +99,12 @@ class Readers {
   std::map<std::size_t, std::size_t> left_;
 };
 
-/// Says what it failed with; "" if it did not.
+/// The message with which it failed; "" if it did not.
 std::string run_stage(const StageRun& stage, const CommandRunner& runner, StudyJournal& journal,
                       const std::function<void(const std::string&)>& warn) {
   const CommandRun run = runner.run(stage.command);
   if (run.code == 0) {
-    if (!run.message.empty()) warn(run.message);  // programs are quiet: what they say is a warning
+    if (!run.message.empty()) warn(run.message);  // programs are quiet: all their messages are warnings
     if (!journal.find(stage.id))
       journal.add(stage.id, stage.command,
                   {run.wall_s, run.cpu_s, run.peak_bytes, size_of(stage.command.output)});

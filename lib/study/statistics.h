@@ -15,7 +15,7 @@ struct MeanInterval {
 };
 
 /// Mean of values of repeats, normally distributed: W. S. Gosset ("Student") 1908, t of n - 1 degrees of
-/// freedom. `common` is the standard error of what all of them share (the noise of one reference), which
+/// freedom. `common` is the standard error that all of them share (the noise of one reference), which
 /// repeats do not show: added in quadrature, as a normal deviation. One value alone is bounded by `common` if
 /// that is above 0, else not. No value gives a mean that is no number. `confidence` in (0, 1).
 MeanInterval mean_interval(std::span<const double> values, double confidence, double common = 0);

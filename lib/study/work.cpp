@@ -111,7 +111,7 @@ class Planner {
       if (*word != kEachCamera)
         ++word;
       else if (camera.empty())
-        word = words.erase(word - 1, word + 1);  // --camera and its value: the first is what programs take
+        word = words.erase(word - 1, word + 1);  // --camera and its value: programs take the first
       else
         *word++ = camera;
     }

@@ -17,7 +17,7 @@
 namespace phos::inline temporal {
 namespace {
 
-/// Sets the random numbers of looking ahead apart from those of the records.
+/// Sets the random numbers of looking ahead apart from the numbers of the records.
 constexpr std::uint64_t kOwnStreams = 0x6168656164206f66;
 /// Cells are taken together in squares of so many each way.
 constexpr int kTile = 4;
@@ -129,8 +129,8 @@ std::optional<RecordSite> AheadEstimator::Impl::moved(const RecordSite& site) co
   return there;
 }
 
-/// Adds to w.radiance what things that move, and lamps that do not, change of the lamps' light at what does
-/// not: exact, ray by ray. Marks in w.ask where that cannot tell. False: nothing.
+/// Adds to w.radiance the change of the lamps' light at hits that do not move, by surfaces that move and
+/// lamps that do not: exact, ray by ray. Marks in w.ask the hits where this is not enough. False: no change.
 bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& w) const {
   const auto known = [&](std::size_t i) {
     const Hit& hit = seen.hits[i];
@@ -154,7 +154,7 @@ bool AheadEstimator::Impl::change_of_shadows(const SeenPass& seen, AheadWorker& 
   return any;
 }
 
-/// Sets w.radiance to what the hits of a pass will send. False: the same as now.
+/// Sets w.radiance to the light that the hits of a pass will send. False: the same as now.
 bool AheadEstimator::Impl::change_of_lamps(const SeenPass& seen, std::uint32_t pass, const RecordSite& from,
                                            const RecordSite& to, AheadWorker& w) const {
   const Hemisphere& h = *seen.hemisphere;
@@ -287,7 +287,7 @@ Made AheadEstimator::make(const RecordSite& site, Estimator::Worker& worker) con
     const Made next = impl_->next.estimator.make(*there, *w.next);
     ahead = {next.record, next.radiance, 0};
   }
-  w.next->counters = Counters();  // what happened one frame on is not of this frame's records
+  w.next->counters = Counters();  // events one frame on are not of this frame's records
   ahead.record.irradiance = glm::max(ahead.record.irradiance, Rgb(0));
   made.ahead = std::make_shared<Ahead>(std::move(ahead));
   return made;

@@ -61,7 +61,7 @@ std::vector<Record> records_of(std::span<const Chain> chains, const FilmInfo& in
         if (const std::optional<Key> then = expected(key)) {
           Record to = with_life(*then);
           to.record.radius_m =
-              record.record.radius_m;  // neighbours and bounds have no say in what is expected
+              record.record.radius_m;  // neighbours and bounds do not change the expected light
           record.change = change_between(record, to);
         }
       }

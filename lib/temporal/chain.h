@@ -1,4 +1,4 @@
-// A place of a film and what its light was found to be, at some frames.
+// A place of a film and its light at some frames.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace phos::inline temporal {
 /// What was found at one frame.
 struct Key {
   std::int64_t frame = 0;
-  /// The frame up to which this key and the next are what the light there is known by; `frame` itself: this
-  /// key only ends what came before.
+  /// The frame up to which this key and the next give the light there; `frame` itself: this key
+  /// only ends the span before.
   std::int64_t until = 0;
   IrradianceRecord record;  ///< radius settled
   std::shared_ptr<const RadianceRecord> radiance;
@@ -28,7 +28,7 @@ struct Key {
   std::shared_ptr<const Ahead> ahead{};
   Pose ahead_pose{};
   double rate = 0;
-  bool jumps = false;  ///< what follows at `until` comes after a jump: nothing is interpolated to it
+  bool jumps = false;  ///< the light at `until` comes after a jump: nothing is interpolated to it
 };
 
 struct Chain {
@@ -47,7 +47,7 @@ inline constexpr std::uint64_t kFilmItems = std::uint64_t{1} << 43;
 /// Where the chain is at a frame: nothing if its surface has no area then.
 std::optional<RecordSite> site_of(const Chain& chain, const Scene& scene, Pose& pose);
 
-/// Adds what a chain's last key holds, where its surface is in `scene`; false if that has no area there.
+/// Adds the record of a chain's last key, where its surface is in `scene`; false if that has no area there.
 bool add_as_it_was(const Chain& chain, const Scene& scene, IrradianceCache& to);
 
 /// The key that an estimate at `site` gives, the radius within the chain's share and bounds. A record that

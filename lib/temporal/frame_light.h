@@ -54,7 +54,7 @@ struct LightOptions {
 };
 
 /// Everything that estimates light at one frame. The same random numbers at every frame: photons of the same
-/// paths and rays of the same records differ by what differs in the scene.
+/// paths and rays of the same records differ by the changes of the scene.
 class FrameLight {
  public:
   /// `source`: indirect light where gathered rays land, over time; null: photons of this very frame. Holds

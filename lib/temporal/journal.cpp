@@ -38,7 +38,7 @@ class Writer {
   std::string bytes_;
 };
 
-/// Reads what Writer wrote; good() is false once there was less than asked for.
+/// Reads the bytes that Writer wrote; good() is false once there were fewer than asked for.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : left_(bytes) {}
@@ -129,8 +129,8 @@ void get(Reader& in, Made& made) {
   made.ahead = std::move(ahead);
 }
 
-/// Not what was written: nothing that follows is believed. (Irradiance of radiance records may be below
-/// zero.)
+/// The bytes are not as they were written: nothing after them is believed. (Irradiance of radiance records
+/// may be below zero.)
 bool is_damaged(const IrradianceRecord& record, const RadianceRecord* radiance) {
   if (!radiance) return what_is_wrong(record);
   return radiance->order() < 1 || what_is_wrong(*radiance) || !is_finite(record.irradiance) ||
@@ -152,7 +152,7 @@ std::string contents_of(const std::string& path) {
 
 EstimateJournal::EstimateJournal(const std::string& path, const std::string& key, bool go_on)
     : path_(path), key_(key) {
-  std::size_t whole = 0;  // bytes of what is there
+  std::size_t whole = 0;  // bytes of whole entries
   if (go_on) whole = read(contents_of(path));
   if (whole > 0) {
     std::filesystem::resize_file(path, whole);

@@ -16,7 +16,7 @@ namespace phos::inline temporal {
 
 /// A file that grows by each estimate as it is made. Entries carry checksums: one that was cut off, and all
 /// after it, are not there. The order of entries does not matter, and the film of a run that goes on from a
-/// journal is that of an uninterrupted one, byte for byte.
+/// journal equals the film of an uninterrupted run, byte for byte.
 class EstimateJournal {
  public:
   /// Estimates of the run that `key` stands for. With `go_on`, those that an earlier run of the same key
@@ -25,7 +25,8 @@ class EstimateJournal {
   EstimateJournal(const std::string& path, const std::string& key, bool go_on);
   ~EstimateJournal();
   std::size_t found() const { return entries_.size(); }  ///< left by an earlier run
-  /// Work that adds to it. Where that is interrupted, the error says what is kept and how to go on.
+  /// Work that adds to it. Where that is interrupted, the error names the estimates that are kept, and how to
+  /// go on.
   template <class Work>
   auto keeping(const Work& work) {
     try {

@@ -20,7 +20,7 @@ struct FilmJob {
   GlossTables gloss;         ///< lobes that radiance records serve
   bool of_radiance = false;  ///< make radiance records, where gloss wants them; else irradiance records
   EstimateJournal* journal = nullptr;  ///< of FilmTask
-  bool covered_by_radiance = false;    ///< what radiance records serve gets no irradiance records
+  bool covered_by_radiance = false;    ///< places that radiance records serve get no irradiance records
 };
 
 /// What gathered rays read where they land: coarse records from photons traced every source_life frames.
@@ -28,7 +28,7 @@ Film make_source(const FilmJob& job, FrameScenes& scenes, Counters& counters);
 /// Do gathered rays read one?
 bool needs_source(const FilmJob& job);
 
-/// The chains of a film, and what it took to make them.
+/// The chains of a film, and the cost of making them.
 struct FilmChains {
   std::vector<Chain> chains;
   FilmReport report;
@@ -44,13 +44,13 @@ std::vector<Key> make_still(const FilmJob& job, FrameScenes& scenes, const Film*
 IrradianceCache still_irradiance(const FilmJob& job, std::span<const Key> keys);
 RadianceCache still_radiance(const FilmJob& job, std::span<const Key> keys);
 
-/// How a radiance film's records are made: as phos-radiance makes them, but for what is given.
+/// How a radiance film's records are made: as phos-radiance makes them, but for the options given.
 RadianceOptions radiance_options(const RecordOptions& given, const Options& options);
 /// Fills in places that come from the scene itself (view, photons or surface) for records of this accuracy.
 /// Throws Error(usage) for others.
 void resolve_film_places(PlacementOptions& placement, const Scene& scene, double accuracy);
 
-/// What the film's file says of it.
+/// The facts of the film for its file.
 FilmInfo info_of(const FilmJob& job);
 
 }  // namespace phos::inline temporal

@@ -12,7 +12,7 @@
 namespace phos::inline temporal {
 namespace {
 
-constexpr double kMostGrowth = 4;  // of what a hit covers
+constexpr double kMostGrowth = 4;  // of the share that a hit covers
 constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
 
 /// Turns about z, in [0, 1], to 2e-6 (Abramowitz and Stegun 4.4.47): the same bits on every machine.
@@ -90,7 +90,7 @@ void each_neighbour(const Hemisphere& h, std::size_t cell, const Visit& visit) {
   visit(h.at(ring, slice - 1)), visit(h.at(ring, slice + 1));
 }
 
-/// Fills each empty cell with what its deepest known neighbour holds, the deepest first.
+/// Fills each empty cell with the light of its deepest known neighbour, the deepest first.
 void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t>& source) {
   struct Front {
     float depth_m;
@@ -117,8 +117,8 @@ void flood(const Hemisphere& h, const Hemisphere& moved, std::vector<std::size_t
   }
 }
 
-/// What a hit covers of the hemisphere's measure at the second time, in parts of what it covered: cos(theta)
-/// cos(xi) / r^2, the first cosine in projected solid angle alone.
+/// The share of the hemisphere's measure that a hit covers at the second time, over its former share:
+/// cos(theta) cos(xi) / r^2, the first cosine in projected solid angle alone.
 double growth(const Hemisphere& now, const Hemisphere& moved, std::size_t i, const Vec3& normal) {
   const auto dot = [](const Vec3& a, const Vec3& b) { return static_cast<double>(glm::dot(a, b)); };
   double before = 1, after = 1;
@@ -146,9 +146,9 @@ struct Moved {
   bool apart(std::size_t a, std::size_t b) const { return goes[a] != goes[b] || one_hides_other(h, a, b, 0); }
 };
 
-/// What hits cover and what is left of it must make up the whole. The difference belongs to what lies behind
-/// the edges of something nearer: hits there cover the more or the less for it, up to nothing or the double.
-/// Returns how much of it they took.
+/// The shares that hits cover and the holes must make up the whole. The difference belongs to surfaces behind
+/// the edges of nearer ones: hits there cover the more or the less for it, up to nothing or the double.
+/// Returns how much they took.
 double take_behind_edges(const Hemisphere& cells, double missing, bool place_moves, Moved& moved) {
   std::vector<std::size_t> behind;
   double cover = 0;
@@ -219,7 +219,7 @@ ReprojectionCounts reproject(const Hemisphere& now, std::span<const Hit> hits, s
       ++counts.hidden;
   }
 
-  // What is missing came to light, most of it in cells that another surface has left.
+  // The missing share came into sight, mostly in cells that another surface has left.
   std::vector<std::size_t> source = moved.front, holes;
   for (std::size_t cell = 0; cell < n; ++cell)
     if (source[cell] == kNothing) ++counts.empty;

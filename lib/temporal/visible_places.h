@@ -9,8 +9,8 @@
 
 namespace phos::inline temporal {
 
-/// Looks at views of one or several frames, and takes what is seen back to where its surface is at the frame
-/// of `light`.
+/// Looks at views of one or several frames, and takes the visible places back to where their surfaces are at
+/// the frame of `light`.
 class VisiblePlaces {
  public:
   /// `known`: records there; those that pictures read (see reading_accuracy) are in sight. Open sites are

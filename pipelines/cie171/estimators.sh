@@ -1,13 +1,13 @@
-# For cie171.sh to source: estimate_NAME prints a table of id,x,y,z,nx,ny,nz,E_lx,stderr_lx,... of $points in $scene, with ${options[@]}.
+# Functions that cie171.sh sources. estimate_NAME prints the table id,x,y,z,nx,ny,nz,E_lx,stderr_lx,... for $points in $scene, with ${options[@]}.
 
 sense() { phos-sense "$scene" "$@" "${options[@]}" --points "$points"; }
-# Records at the points, from photons, which go when they are read.
+# Makes records at the points from photons, and removes the photons afterwards.
 from_photons() {
   phos-photons "$scene" "${options[@]}" --photons "$photons" -o "$folder/light.photons"
   phos-irradiance "$scene" "$folder/light.photons" "${options[@]}" --at "$points" --place every "$@" -o "$folder/light.irradiance"
   rm "$folder/light.photons"
 }
-# The same from rays, which read photons where there is light to be reflected more than once.
+# Makes records at the points from gathered rays. The rays read photons where light is reflected more than once.
 from_rays() {
   set -- --estimate gather --rays "$rays" "$@"
   if [[ $case == 5.8 ]]; then
@@ -19,23 +19,23 @@ from_rays() {
 
 # Path tracing at each point.
 estimate_exact() { sense --exact --samples 4000000 --error "$error"; }
-# Photons counted about each point, direct light too.
+# Photons counted about each point, photons of direct light included.
 estimate_records() {
   from_photons --direct cached
   sense "$folder/light.irradiance" --light-samples 0
 }
-# Gathered rays that read records of photons; direct light by shadow rays.
+# Gathered rays that read records of photons. Direct light comes from shadow rays.
 estimate_gathered() {
   from_rays
   sense "$folder/light.irradiance" --light-samples "$light_samples"
 }
-# The same, with direct light in the records; these reach no farther than light hardly changes.
+# The same with direct light in the records. The records reach only so far that light hardly changes.
 estimate_cached() {
   from_rays --direct cached --light-samples "$light_samples" --accuracy 0.05
   sense "$folder/light.irradiance" --light-samples 0
 }
-# Pixels of pictures that look straight at the points: those at each point and, where light is the same, 50 mm beside it along X; the standard
-# error is by their spread.
+# Pixels of pictures that look straight at the points. The value of a point is the mean of the pixels at the point and up to 50 mm beside it along X,
+# where light is the same. The standard error comes from the spread of these pixels.
 estimate_picture() {
   from_rays
   local camera normal
@@ -58,7 +58,7 @@ estimate_picture() {
       mean = sum / number; variance = (squares / number - mean ^ 2) / (number - 1)
       print $0 "," mean "," (variance > 0 ? sqrt(variance) : 0) }' "$folder/pixels.csv" "$points"
 }
-# Rows of 20 mm, as high as the camera sees.
+# picture_rows CAMERA: the number of rows of 20 mm over the height that the camera sees.
 picture_rows() {
   awk -v name="$1" -F'"' '/"type": "orthographic"/ && $4 == name { match($0, /"ymag": [0-9.]+/)
     printf "%.0f", 2 * substr($0, RSTART + 8, RLENGTH - 8) / 0.02 }' "$scene"

@@ -1,5 +1,6 @@
-# Readings of sensors -> rows of results: case,variant,point,sky,estimator,value,stderr,truth. First file: truth.csv; second: readings.
-# Sensors "NAME@SHARE" are summed, each times its share; errors of path tracing are independent, those of records are not.
+# Turns readings of sensors into rows of results: case,variant,point,sky,estimator,value,stderr,truth. The first file is truth.csv, the second the
+# readings. Sensors "NAME@SHARE" are summed, each times its share. The errors of path tracing are independent of each other, so that their squares
+# add up; the errors of records are not, and add up themselves.
 BEGIN { FS = "," }
 NR == FNR { if ($1 "" == case_of "" && $2 "" == variant "" && ($4 "" == sky "" || case_of == "5.5")) truth[$3] = $5; next }
 FNR == 1 { next }

@@ -1,16 +1,16 @@
-# Turns a list of plane things into a glTF scene. All lengths are in metres; fields are parted by blanks:
+# Turns a list of plane objects into a glTF scene. All lengths are in metres. Blanks separate the fields:
 #   matte NAME REFLECTANCE                                        a material that reflects diffusely
-#   glow NAME EXITANCE                                            a black one that shines diffusely, lm/m2
-#   pane NAME JSON                                                a thin pane; the JSON is its extras.phos
-#   wall NAME MATERIAL X Y Z X Y Z X Y Z [hole U0 U1 V0 V1]       a corner, two edges, and a hole, counted along the edges
-#   lamp NAME CANDELA X Y Z                                       the same intensity on all sides
-#   camera NAME X Y Z X Y Z X Y Z WIDTH HEIGHT                    parallel rays from a place; to its right, and up
-# Walls face along the cross product of their edges; those that glow shine to that side alone.
+#   glow NAME EXITANCE                                            a black material that emits light diffusely, lm/m2
+#   pane NAME JSON                                                the material of a thin pane; the JSON is its extras.phos
+#   wall NAME MATERIAL X Y Z X Y Z X Y Z [hole U0 U1 V0 V1]       a rectangle: corner, two edges, and a hole in metres along the edges
+#   lamp NAME CANDELA X Y Z                                       a point with the same intensity in all directions
+#   camera NAME X Y Z X Y Z X Y Z WIDTH HEIGHT                    an orthographic camera: place, direction to its right, direction up, size
+# The front of a wall faces along the cross product of its edges. A wall that glows shines from its front alone.
 BEGIN { pi = atan2(0, -1) }
 
 function number(x) { return sprintf("%.9g", x) }
 
-# A node whose x, y and z axes and place are four vectors.
+# Adds a node. Four vectors give its x, y and z axes and its place.
 function node(name, x1, x2, x3, y1, y2, y3, z1, z2, z3, p1, p2, p3, what) {
   nodes = nodes (nodes == "" ? "" : ",\n    ") "{\"name\": \"" name "\", \"matrix\": [" number(x1) "," number(x2) "," number(x3) ",0, " \
     number(y1) "," number(y2) "," number(y3) ",0, " number(z1) "," number(z2) "," number(z3) ",0, " \
@@ -18,7 +18,7 @@ function node(name, x1, x2, x3, y1, y2, y3, z1, z2, z3, p1, p2, p3, what) {
   all = all (count++ ? "," : "") count - 1
 }
 
-# The part of a wall between u0 and u1 along its first edge, v0 and v1 along its second, as shares of them.
+# Adds the part of a wall from u0 to u1 along its first edge and from v0 to v1 along its second, as shares of the edges.
 function piece(u0, u1, v0, v1,    e, f, n, length_n, i) {
   if (u1 - u0 < 1e-9 || v1 - v0 < 1e-9) return
   for (i = 1; i <= 3; ++i) { e[i] = $(6 + i) * (u1 - u0); f[i] = $(9 + i) * (v1 - v0) }

@@ -25,7 +25,7 @@ void sweep_offsets(const std::string& quantity, const AnalyticScene& s, const Of
   const float diagonal = s.scene.bounds.diagonal_m();
   double last = 0, worst = off_by(s);
   EXPECT_LT(worst, 0.02) << quantity << " at home";
-  std::string beyond = "above: not looked for";
+  std::string beyond = "above: not tested";
   for (int n = 0; n <= 24; n += 2) {
     const Vec3 by = std::ldexp(diagonal, n) * Vec3(0.6f, -0.3f, 0.75f);
     double off = HUGE_VAL;
@@ -40,7 +40,7 @@ void sweep_offsets(const std::string& quantity, const AnalyticScene& s, const Of
     last = std::ldexp(1.0, n), worst = std::max(worst, off);
   }
   EXPECT_GE(last, 1000) << quantity;
-  expect_limit({quantity, "offset of its floats, diagonals", 0, last, worst, beyond, true});
+  expect_limit({quantity, "offset of the coordinates, diagonals", 0, last, worst, beyond, true});
 }
 
 TEST(Offset, DirectLight) {

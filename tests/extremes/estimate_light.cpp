@@ -135,7 +135,7 @@ TEST(Light, LaserThinSpots) {
     if (!(off < 1e-2)) break;
     last = half_rad, worst = std::max(worst, off);
   }
-  expect_limit({"light of a spot", "half angle of its cone, rad", last, 0.1, worst, "below: not looked for"});
+  expect_limit({"light of a spot", "half angle of the cone, rad", last, 0.1, worst, "below: not tested"});
 }
 
 /// 100 x 100 lamps over a floor: the sum of the closed forms.
@@ -203,7 +203,7 @@ TEST(Light, NothingLeavesAClosedBox) {
     }
   }
   std::printf("1000 sizes off, %.2g of the flux gets out\n", worst_leak);
-  expect_limit({"flux that leaks from a closed box", "offset of its floats, sizes", 0, 16, 0,
+  expect_limit({"flux that leaks from a closed box", "offset of the coordinates, sizes", 0, 16, 0,
                 "at 1000: 1e-4 of the flux"});
   std::printf("%llu paths from inside, none out\n", static_cast<unsigned long long>(paths));
 }
@@ -240,7 +240,7 @@ TEST(Light, ThroughASlit) {
     last = static_cast<double>(slit), worst = std::max(worst, off);
   }
   expect_limit({"direct light of a lamp of 2 m through a slit", "width of the slit, m", last, 0.1, worst,
-                "below: few samples show it, and the stated error says so", true});
+                "below: few samples find the slit, and the stated error says so", true});
 }
 
 /// Glass takes nothing: all that a lamp in a black room sends is found on the walls, whatever bends it.
@@ -313,8 +313,8 @@ TEST(Light, GrazingSun) {
     const double one = static_cast<double>(lit.photons.totals.emitted_flux_lm.y) / 20000;
     EXPECT_NEAR(front, floor_lm, 4.5 * std::sqrt(floor_lm * one) + 1.01 * one) << elevation;
   }
-  expect_limit({"direct light of the sun", "elevation above the surface, rad", last, 1, worst,
-                "below: not looked for"});
+  expect_limit(
+      {"direct light of the sun", "elevation above the surface, rad", last, 1, worst, "below: not tested"});
 }
 
 }  // namespace

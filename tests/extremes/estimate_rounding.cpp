@@ -62,7 +62,7 @@ TEST(Rounding, WeightsOfRecords) {
     const float found = record_weight(record_error(r.record, r.p, r.n), kAccuracy);
     weight.see(static_cast<double>(found), exact, 1);
   }
-  weight.expect("the weight of a record, of 1", "distance, reaches", 1e-6, 1, 1e-6);
+  weight.expect("the weight of a record, absolute", "distance over the record's reach", 1e-6, 1, 1e-6);
 }
 
 TEST(Rounding, ExtrapolatedIrradiance) {
@@ -80,7 +80,8 @@ TEST(Rounding, ExtrapolatedIrradiance) {
       light.see(static_cast<double>(found[c]), exact, e);
     }
   }
-  light.expect("two-gradient extrapolation, of the record's light", "distance, reaches", 1e-6, 1, 1e-6);
+  light.expect("two-gradient extrapolation, relative to the record's light",
+               "distance over the record's reach", 1e-6, 1, 1e-6);
 }
 
 // --- gradients ---
@@ -150,12 +151,12 @@ TEST(Rounding, GradientsFromPhotons) {
       positional.see(found.positional.translation[c], places[c], apart[c]);
     }
   }
-  analytic.expect("gradients from photons, analytic, of their terms", "strongest over faintest photon", 1,
-                  1e6, 1e-5);
-  positional.expect("gradients from photons, positional, of their terms", "strongest over faintest photon", 1,
-                    1e6, 1e-5);
-  curvature.expect("the curvature of a photon's light, of its terms", "elevation of the light, rad", 1e-6,
-                   1.57, 1e-5);
+  analytic.expect("gradients from photons, analytic, relative to their terms",
+                  "strongest over faintest photon", 1, 1e6, 1e-5);
+  positional.expect("gradients from photons, positional, relative to their terms",
+                    "strongest over faintest photon", 1, 1e6, 1e-5);
+  curvature.expect("the curvature of a photon's light, relative to its terms", "elevation of the light, rad",
+                   1e-6, 1.57, 1e-5);
 }
 
 TEST(Rounding, GradientsFromRays) {
@@ -210,10 +211,10 @@ TEST(Rounding, GradientsFromRays) {
       analytic.see(a.translation[c], terms[c], sizes[c]),
           differences.see(w.translation[c], walls[c], lengths[c]);
   }
-  analytic.expect("gradients from rays, analytic, of their terms", "farthest over nearest surface", 1, 1e6,
-                  1e-5);
-  differences.expect("gradients from rays, differences, of their terms", "farthest over nearest surface", 1,
-                     1e6, 1e-5);
+  analytic.expect("gradients from rays, analytic, relative to their terms", "farthest over nearest surface",
+                  1, 1e6, 1e-5);
+  differences.expect("gradients from rays, differences, relative to their terms",
+                     "farthest over nearest surface", 1, 1e6, 1e-5);
 }
 
 // --- light of lamps ---
@@ -271,7 +272,7 @@ void direct_light(bool square, const std::string& name) {
     const long double exact = 1000 * facing * sr;
     light.see(static_cast<double>(e.value.x * (glm::dot(n, e.direction) / e.density)), exact, exact);
   }
-  light.expect("direct light of a " + name, "distance, sizes of the lamp", 1e-3, 1e4, 1e-4);
+  light.expect("direct light of a " + name, "distance over the size of the lamp", 1e-3, 1e4, 1e-4);
 }
 
 /// All samples of a far lamp are the same but for rounding: so little is the error that is stated, whether
@@ -297,7 +298,7 @@ TEST(Rounding, ErrorsOfDirectLight) {
     ASSERT_GT(light.radiance.x, 0);
     error.see(std::sqrt(light.variance.x), 0, static_cast<long double>(light.radiance.x));
   }
-  error.expect("the error of direct light, of that", "samples", 2, 300, 2e-7);
+  error.expect("the error of direct light", "samples", 2, 300, 2e-7);
 }
 
 TEST(Rounding, DirectLightOfATriangle) { direct_light(false, "triangle"); }

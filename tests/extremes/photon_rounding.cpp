@@ -61,7 +61,7 @@ TEST(Rounding, AreasOfHulls) {
     convex_hull(points, hull);
     area.see(hull.area, twice / 2, twice / 2);
   }
-  area.expect("the area of a hull", "aspect of its points", 1, 1e7, 1e-8);
+  area.expect("the area of a hull", "aspect ratio of the points", 1, 1e7, 1e-8);
 }
 
 TEST(Rounding, DensitiesOfPhotons) {
@@ -121,7 +121,8 @@ TEST(Rounding, AnglesFromASpotsAxis) {
       sine.see(std::sqrt((1 - cosine) * (1 + cosine)), exact, unit);
     }
   }
-  sine.expect("the angle from a spot's axis, of its cone", "half angle of its cone, rad", 1e-5, 1.5, 1e-3);
+  sine.expect("the angle from a spot's axis, relative to the cone", "half angle of the cone, rad", 1e-5, 1.5,
+              1e-3);
 }
 
 }  // namespace

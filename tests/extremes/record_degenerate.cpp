@@ -113,7 +113,7 @@ TEST(Degenerate, AllFromOneDirectionDownToGrazing) {
     if (right) last = elevation;
   }
   expect_limit({"irradiance from photons of one direction", "elevation above the surface, rad", last, kPi / 2,
-                0, "not looked for"});
+                0, "not tested"});
 }
 
 /// Light to one side of a wall that stands on the floor stays there, up to the wall's foot.
@@ -147,7 +147,7 @@ TEST(Degenerate, ZonesSplitByAWall) {
     least = static_cast<double>(x);
   }
   expect_limit({"irradiance beside a wall, lit on the other side", "distance from the wall, m", least, 1,
-                leak, "nearer: not looked for"});
+                leak, "nearer: not tested"});
 }
 
 /// Towards the corner of three planes, in a furnace: the same light all the way.
@@ -169,7 +169,7 @@ TEST(Degenerate, CornerOfThreePlanes) {
     least = static_cast<double>(d);
   }
   expect_limit({"irradiance from photons in a corner", "distance from three walls, m", least, 0.3,
-                std::max(worst, 0.0), "nearer: not looked for", true});
+                std::max(worst, 0.0), "nearer: not tested", true});
 }
 
 /// The dark side of a wall ever thinner, and of a sheet without any thickness.
@@ -189,8 +189,9 @@ TEST(Degenerate, ThinWalls) {
     if (leak > 0) break;
     thinnest = static_cast<double>(gap);
   }
-  expect_limit({"dark side of two walls of 4 m, lit from one side", "gap between them, m", thinnest, 0.1, 0,
-                "below: within the rounding of positions, one is taken for the other"});
+  expect_limit(
+      {"dark side of two walls of 4 m, lit from one side", "gap between the walls, m", thinnest, 0.1, 0,
+       "below: one wall is taken for the other, because the gap is within the rounding of positions"});
 }
 
 /// A triangle of 1 m by ever less, as a lamp: its light at 1 m is its area's, seen from afar.
@@ -220,7 +221,7 @@ TEST(Degenerate, NeedleLamps) {
     last = aspect;
   }
   expect_limit(
-      {"direct light of a needle", "aspect of the triangle", 1e3, last, worst, "above: not looked for"});
+      {"direct light of a needle", "aspect ratio of the triangle", 1e3, last, worst, "above: not tested"});
 }
 
 /// A surface cut into needles: the same irradiance on it as on one that is whole.
@@ -294,8 +295,9 @@ TEST(Degenerate, ThirtyBandsFromThePoleToTheHorizon) {
     }
   EXPECT_LT(worst, 1e-6);
   EXPECT_LT(worst_energy, 1e-3);
-  expect_limit({"harmonics of order 30", "elevation of the light, rad (error of its full irradiance)", 0,
-                kPi / 2, worst, "none"});
+  expect_limit({"harmonics of order 30",
+                "elevation of the light, rad (error relative to its full irradiance)", 0, kPi / 2, worst,
+                "none"});
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(Origin, NodesFarAwayGiveTheSameBytes) {
     last = std::ldexp(1.0, n);
   }
   EXPECT_GE(last, 1e6);
-  expect_limit({"scene of glTF nodes", "offset from the world's origin, times", 0, last / std::sqrt(2.0), 0,
+  expect_limit({"scene of glTF nodes", "offset from the world's origin, m", 0, last / std::sqrt(2.0), 0,
                 "above: doubles of the node matrices round"});
 }
 

@@ -31,7 +31,7 @@ TEST(Rounding, ErrorsOfPixels) {
     const Image image = layers.image(std::vector<std::uint16_t>{n});
     error.see(static_cast<double>(image.channel("stderr.R")[0]), exact, static_cast<long double>(light));
   }
-  error.expect("the error of a pixel, of its light", "samples", 2, 1000, 1e-7);
+  error.expect("the error of a pixel, relative to its light", "samples", 2, 1000, 1e-7);
 }
 
 /// Records that agree leave nothing but their own error.
@@ -51,7 +51,7 @@ TEST(Rounding, ErrorsOfMeansOfRecords) {
     const Rgb found = blended_error(sums, weight, mean, Rgb(0), static_cast<double>(luminance(mean)));
     error.see(static_cast<double>(found.x), 0, static_cast<long double>(value.x));
   }
-  error.expect("the error of a mean of records, of its light", "records", 1, 100, 1e-3);
+  error.expect("the error of a mean of records, relative to its light", "records", 1, 100, 1e-3);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct Animated : Gltf {
     m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = cd_m2;
     return m;
   }
-  /// A punctual light (its number is that of its call) and its node.
+  /// Adds a punctual light, whose number is the number of the call, and its node.
   int lamp(const std::string& name, const std::string& type, float intensity, float x, float y, float z) {
     Json light, n;
     light["type"] = type;

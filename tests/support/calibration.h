@@ -47,20 +47,20 @@ struct Calibration {
   }
   double share() const { return within / n; }
   double exact_share() const { return exact / n; }
-  /// Root mean square of the true over that of the stated errors.
+  /// Root mean square of the true errors over the root mean square of the stated errors.
   double ratio() const { return std::sqrt(off2 / stated2); }
   /// Mean error, in stated errors.
   double bias() const { return off / n / std::sqrt(stated2 / n); }
 };
 
-/// One scene, again and again with other random numbers. By estimator, what was found.
+/// Results of one scene, repeated with other random numbers, by estimator.
 using CalibrationTable = std::map<std::string, Calibration>;
 
 struct CalibrationOptions {
   std::int64_t paths = 400'000;  ///< that leave so many photons with an albedo of 0
   std::int64_t candidates = 20000;
   int points = 64;  ///< of a picture at which caches are read
-  int records = 8;  ///< of them, those at which records are made
+  int records = 8;  ///< points among these at which records are made
   std::int64_t rays = 256;
   bool photons = true, gathering = true, radiance = true, sensors = true;
 
@@ -93,13 +93,13 @@ struct KnownPoints {
   }
 };
 
-/// A scene, and what is known of its light.
+/// A scene whose light is known.
 struct KnownLight {
   std::string name;
   Scene scene;
   std::function<KnownPoints(const RayScene& rays, std::uint64_t seed, int most)> points;
-  double paths = 1;                   ///< times those asked for
-  Quantity quantity = Quantity::all;  ///< that records hold
+  double paths = 1;                   ///< factor on the paths asked for
+  Quantity quantity = Quantity::all;  ///< the quantity that records hold
   bool interreflected = true;         ///< else all light is direct
   bool even = false;                  ///< it comes alike from everywhere
 };
@@ -199,7 +199,7 @@ class CalibratedScene {
     return options;
   }
 
-  /// Records at points, and what a cache of them says between them.
+  /// Records at points, and the light that a cache of these records gives between them.
   void blended(const std::string& name, const Estimator& estimator, const Lit& lit,
                const RecordOptions& options, const KnownPoints& seen, std::uint64_t seed,
                CalibrationTable& table) const {
@@ -272,7 +272,8 @@ class CalibratedScene {
     }
   }
 
-  /// Of even light L: what leaves by a lobe f is L times the integral of f, in harmonics f_00 L sqrt(2 pi).
+  /// For even light L, the light that leaves by a lobe f is L times the integral of f, in harmonics
+  /// f_00 L sqrt(2 pi).
   void radiance(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
     constexpr int kOrder = 5;
     const RecordOptions options = gathered(Quantity::indirect);

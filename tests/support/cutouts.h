@@ -6,8 +6,8 @@
 namespace phos::test {
 
 /// rectangle_light_parallel() with an alpha of 1 on the half with x < a / 2, and of `other` on the rest of
-/// the lamp (a texture of two texels). The light is that of both halves, the second times what is there of
-/// it: nothing under a mask with `other` below 0.5, `other` of it under blending.
+/// the lamp (a texture of two texels). The light comes from both halves. The share of the second half that
+/// is there is 0 under a mask with `other` below 0.5, and `other` under blending.
 inline AnalyticScene half_cut_out(Material::Alpha mode, float other) {
   constexpr float kA = 2, kB = 3, kC = 1.5f;
   AnalyticScene s = rectangle_light_parallel(kA, kB, kC);

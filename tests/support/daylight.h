@@ -18,14 +18,15 @@ inline Environment sky_of(const std::string& sky, const std::string& sun, double
   return make_environment(resolve(o));
 }
 
-/// Of a disc of the sun, t radii of it beyond a straight edge (-1: hidden, 1: all seen): what is seen.
+/// The visible share of the sun's disc, whose centre is t of its radii beyond a straight edge (-1: hidden, 1:
+/// all seen).
 inline double seen_of_disc(double t) {
   if (t <= -1) return 0;
   if (t >= 1) return 1;
   return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
 }
 
-/// A black floor, and high over the half of it at x < 0 a roof.
+/// A black floor, and a roof high over its half at x < 0.
 inline Scene under_an_edge(float height_m, float half_side_m) {
   Scene scene = open_floor(half_side_m, 0);
   begin_instance(scene, "roof", 0);

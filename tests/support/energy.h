@@ -1,4 +1,5 @@
-// A closed room with glossy walls: what its surfaces absorb, as records tell it, against what its lamp emits.
+// A closed room with glossy walls: the light that its surfaces absorb by its records, against the light that
+// its lamp emits.
 #pragma once
 
 #include <functional>

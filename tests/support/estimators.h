@@ -1,4 +1,4 @@
-// Estimators that cost nothing, to test what is done with records.
+// Estimators that cost nothing, to test the use of records.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Stages hit by faults, and what is right afterwards.
+// Stages hit by faults, and the state that is right afterwards.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ inline std::string timeless(const std::string& folder) {
   return all;
 }
 
-/// Runs stages in a folder of its own, hits them, and judges what is left.
+/// Runs stages in a folder of its own, hits them, and judges the files that are left.
 class FaultBench {
  public:
   FaultBench() : folder_(scratch("faults")), inputs_(folder_ + "/in"), work_(folder_ + "/work") {
@@ -64,7 +64,7 @@ class FaultBench {
   ~FaultBench() { std::filesystem::remove_all(folder_); }
   const std::vector<FaultStage>& stages() const { return stages_; }
 
-  /// Runs the stage whole: what is right, how long it takes, and what memory.
+  /// Runs the stage without a fault, and keeps the right result, the time and the memory that it takes.
   void learn(const FaultStage& stage) {
     clear("");
     const Outcome run = start(stage, {});
@@ -73,7 +73,7 @@ class FaultBench {
     ASSERT_FALSE(right_.empty()) << stage.name;
   }
 
-  /// "" or what went wrong.
+  /// "", or the fault that was found.
   std::string hit(const FaultStage& stage, Fault fault, std::mt19937_64& random) {
     std::uniform_real_distribution<double> uniform;
     const double moment = uniform(random);

@@ -1,4 +1,4 @@
-// Every stage of the pipeline as a short command, with what it reads made once.
+// Every stage of the pipeline as a short command. The files that it reads are made once.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// One run of a tool, hit by a fault at a moment of it, and what that left.
+// One run of a tool, hit by a fault at some moment, and the files that it left.
 #pragma once
 
 #include <sys/mount.h>
@@ -82,7 +82,7 @@ inline void limit(int what, std::uint64_t most) {
   setrlimit(static_cast<__rlimit_resource>(what), &both);
 }
 
-/// Ends what a killed planner or study left running: any process with `folder` in its command line.
+/// Ends the processes that a killed planner or study left running: all with `folder` in their command lines.
 inline void wait_for_orphans(const std::string& folder) {
   for (bool some = true; some;) {
     some = false;

@@ -92,7 +92,7 @@ inline RecordTree uniform_tree(const Vec3& lo, const Vec3& hi, float irradiance_
   return tree;
 }
 
-/// The same of furnace(0.5), of what its walls reflect.
+/// The tree of records of furnace(0.5) for the light that its walls reflect.
 inline RecordTree half_furnace_tree(const AnalyticScene& furnace) {
   const Bounds& b = furnace.scene.bounds;
   return uniform_tree(b.lo, b.hi, static_cast<float>(0.5 * furnace.mean_irradiance_lx));

@@ -1,5 +1,5 @@
-// Golden files: what a stage gave when last looked at, in data/golden. A test program takes
-// --update, which writes them anew and prints what changes.
+// Golden files in data/golden: the output of a stage when it was last checked. A test program takes --update,
+// which writes them anew and prints the changes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Lines that are only in one of two texts, "- " before those of `old`, "+ " before those of `fresh`.
+/// Lines that are only in one of two texts, with "- " before lines of `old` and "+ " before lines of `fresh`.
 inline std::string changes(const std::string& old, const std::string& fresh) {
   const std::vector<std::string> a = lines_of(old), b = lines_of(fresh);
   // Longest common subsequence; the texts have tens of lines.
@@ -84,7 +84,7 @@ inline std::string to_json_lines(const Numbers& numbers) {
   return s + "}\n";
 }
 
-/// Reads what to_json_lines wrote.
+/// Reads the text that to_json_lines wrote.
 inline Numbers from_json_lines(const std::string& text) {
   Numbers numbers;
   for (const std::string& line : lines_of(text)) {
@@ -139,8 +139,8 @@ inline Numbers ranges_of(const std::string& file) {
   return numbers;
 }
 
-/// What an image may differ by: of all values of a channel, at most `fraction` by more than `relative` of the
-/// channel's mean magnitude, and none by more than `hard` of it.
+/// How far an image may differ: at most the share `fraction` of a channel's values by more than `relative`
+/// times the channel's mean magnitude, and no value by more than `hard` times that magnitude.
 struct ImageTolerance {
   double relative = 1e-3, fraction = 0.01, hard = 1;
 };

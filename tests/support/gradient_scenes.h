@@ -1,5 +1,5 @@
-// Rectangles and a sphere of uniform luminance round a receiver: irradiance in closed form, its gradients by
-// finite differences of that, and the rays and photons that estimators take theirs from.
+// Rectangles and a sphere of uniform luminance round a receiver: irradiance in closed form, gradients by
+// finite differences of this irradiance, and the rays and photons from which estimators take their gradients.
 #pragma once
 
 #include <algorithm>
@@ -88,7 +88,7 @@ struct GradientScene {
           if (r.luminance_at({x + r.checker / 2, y + r.checker / 2}) > 0)
             e += rectangle_lx(r, {x, y}, {x + r.checker, y + r.checker}, p, n);
     }
-    if (occluded) {  // what the occluder's projection from p covers of the first
+    if (occluded) {  // the part of the first that the occluder's projection from p covers
       const Rectangle &lamp = rectangles.front(), &occluder = rectangles.back();
       const double grown = (lamp.at - p.z) / (occluder.at - p.z);
       const DVec2 eye(p), lo = glm::max(lamp.lo, eye + (occluder.lo - eye) * grown),
@@ -121,7 +121,7 @@ struct GradientScene {
     return {-towards({0, 1, 0}), towards({1, 0, 0})};
   }
 
-  /// First thing along unit w from the receiver.
+  /// The first surface along unit w from the receiver.
   void trace(const DVec3& w, double& distance, double& luminance, DVec3& normal) const {
     distance = HUGE_VAL, luminance = 0, normal = -w;
     for (const Rectangle& r : rectangles) {
@@ -202,7 +202,7 @@ class PhotonSource {
  public:
   PhotonSource(const GradientScene& scene, double radius_m) : scene_(scene), radius_m_(radius_m) {
     for (const Rectangle& r : scene.rectangles) {
-      // cos cos / d2 is at most 1 / d2 from a ceiling, half of that from a wall.
+      // cos cos / d2 is at most 1 / d2 from a ceiling, and 1 / (2 d2) from a wall.
       const double d = r.axis == 2 ? r.at : glm::length(r.point(glm::clamp(DVec2(0), r.lo, r.hi))) - radius_m;
       most_.push_back((r.axis == 2 ? 1 : 0.5) / (d * d));
       cdf_.push_back((cdf_.empty() ? 0 : cdf_.back()) + r.luminance * r.area() * most_.back());

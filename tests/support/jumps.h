@@ -10,8 +10,7 @@
 
 namespace phos::test {
 
-/// The frames up to which light must not be interpolated: those at which jumps() is true of the step to
-/// them.
+/// The frames up to which light must not be interpolated: jumps() is true of the step to each of them.
 inline std::vector<std::int64_t> jumps_of(const std::string& path, std::int64_t frames) {
   std::vector<Scene> scene;
   for (std::int64_t f = 0; f < frames; ++f) scene.push_back(load_frame(path, {}, f));

@@ -1,5 +1,5 @@
-// docs/reference/measured-limits.md: for each quantity the range in which it is right, written by the tests that found
-// it. A test program takes --update, which writes its lines anew.
+// docs/reference/measured-limits.md: for each quantity the range in which it is right, written by the tests
+// that found it. A test program takes --update, which writes its lines anew.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,16 +17,16 @@ namespace phos::test {
 
 /// One line of the page.
 struct Limit {
-  std::string quantity, along;  ///< "direct light", "length of the scene, m": together they name the line
-  double from = 0, to = 0;      ///< where it is right
-  double error = 0;             ///< the worst there, relative; 0: every bit as the scaling law has it
-  std::string beyond;           ///< what happens outside
-  bool noisy = false;           ///< what is stated comes on top of the standard error of the estimate
+  std::string quantity, along;  ///< "direct light", "length, times": together they name the line
+  double from = 0, to = 0;      ///< the range in which results are right
+  double error = 0;             ///< the greatest relative error there; 0: every bit follows the law
+  std::string beyond;           ///< the behaviour outside
+  bool noisy = false;           ///< the error comes on top of the estimate's standard error
 };
 
 inline std::string limits_path() { return std::string(PHOS_SOURCE) + "/docs/reference/measured-limits.md"; }
 
-/// Half as much again, then up to the next of 1, 2, 5 times a power of ten: the same on other machines.
+/// 1.5 times the measured error, rounded up to 1, 2 or 5 times a power of ten: the same on other machines.
 inline double stated_error(double measured) {
   if (!(measured > 0)) return 0;
   const double unit = std::pow(10.0, std::floor(std::log10(1.5 * measured)));
@@ -64,24 +64,31 @@ inline std::vector<std::string> cells_of(const std::string& line) {
 
 inline const char* limits_head() {
   return "# Measured limits\n\n"
-         "For each quantity the range in which results are right, how right, and what happens outside. The\n"
-         "tests of `tests/extremes` sweep until something gives, and write these lines (`--update`); on every "
-         "run\n"
-         "each compares its own lines with what it finds. Sizes, powers and offsets are swept one at a time\n"
-         "about a room of 2 x 1 x 1.5 m and lamps of some lumens, by powers of two; both ends of the "
-         "demanded\n"
-         "range, 1e-6 to 1e6 m and 1e-12 to 1e12 lm, also together. \"exact\": every bit as the law of\n"
-         "dimensions has it (at equal lumens lux go by 1/s2, gradients by 1/s3, distances by s). \"noise\":\n"
-         "nothing but the standard error that the estimate states itself (4.5 of them). A number is the\n"
-         "relative error, rounded up. Lines on \"powers of ten\" tell what rounding does, as no such factor "
-         "is\n"
-         "exact; where it takes photons or rays over a border, estimates move within their \"noise\".\n\n"
-         "Files of scenes far from the world's origin are counted from an origin of their own (glTF nodes "
-         "and\n"
-         "OBJ vertices in double), at most sixteen diagonals off: lines on \"offset of its floats\" tell "
-         "what\n"
-         "that saves.\n\n"
-         "| quantity | along | right from | to | within | beyond |\n|---|---|---|---|---|---|\n";
+         "For each quantity, the table gives the range in which results are right, their error in that "
+         "range, and\n"
+         "the behaviour beyond. The tests of `tests/extremes` sweep until a result fails, and write these "
+         "lines\n"
+         "(`--update`). On every run each test compares its own lines with its results. Sizes, powers and "
+         "offsets\n"
+         "are swept one at a time, by powers of two, about a room of 2 x 1 x 1.5 m and lamps of some lumens. "
+         "Both\n"
+         "ends of the demanded range, 1e-6 to 1e6 m and 1e-12 to 1e12 lm, are tested together, too.\n\n"
+         "A number under \"within\" is the greatest relative error, rounded up. \"exact\" means that every "
+         "bit follows\n"
+         "the law of dimensions: at equal lumens and the size s, lux go as 1/s2, gradients as 1/s3, "
+         "distances as s.\n"
+         "\"noise\" means that the result is off by no more than 4.5 of the standard errors that the "
+         "estimate states.\n"
+         "Lines on \"powers of ten\" show the effect of rounding, because no such factor is exact in binary "
+         "numbers.\n"
+         "Where rounding takes photons or rays over a border, estimates change within their \"noise\".\n\n"
+         "Scenes far from the world's origin are counted from an origin near the scene, at most sixteen "
+         "diagonals\n"
+         "away; glTF nodes and OBJ vertices are read in double precision. Lines on \"offset of the "
+         "coordinates\" show\n"
+         "the offset that results would bear without such an origin.\n\n"
+         "| quantity | along | right from | to | within | beyond |\n"
+         "|---|---|---|---|---|---|\n";
 }
 
 inline void write_limit(const Limit& limit) {
@@ -100,8 +107,8 @@ inline void write_limit(const Limit& limit) {
   std::printf("%s\n", line_of(limit).c_str());
 }
 
-/// The page has this line. Errors may differ between machines: the one on the page must hold, and must not be
-/// twenty times what is found.
+/// The page has this line. Errors may differ between machines: the error on the page must hold, and must not
+/// be more than twenty times the error found.
 inline void expect_limit(const Limit& limit) {
   EXPECT_TRUE(std::isfinite(limit.error) && limit.from <= limit.to) << line_of(limit);
   if (updating_golden()) return write_limit(limit);
@@ -122,5 +129,4 @@ inline void expect_limit(const Limit& limit) {
                 << ": run this program with --update";
 }
 
-/// main of a test program with lines in the page.
 }  // namespace phos::test

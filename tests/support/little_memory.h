@@ -27,8 +27,8 @@
 
 namespace phos::test {
 
-/// What a child process that may take this much memory beyond what it has says of `body`: its exit code, or
-/// 128 and the signal that ended it; and the memory that it took, kB.
+/// The result of `body` in a child process that may take so much more memory than it has: its exit code, or
+/// 128 plus the signal that ended it, and the memory that it took, kB.
 struct Child {
   int code;
   long peak_kb;
@@ -39,7 +39,7 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   const pid_t pid = fork();
   if (pid == 0) {
 #if !PHOS_ADDRESS_SANITIZER
-    ::malloc_trim(0);  // what was freed before is no room
+    ::malloc_trim(0);  // memory that was freed before is no room
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
@@ -60,7 +60,7 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), usage.ru_maxrss};
 }
 
-/// `make`, with ever more memory up to `times` that of `whole`, gives `whole` or throws; both happen.
+/// `make`, with ever more memory up to `times` the size of `whole`, gives `whole` or throws; both happen.
 template <class Bytes>
 void expect_whole_or_no_memory(const Bytes& whole, const std::function<Bytes()>& make,
                                std::uint64_t times = 4) {

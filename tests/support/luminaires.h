@@ -43,8 +43,8 @@ inline Formula lopsided(double scale = 1) {
   return {[=](double c, double gamma) { return scale * (100 + 2 * gamma) * (1 + std::fabs(c - 180) / 90); },
           180, 90, 90};
 }
-/// I0 cos(gamma): a flat opening of it is as bright from everywhere. Steps of a quarter degree: 2.4e-6 off at
-/// most.
+/// I0 cos(gamma): a flat opening with this distribution is equally bright from everywhere. In steps of a
+/// quarter degree it is off by 2.4e-6 at most.
 inline Formula lambertian(double candela) {
   return {
       [=](double, double gamma) { return candela * std::max(0.0, std::cos(gamma * std::numbers::pi / 180)); },

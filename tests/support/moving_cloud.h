@@ -1,5 +1,5 @@
-// A hemisphere of rays and what they hit, which moves point by point: a scene of small triangles that face
-// the place, one for each ray.
+// A hemisphere of rays and the points that they hit, each of which moves by itself: a scene of small
+// triangles that face the place, one for each ray.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,16 @@ namespace phos::test {
 struct CloudPoint {
   Vec3 position{0};
   Rgb radiance{0};
-  std::optional<Vec3> next{};    ///< where it is a frame later; nothing: it stays
+  std::optional<Vec3> next{};    ///< its position a frame later; nothing: it stays
   std::optional<Vec3> normal{};  ///< nothing: towards the origin
-  std::optional<Vec3> turned{};  ///< that of a frame later; nothing: towards the origin, or as it is
+  std::optional<Vec3> turned{};  ///< the normal a frame later; nothing: towards the origin, or as it is
 };
 
-/// What rays from the origin see, above z.
+/// The points that rays from the origin see, above z.
 class MovingCloud {
  public:
-  /// `see(direction)`: what lies there; nothing: the ray escapes. `jitter`: anywhere in each cell, else
-  /// through its middle.
+  /// `see(direction)`: the point in that direction; nothing: the ray escapes. `jitter`: rays lie anywhere in
+  /// their cells, else in the middle.
   MovingCloud(int rings, int slices, Measure measure, bool jitter, std::uint64_t item,
               const std::function<std::optional<CloudPoint>(const Vec3&)>& see) {
     hemisphere.rings = rings, hemisphere.slices = slices, hemisphere.measure = measure;

@@ -1,4 +1,4 @@
-// Small closed rooms in which something moves, for what looks from one frame to the next.
+// Small closed rooms in which something moves, to test predictions from one frame to the next.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace phos::test {
 
 enum class Mover { nothing, lamp, dimmer, occluder, wall, floor, elsewhere };
 
-/// A room of 4 x 3 x 4 m with two grey tones, a point light, and a box. At `t` = 1 one thing has moved:
+/// A room of 4 x 3 x 4 m with two grey tones, a point light, and a box. At `t` = 1 one part has moved:
 /// lamp: by 0.3 m; dimmer: the lamp has 0.8 of its light; occluder: the box that casts a shadow, by 0.15 m;
 /// wall: a bright screen, 0.2 m nearer; floor: a platform that records lie on rises and tilts; elsewhere: a
 /// box outside of the room.

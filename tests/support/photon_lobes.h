@@ -1,4 +1,4 @@
-// What leaves a place through glossy lobes, of light that is known and of photons that tell of it.
+// The light that leaves a place through glossy lobes, computed from known light and from photons.
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ inline double through(const std::vector<double>& lobe, const std::vector<double>
   return sum;
 }
 
-/// Luminance that leaves a place of a scene without occluders, by quadrature over what shines.
+/// Luminance that leaves a place of a scene without occluders, by quadrature over the luminous surfaces.
 inline double outgoing(const GradientScene& scene, const NamedLobe& lobe, const DVec3& place) {
   constexpr int kNodes = 96;
   static const auto [node, weight] = [] {
@@ -76,7 +76,7 @@ inline std::vector<double> fitted(const std::vector<double>& moments, int order)
   return light;
 }
 
-/// Standard error of what leaves through a lobe, as a lookup finds it.
+/// Standard error of the light that leaves through a lobe, as a lookup states it.
 inline double stated(const std::vector<double>& lobe, const RadianceRecord& r) {
   double variance = 0;
   for (int l = 0; l < r.order(); ++l)

@@ -6,8 +6,8 @@
 namespace phos::test {
 
 /// Adds two triangles over [-a,a] x [-b,b] as an instance of a material; `up` tells the side of their front.
-/// Texture coordinates are those of the picture, upright for who looks at the front of one that faces up from
-/// y = -infinity.
+/// Texture coordinates show the picture upright to an eye at y = -infinity that looks at the front of a quad
+/// that faces up.
 inline std::uint32_t add_quad(Scene& scene, float a, float b, float z, bool up, std::uint32_t material) {
   const auto base = static_cast<std::uint32_t>(scene.position.size());
   const Vec3 corner[4] = {{-a, -b, z}, {a, -b, z}, {a, b, z}, {-a, b, z}};

@@ -1,5 +1,5 @@
-// Luminous surfaces round a place that faces +z, as seen from it along each direction: what coefficients of
-// radiance and their gradients are to be.
+// Luminous surfaces round a place that faces +z, as seen along each direction: the true coefficients of
+// radiance and their gradients.
 #pragma once
 
 #include <cmath>
@@ -87,8 +87,8 @@ inline std::vector<RadianceScene> radiance_scenes() {
 }
 
 /// Coefficients of a scene of rectangles seen from p, by quadrature over its surfaces: the light stays where
-/// it is. An occluder takes away what its projection from p covers of the first. Or moments, which the cosine
-/// at p weighs.
+/// it is. An occluder takes away the part of the first rectangle that its projection from p covers. With
+/// `moments`, the cosine at p weighs the light.
 inline std::vector<double> coefficients(const GradientScene& scene, const DVec3& p, int order,
                                         bool moments = false) {
   constexpr int kNodes = 48;

@@ -1,4 +1,4 @@
-// A scene with what estimates need of it, and estimates against closed forms within their own errors.
+// A scene with the data that estimates need, and estimates against closed forms within their own errors.
 #pragma once
 
 #include <gtest/gtest.h>

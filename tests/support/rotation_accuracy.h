@@ -77,8 +77,8 @@ struct RotationAccuracy {
   /// Root mean square over the lobes of the difference, relative in L2, from the turned sum of HSH over the
   /// part of the hemisphere that both horizons leave.
   double lobes_where_both_see = 0;
-  /// The same over the environments of the difference from the projection of the turned light, what was below
-  /// the horizon included.
+  /// Root mean square over the environments of the difference from the projection of the turned light, with
+  /// the light from below the old horizon.
   double environments = 0;
 };
 

@@ -1,4 +1,4 @@
-// How far a kernel, as it is shipped, is off what long doubles make of the same numbers.
+// The difference between a kernel, as it is shipped, and the result of long doubles from the same numbers.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -28,7 +28,7 @@ class Rounding {
     EXPECT_GT(seen_, 1000u) << kernel;
     EXPECT_LE(worst_, most) << kernel;
     std::printf("rounding of %s: %.3g, in %zu numbers\n", kernel.c_str(), worst_, seen_);
-    expect_limit({"rounding of " + kernel, along, from, to, worst_, "not looked for"});
+    expect_limit({"rounding of " + kernel, along, from, to, worst_, "not tested"});
   }
 
  private:

@@ -111,7 +111,7 @@ inline Run run_and_interrupt(const std::vector<std::string>& arguments, std::chr
 }
 
 /// One line of message: no newline but the last.
-/// Of what a program says on standard error: all but its warnings.
+/// The standard error of a program without its warnings.
 inline std::string without_warnings(const std::string& said) {
   std::string rest;
   for (std::size_t at = 0; at < said.size();) {

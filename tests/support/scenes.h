@@ -396,8 +396,8 @@ inline std::vector<AnalyticScene> all_point_scenes() {
   return all;
 }
 
-/// The scene with all lengths multiplied, and its lamps such that lux and cd/m2 stay what they were (candela
-/// grow with the square).
+/// The scene with all lengths multiplied by the factor. Its lamps are such that lux and cd/m2 stay the same
+/// (candela grow with the square).
 inline Scene scaled(const Scene& original, float factor) {
   Scene scene = original;
   for (Vec3& p : scene.position) p *= factor;

@@ -1,4 +1,4 @@
-// Records to draw, what drawing them must give, and how two such results differ.
+// Records to draw, the result that drawing them must give, and the difference of two such results.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace phos::test {
 
-/// Records on what the camera sees, random but for their places: irradiance 10..110 lx, gradients that change
-/// it by up to once its value over the radius. radius_m is lo..hi, distance_m less than that.
+/// Records on the surfaces that the camera sees, random but for their places: irradiance 10..110 lx,
+/// gradients that change it by up to its own value over the radius. radius_m is lo..hi, and distance_m is
+/// less.
 inline std::vector<IrradianceRecord> records_in_view(const RayScene& rays, const Camera& camera,
                                                      std::size_t count, float lo_m, float hi_m,
                                                      std::uint64_t seed = 1) {

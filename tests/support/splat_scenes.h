@@ -1,4 +1,4 @@
-// A scene whose light is known, all the way to splats over what its camera sees.
+// A scene whose light is known, from the estimates of its records to splats over the view of its camera.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace phos::test {
 
-/// Without records yet.
+/// A cache without records.
 inline IrradianceCache empty_cache(Quantity paths, double accuracy) {
   IrradianceCache cache;
   cache.accuracy = accuracy;
@@ -17,7 +17,7 @@ inline IrradianceCache empty_cache(Quantity paths, double accuracy) {
   return cache;
 }
 
-/// Records where `gbuffer` sees something (that is what a loop over misses comes to).
+/// Records where `gbuffer` sees a surface, as a loop over misses places them.
 inline IrradianceCache records_in_view(const Lit& lit, const GBuffer& gbuffer, Quantity paths,
                                        double accuracy) {
   RecordOptions options = all_light(*lit.scene);

@@ -14,7 +14,7 @@ inline const std::string kToyStages =
     "[reference]\nsamples = 16\nsensor_samples = 64\n"
     "[photons]\nphotons = [2000, 8000]\n[irradiance]\naccuracy = [0.2, 0.5]\n[splat]\npixel_samples = 1\n";
 
-/// A folder with the toy scene and a study of it.
+/// A folder with the toy scene and its study.
 inline std::string toy_study(const std::string& name, const std::string& more = "",
                              const std::string& stages = kToyStages) {
   const std::string folder = scratch("study-" + name);

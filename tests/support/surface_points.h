@@ -1,4 +1,4 @@
-// Random points on the surfaces of a scene, and what of them is covered.
+// Random points on the surfaces of a scene, and the share of these points that is covered.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@
 
 namespace phos::test {
 
-/// Lengths and lumens, in those of the original.
+/// Lengths and lumens, relative to the original's.
 struct Scale {
   double length = 1, lumens = 1;
   static Scale binades(int size, int power) { return {std::ldexp(1.0, size), std::ldexp(1.0, power)}; }
@@ -83,7 +83,7 @@ inline AnalyticScene moved(const AnalyticScene& original, const Vec3& by) {
 struct Figure {
   double value = 0;
   int length_power = 0, light_power = 0;
-  double noise = 0;  ///< its standard error; 0: what is not said to have any
+  double noise = 0;  ///< its standard error; 0: none is stated
 };
 struct Figures {
   std::vector<Figure> all;
@@ -111,7 +111,7 @@ struct Figures {
   }
 
  private:
-  static constexpr float kZone = 0.2f;  // of a record's radius: what the photons of its slope lie in
+  static constexpr float kZone = 0.2f;  // of a record's radius: the zone of the photons of its slope
 };
 using EstimateOf = std::function<Figures(const AnalyticScene&)>;
 using EstimateAt = std::function<Figures(Scale)>;
@@ -171,12 +171,12 @@ inline Followed follows(const Figures& original, Scale by, const EstimateAt& est
 
 inline std::string law_text(const Followed& f) { return f.refusal.empty() ? f.how : "refused"; }
 
-/// From 0 outwards by steps of `step` binades, as far as the law holds within `tolerance`, at most `most`;
-/// what is met there is told in `beyond`.
+/// The reach from 0 outwards by steps of `step` binades, as far as the law holds within `tolerance`, at most
+/// `most`. `beyond` describes the first step where it fails.
 struct Reach {
   int last = 0;
   double worst = 0;
-  Followed beyond;  ///< of the first that failed
+  Followed beyond;  ///< the first step that failed
   bool ended = false;
 };
 inline Reach reach_of(int step, int most, double tolerance, const std::function<Followed(int)>& at) {
@@ -226,11 +226,11 @@ inline void sweep_scales(const std::string& quantity, const EstimateAt& estimate
     if (by_noise > 0)
       std::printf("%s, %s: up to %d of %zu figures off within their noise\n", quantity.c_str(), along.c_str(),
                   by_noise, original.all.size());
-    // Where a single place may fall on the other side of a border, what is demanded is stated: how many do is
-    // another machine's luck.
+    // Where a single place may fall on the other side of a border, the page states the demanded error: the
+    // number of such places differs between machines.
     if (tolerance.decades > SweepTolerance().decades) worst = tolerance.decades / 1.5;
     expect_limit(
-        {quantity, along, std::pow(10, -most), std::pow(10, most), worst, "not looked for", by_noise > 0});
+        {quantity, along, std::pow(10, -most), std::pow(10, most), worst, "not tested", by_noise > 0});
   };
   by_tens("length, powers of ten", 6, [](int n) { return Scale::decades(n, 0); });
   by_tens("power, powers of ten", 12, [](int n) { return Scale::decades(0, n); });
@@ -241,7 +241,7 @@ inline void sweep_scales(const std::string& quantity, const EstimateAt& estimate
     const Reach down = reach_of(-step, most, tolerance.binades, at),
                 up = reach_of(step, most, tolerance.binades, at);
     const auto end = [](const Reach& r, const char* side) {
-      return std::string(side) + (r.ended ? law_text(r.beyond) : "not looked for");
+      return std::string(side) + (r.ended ? law_text(r.beyond) : "not tested");
     };
     for (const Reach* r : {&down, &up})
       if (r->ended)

@@ -76,9 +76,9 @@ inline EdgeErrors kernel_errors(Kernel kernel, ZoneEdge edge, double distance, d
                      });
 }
 
-/// Part of a kernel's integral on the lit side of an edge, which is what it finds of the light: for a chord
-/// at -d, the integral over x > -d of the kernel's profile 2 int_0^sqrt(1-x2) k(x2 + y2) dy, by the midpoint
-/// rule.
+/// Part of a kernel's integral on the lit side of an edge, which is the share of the light that it finds: for
+/// a chord at -d, the integral over x > -d of the kernel's profile 2 int_0^sqrt(1-x2) k(x2 + y2) dy, by the
+/// midpoint rule.
 inline double kernel_share(Kernel kernel, double distance) {
   constexpr int kSteps = 1000;
   double sum = 0;

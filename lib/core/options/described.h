@@ -7,7 +7,7 @@ namespace phos {
 
 struct OptionSheet;
 
-/// For programs, what --help says to people: the text of --options-json.
+/// The content of --help, for programs: the text of --options-json.
 Json described(const OptionSheet& sheet);
 
 }  // namespace phos

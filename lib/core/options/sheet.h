@@ -1,4 +1,4 @@
-// The declarations of a program: what its help, its manual page and its description in JSON are made from.
+// The declarations of a program, from which its help, its manual page and its description in JSON are made.
 #pragma once
 
 #include <functional>
@@ -24,10 +24,10 @@ struct OptionDeclaration {
   std::string other_name;  // of the option whose value this one sets
   bool is_flag = false, is_input = false, required = false;
   std::function<Json()> value;
-  std::function<void(const std::string&)> set;  // of what takes one value, or "true" and "false"
+  std::function<void(const std::string&)> set;  // of options that take one value, or "true" and "false"
   bool was_adopted = false;
   FileUse use = FileUse::read;
-  std::function<std::vector<std::string>()> paths;  // of what names files
+  std::function<std::vector<std::string>()> paths;  // of options that name files
   std::string default_text;
   Json initial;  // value at the declaration, of Recorded::unless_default
   CLI::Option* parsed = nullptr;

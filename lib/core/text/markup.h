@@ -6,7 +6,7 @@
 
 namespace phos {
 
-/// With what markup would read as its own replaced, and control characters left out: fit for elements and
+/// The text with the characters of markup replaced, and control characters left out: fit for elements and
 /// quoted attributes.
 std::string markup_text(std::string_view s);
 

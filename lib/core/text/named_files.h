@@ -21,7 +21,7 @@ std::vector<std::string> split_named_files(const std::string& word);
 /// NAME of one of them; the word itself if it is not of that form.
 std::string name_of(const std::string& word);
 
-/// Takes words apart, those of several NAME=FILE too. Throws Error(usage) for `option` ("--luminaire") where
+/// Takes words apart, also words of several NAME=FILE. Throws Error(usage) for `option` ("--luminaire") where
 /// one is not of that form.
 std::vector<NamedFile> named_files(const std::vector<std::string>& words, const std::string& option);
 

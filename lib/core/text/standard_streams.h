@@ -12,7 +12,7 @@ void occupy_standard_streams();
 /// One line on standard error, in one piece, so that lines of several programs do not mix.
 void print_line(const std::string& line);
 
-/// Flushes standard output. Throws Error(bad_input) where something of it could not be written, as behind a
+/// Flushes standard output. Throws Error(bad_input) where a part could not be written, as behind a
 /// full disk.
 void finish_stdout();
 

@@ -8,8 +8,8 @@ namespace phos::inline estimate {
 /// Light L of which only the moments b_i = integral of L cos(theta) H_i dw are known, as the photons that
 /// land on a surface tell them: its coefficients c solve G c = b, G_ij = integral of H_i H_j cos(theta) dw.
 /// That is the fit of least squares weighted by the cosine: exact for light of no more bands, and its
-/// irradiance is that of the moments. No photon is divided by its own cosine, whose inverse has no variance
-/// at the horizon.
+/// irradiance is the irradiance of the moments. No photon is divided by its own cosine, whose inverse has no
+/// variance at the horizon.
 ///
 /// cos(theta) = (Z + 1) / 2 on the sphere of which HSH are harmonics, so that G is tridiagonal in l for each
 /// m: 1/2 on the diagonal, sqrt((l^2 - m^2) / (4 l^2 - 1)) / 2 beside it. It is positive definite, its least

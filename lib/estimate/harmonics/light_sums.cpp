@@ -6,8 +6,8 @@
 namespace phos::inline estimate {
 namespace {
 
-/// Of the distance of what the light comes from: how far differences move the place to either side. They are
-/// right to the square of this, and their rounding is 1e-7 of its inverse.
+/// The step to either side by which differences move the place, over the distance of the light's source. They
+/// are right to the square of this, and their rounding is 1e-7 of its inverse.
 constexpr float kStep = 1.f / 128;
 
 std::size_t count_of(const HarmonicBasis<float>& basis) { return static_cast<std::size_t>(basis.count()); }
@@ -81,7 +81,7 @@ void LightSums::add(const DirectedLight& l) {
 }
 
 /// From a place moved by kStep of a source's distance along an axis, the source lies in another direction,
-/// and its light is (1 + step n_a / cos) / (distance ratio)^power of what it was.
+/// and its light is (1 + step n_a / cos) / (distance ratio)^power times the former light.
 void LightSums::add_differences(const DirectedLight& l) {
   for (const int axis : {0, 1}) {
     for (const float step : {kStep, -kStep}) {

@@ -16,7 +16,7 @@ namespace phos::inline estimate {
 struct DirectedLight {
   Vec3 direction{0, 0, 1};  ///< unit
   Rgb value{0};             ///< light that a harmonic weighs
-  Rgb per_m{0};             ///< the same over the distance of what it comes from
+  Rgb per_m{0};             ///< the light over the distance of its source
   Vec2 normal{0};           ///< tangential part of the normal there over its cosine with the direction
 };
 
@@ -24,23 +24,23 @@ struct DirectedLight {
 enum class SlopesBy {
   none,
   terms,        ///< of each term: value / r ((n_a / cos + power w_a) H - G_a), G the surface gradient of H
-  differences,  ///< between places displaced to either side, what the light comes from kept
+  differences,  ///< between places displaced to either side, with the sources of light kept
 };
 
-/// As the place moves, light falls with this power of the distance, besides the cosine of what it comes from.
+/// As the place moves, light falls with this power of the distance, besides the cosine at its source.
 enum class Falloff {
   solid = 3,      ///< light is radiance x solid angle
   projected = 4,  ///< and x the cosine of the place's own surface, which falls too
 };
 
-/// Sums of harmonics, in double over blocks of directions in float; for one thread. start(), add what there
-/// is, finish().
+/// Sums of harmonics, in double over blocks of directions in float; for one thread. start(), add the
+/// light, finish().
 class LightSums {
  public:
   explicit LightSums(int order);
   void start(SlopesBy slopes, Falloff falloff);
   void add(const DirectedLight& light);
-  /// Light that comes into sight at an edge of what hides it, per metre of movement along x and y.
+  /// Light that comes into sight at an edge of an occluder, per metre of movement along x and y.
   void add_edge(const Vec3& direction, const Rgb& along_x, const Rgb& along_y);
   void finish();
 

@@ -71,7 +71,7 @@ AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float)>& light, fl
   }
 }
 
-/// Neighbouring rays that hit what is alike, as one: sums, and means weighted by what they take.
+/// Neighbouring rays with hits alike, as one: sums, and means weighted by the share that they take.
 struct LightNearby::Bundle {
   float distance_m;  // of the first
   Vec3 normal;       // of the first

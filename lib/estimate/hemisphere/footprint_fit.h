@@ -1,4 +1,4 @@
-// Adaptive footprints from what a record's rays have seen (docs/methods.md#e).
+// Adaptive footprints from the hits of a record's rays (docs/methods.md#e).
 #pragma once
 
 #include <functional>
@@ -16,25 +16,25 @@ namespace phos::inline estimate {
 struct AxisFit {
   float length_m = 0;
   Rgb slope{0}, bend{0};  ///< as AdaptiveFootprint::Axis has them
-  bool resolved = false;  ///< within rho at a quarter and at three quarters of it
+  bool resolved = false;  ///< within rho at a quarter and at three quarters of its length
   int evaluations = 0;
 };
 /// docs/methods.md#e4 and #e6: the parabola through the light at 0 (`at_place`), at half and at all of
 /// `length_m`, which is halved until at a quarter and three quarters of it the parabola is off by at most rho
-/// of the light there (of its brightest colour, which counts as at least 0.001 of that at the place). No
+/// of the light there (of its brightest colour, which counts as at least 0.001 of its value at the place). No
 /// shorter than `least_m`: an axis that would be is not resolved. `light` at a distance is asked for two new
 /// ones a step: at most 5 + 2 log2(length / least) in all.
 AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float distance_m)>& light, float length_m,
                  float least_m, float rho);
 
-/// docs/methods.md#e3: light near a place, if all that its rays hit stayed in sight and shone as it does:
+/// docs/methods.md#e3: light near a place, if all hits of its rays stayed in sight and kept their luminance:
 /// hits as equivalent point lights of intensity L d^2 / density that fall off with the emitter's cosine (13).
-/// Exact at the place. Neighbouring rays that hit what is alike make one light (some 256 in all, or more).
-/// What a hit takes of the hemisphere has a size: it comes no nearer than a quarter of its distance.
-/// Occlusion, which such lights know nothing of, enters to first order by the difference of the gradients
-/// with and without it (docs/methods.md#b5, #b4). What the hits take of the hemisphere, moved alike, must add
-/// up to all of it: light is divided by that sum, so that it is even where all shines alike, and where the
-/// sum is far from 1 things have come into sight or out of it, and nothing is known (known()).
+/// Exact at the place. Neighbouring rays with hits alike make one light (some 256 in all, or more).
+/// The share of the hemisphere that a hit takes has a size: it comes no nearer than a quarter of its
+/// distance. Occlusion, which such lights know nothing of, enters to first order by the difference of the
+/// gradients with and without it (docs/methods.md#b5, #b4). The shares of the hits, moved alike, must add up
+/// to 1: light is divided by that sum, so that it is even where all shines alike. Where the sum is far from
+/// 1, surfaces have come into sight or gone out of sight, and nothing is known (known()).
 class LightNearby {
  public:
   /// `mode`: of ray_gradients(); distances below `least_m` count as that much there. In the frame of the
@@ -42,14 +42,14 @@ class LightNearby {
   LightNearby(std::span<const Hemisphere> passes, GradientMode mode, float least_m);
   struct Light {
     Rgb irradiance{0};  ///< lx, may be below 0
-    float seen = 1;     ///< what the hits take of the hemisphere
+    float seen = 1;     ///< the share of the hemisphere that the hits take
   };
   /// At `step` on the tangent plane (along frame.x and frame.y, m), the normal as it is. `of_occlusion`:
-  /// share of what occlusion changes that counts.
+  /// the share of the change by occlusion that counts.
   Light at(const Vec2& step, float of_occlusion = 1) const;
   /// Change of irradiance by a turn of the normal by asin(`sine`) towards unit `axis` of the tangent plane,
-  /// beyond what is linear in the sine: cosines become smaller, and what falls below the horizon, where it
-  /// would count negative, is left out. Light of lamps is added by the same rule. lx
+  /// beyond the part linear in the sine: cosines become smaller, and light below the horizon, which would
+  /// count negative, is left out. Light of lamps is added by the same rule. lx
   Rgb bend_by_turn(const Vec2& axis, float sine, std::span<const LampSample> lamps) const;
   /// How fast occlusion changes light along it, lx/m.
   const Rgb& occlusion(int tangent_axis) const { return occlusion_[tangent_axis]; }
@@ -91,10 +91,10 @@ struct FittedFootprint {
   int unresolved = 0;  ///< axes that are as short as they may be and still off by more than rho
 };
 
-/// Radius along each axis that surroundings leave (docs/methods.md#e1): distance to the nearest thing that a
-/// ray has found within 22.5 degrees of the axis and more than 30 degrees from the normal; where there is
-/// none, the mean of those of the axes beside it, most_m counting for one that has none either. Within
-/// bounds, and no axis more than twice its neighbours (docs/methods.md#e7).
+/// Radius along each axis that surroundings leave (docs/methods.md#e1): distance to the nearest surface that
+/// a ray has found within 22.5 degrees of the axis and more than 30 degrees from the normal; where there is
+/// none, the mean of the distances of the axes beside it, with most_m for an axis that has none either.
+/// Within bounds, and no axis more than twice its neighbours (docs/methods.md#e7).
 std::array<float, AdaptiveFootprint::kAxes> radii_by_surroundings(std::span<const Hemisphere> passes,
                                                                   const FootprintBounds& bounds);
 

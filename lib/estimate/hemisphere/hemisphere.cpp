@@ -8,12 +8,13 @@ namespace {
 
 constexpr float kSin10Degrees = 0.17364818f;
 
-/// Of n places on lamps, even in three dimensions: the variance of their mean is kEven n^-kBetter of that of
-/// random ones, and no less than kLeft. Measured in a furnace, ten places by 16 to 2048 rays: true errors are
-/// .95 of those so stated in the mean, .65 to 1.23 of them in 19 cases of 20, at the worst 1.56.
+/// Of n places on lamps, even in three dimensions: the variance of their mean is kEven n^-kBetter times the
+/// variance of random places, and no less than kLeft. Measured in a furnace, ten places by 16 to 2048 rays:
+/// true errors are .95 of those so stated in the mean, .65 to 1.23 of them in 19 cases of 20, at the
+/// worst 1.56.
 constexpr double kEven = 2.3, kBetter = 0.3, kLeft = 0.3;
-/// Those of rays next to each other are farther apart than random ones are: what differences between strata
-/// hold of their variance (1.0 to 1.4).
+/// Places of rays next to each other are farther apart than random places: the factor on the variance that
+/// differences between strata hold (1.0 to 1.4).
 constexpr double kInStrata = 1.2;
 /// Squares of differences spread, where all are drawn alike, so that they weigh like this part of them.
 constexpr double kAlike = 1.0 / 3;
@@ -47,9 +48,9 @@ DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight) {
     const std::size_t i = h.at(ring, slice);
     return h.radiance[i] * weight[i];
   };
-  // Each difference has as its mean square the mean variance of the cells in it, and the square of what does
-  // not cancel of their means. Each cell counts once: in four blocks of 2 x 2, a quarter each; a cell of the
-  // first or last ring is in two of them, and in three differences along its ring.
+  // Each difference has as its mean square the mean variance of the cells in it, and the square of the part
+  // of their means that does not cancel. Each cell counts once: in four blocks of 2 x 2, a quarter each; a
+  // cell of the first or last ring is in two of them, and in three differences along its ring.
   DVec3 variance(0);
   for (int k = 0; k < h.slices; ++k) {
     for (int j = 0; j + 1 < h.rings; ++j)

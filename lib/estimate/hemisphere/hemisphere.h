@@ -1,4 +1,4 @@
-// What a record's rays saw: a sampled hemisphere, and what follows from it.
+// The light that a record's rays met: a sampled hemisphere, and the quantities that follow from it.
 #pragma once
 
 #include <span>
@@ -15,22 +15,22 @@ enum class Measure {
   solid,      ///< solid angle: radiance; 1 - cos(theta) in [j, j+1) / rings
 };
 
-/// Noise of what rays read where they land, which more rays do not take away: neighbouring rays, and
-/// neighbouring places, read the same. Sums over the rays of a hemisphere. The light that comes from a source
-/// made of photons is white noise over its surfaces: of radiance f E towards the place (f reflectance over
-/// pi), the part of variance f^2 E phi cos / (d^2 + z^2) per solid angle, where phi is what one photon
-/// carries, cos and d are those of the surface and z^2 is half of what a zone of the source has of radius^2.
+/// Noise of the light that rays read where they land, which more rays do not take away: neighbouring rays,
+/// and neighbouring places, read the same. Sums over the rays of a hemisphere. The light that comes from a
+/// source made of photons is white noise over its surfaces: of radiance f E towards the place (f reflectance
+/// over pi), the part of variance f^2 E phi cos / (d^2 + z^2) per solid angle, where phi is the flux of one
+/// photon, cos and d belong to the surface, and z^2 is half of the squared radius of a zone of the source.
 struct SourceNoise {
   DVec3 irradiance{0};       ///< lx, of the light that was read
   DVec3 variance{0};         ///< of that, lx^2
   DVec3 per_coefficient{0};  ///< of a coefficient of radiance, in orthonormal harmonics, (cd/m2)^2 sr
   double common = 0;         ///< relative variance that all of the source has in common (PhotonNoise::common)
 
-  /// Of irradiance, all of it: lx^2, never below 0.
+  /// The whole variance of irradiance, lx^2, never below 0.
   DVec3 total() const { return glm::max(variance + common * irradiance * irradiance, DVec3(0)); }
 };
 
-/// Noise of the places on lamps that what the rays hit is lit from, were each by itself: a sum over the rays.
+/// Noise of the places on lamps that light the hits of the rays, were each by itself: a sum over the rays.
 /// Together they are even (HitLight::shade), and leave less of it.
 struct LampNoise {
   DVec3 variance{0};   ///< of radiance, (cd/m2)^2
@@ -39,8 +39,8 @@ struct LampNoise {
   /// The difference of radiance by two places that have nothing in common, found at one ray of `stands_for`.
   void add(const Rgb& difference, double stands_for);
   /// Of the variance of the sum of radiance over the rays, as differences between strata tell it, times
-  /// weight2 (the mean square of the rays' weights): what even places leave. `parts` of the sum are weighed
-  /// with unlike signs: each has its share of the places.
+  /// weight2 (the mean square of the rays' weights): the part that even places leave. `parts` of the sum are
+  /// weighed with unlike signs: each has its share of the places.
   DVec3 left_of(const DVec3& strata, double weight2, std::size_t rays, double parts = 1) const;
 };
 
@@ -58,7 +58,7 @@ struct Hemisphere {
   std::vector<float>
       projected_sr;    ///< projected solid angle that it stands for (cosine included); all sum to pi
   SourceNoise source;  ///< none, unless HitLight::shade() has set it
-  LampNoise lamps;     ///< likewise
+  LampNoise lamps;     ///< noise of the lamps' places
   std::size_t size() const { return direction.size(); }
   bool stratified() const { return rings > 0; }
   /// Solid angle that a ray stands for; all sum to 2 pi.
@@ -87,15 +87,15 @@ int rings_for(std::int64_t rays);
 /// E = sum of radiance x projected solid angle, lx; in double, in order.
 Rgb irradiance_of(const Hemisphere& h);
 /// Variance of the sum of radiance x weight over the rays of a stratified hemisphere, as standard_error_of
-/// finds it, were all that lights what the rays hit independent.
+/// finds it, were all light on the hits of the rays independent.
 DVec3 strata_variance(const Hemisphere& h, std::span<const float> weight);
-/// Standard error of irradiance_of, lx, from differences between neighbouring strata that cancel what varies
-/// evenly from cell to cell (conservative: on the mean its square exceeds the variance by what is left, a
-/// half to the double of it at an edge of light), less what even places on lamps take away
-/// (Hemisphere::lamps). Light that no ray has found is not known of. Unstructured sets: 0.
+/// Standard error of irradiance_of, lx, from differences between neighbouring strata that cancel changes
+/// which are even from cell to cell (conservative: on the mean its square exceeds the variance by the rest,
+/// by a half to the double of the variance at an edge of light), less the part that even places on lamps take
+/// away (Hemisphere::lamps). Light that no ray has found is not known of. Unstructured sets: 0.
 Rgb standard_error_of(const Hemisphere& h);
 /// Harmonic mean distance, cosine-weighted, misses counting as infinitely far (docs/methods.md#a7), m;
-/// infinity if all miss, 0 if a ray starts on what it hits.
+/// infinity if all miss, 0 if a ray starts on the surface that it hits.
 float harmonic_distance_m(const Hemisphere& h);
 /// Harmonic mean distance that the light comes from: each ray counts by its part of the irradiance
 /// (luminance), misses as infinitely far (docs/methods.md#a7), m; infinity where there is no light.

@@ -1,4 +1,4 @@
-// Estimators that sample hemispheres, and what they saw last.
+// Estimators that sample hemispheres, and their last hemispheres.
 #pragma once
 
 #include <span>

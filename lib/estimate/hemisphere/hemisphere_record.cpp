@@ -61,7 +61,8 @@ Made HemisphereRecords::record(const RecordSite& site, PlaceLight around, std::s
   return made;
 }
 
-/// A step on the tangent plane, no farther than to what stands on the surface: beyond it other light shines.
+/// A step on the tangent plane, no farther than to an object that stands on the surface: beyond it other
+/// light shines.
 Vec3 HemisphereRecords::within_sight(const RecordSite& site, float lift_m, const Vec3& step) const {
   const float length = glm::length(step);
   Hit hit;

@@ -1,4 +1,4 @@
-// What estimators that look over a hemisphere have in common: light where they look, and the record of it.
+// The common part of estimators that look over a hemisphere: the light where they look, and the record.
 #pragma once
 
 #include <memory>
@@ -27,10 +27,10 @@ struct HemisphereRecords {
   HemisphereRecords(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
                     const RecordOptions& resolved, std::uint64_t seed);
 
-  /// The record of what hemispheres at a site have shown; with paths = all, direct light is added from
+  /// The record from hemispheres at a site; with paths = all, direct light is added from
   /// samples of the lamps. No component is below 0 (kBelowZeroEvent). Passes the counts of `worker.light` on
-  /// to the worker. `passes` are what `around` was made of: a footprint follows from them where records are
-  /// to have one; those of its axes that are off by more than rho at their least length are counted
+  /// to the worker. `passes` are the hemispheres from which `around` was made: a footprint follows from them
+  /// where records are to have one; axes that are off by more than rho at their least length are counted
   /// (kUnresolvedEvent).
   Made record(const RecordSite& site, PlaceLight around, std::span<const Hemisphere> passes,
               HemisphereWorker& worker) const;
@@ -42,7 +42,8 @@ struct HemisphereRecords {
 };
 
 /// A site with a normal of its own (a smooth one) looks into its own surface: nothing comes from there.
-/// Clears what lies no higher than twice `lift_m`, the rounding of the site, and faces about the same way.
+/// Clears hits that lie no higher than twice `lift_m`, the rounding of the site, and faces about the same
+/// way.
 void clear_own_surface(float lift_m, Hemisphere& h);
 
 }  // namespace phos::inline estimate

@@ -55,7 +55,7 @@ class Cells {
   const DVec2& across_edge(int slice) const { return across_edge_[static_cast<std::size_t>(slice)]; }
 
   /// Calls wall(before, cell, length, direction) for each pair of neighbours. As the receiver moves along
-  /// `direction`, what lies at 1/r beyond the wall between them sweeps length x 1/r of projected solid angle
+  /// `direction`, a surface at 1/r beyond the wall between them sweeps length x 1/r of projected solid angle
   /// per metre, out of `before` and into `cell`.
   template <typename Wall>
   void for_each_wall(const Wall& wall) const {

@@ -9,8 +9,8 @@
 
 namespace phos::inline estimate {
 
-/// Does the nearer of what two neighbouring rays hit hide part of the other (docs/methods.md#b5)? Then their
-/// edge moves with the nearer. Distances below `least_m` count as that much.
+/// Does the nearer of the hits of two neighbouring rays hide part of the other (docs/methods.md#b5)? Then
+/// their edge moves with the nearer. Distances below `least_m` count as that much.
 bool one_hides_other(const Hemisphere& h, std::size_t a, std::size_t b, float least_m);
 
 /// Gradients of irradiance_of. Rotation by ring means of the tangent (docs/methods.md#b1; unstructured: the

@@ -1,4 +1,4 @@
-// What one pass of rays over a hemisphere found.
+// The hits of one pass of rays over a hemisphere.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace phos::inline estimate {
 
 struct Hemisphere;
 
-/// Light straight from a lamp at a diffuse hit, and what it makes of it.
+/// Light straight from a lamp at a diffuse hit, and the light that the hit then sends on.
 struct LampSight {
   ArrivingLight light;
   Rgb brdf{0};            ///< 1/sr
@@ -20,7 +20,7 @@ struct LampSight {
   Rgb arrived{0};         ///< share that arrives, by channel: 0 where something is in the way
 };
 
-/// One pass over a hemisphere: what each of its rays hit, and the lamps' light there.
+/// One pass over a hemisphere: the hit of each ray, and the lamps' light there.
 struct SeenPass {
   const Hemisphere* hemisphere;
   std::span<const Hit> hits;

@@ -61,8 +61,8 @@ Vec3 translation_term(const Vec3& w, const Vec3& source_normal, float inverse_di
 /// that falls with the p-th power of the distance D and the emitter's cosine, with t for tangential parts:
 /// (2 p n_t.w_t / cos xi - 2 p + p (p + 2) w_t.w_t) / d2, p = 4 (the two cosines included); of a light
 /// without surface (source_normal = -w) p = 3 and no term of n. With `step_m`, in the receiver's plane, the
-/// Laplacian is that of a place so far away, still over the irradiance here; the source counts as no nearer
-/// to it than half of the distance.
+/// Laplacian is taken at a place so far away, still over the irradiance here; the source counts as no nearer
+/// to that place than half of the distance.
 float curvature_term(const Vec3& w, const Vec3& source_normal, float inverse_distance, const Vec3& normal,
                      const Vec3& step_m = Vec3(0));
 
@@ -93,7 +93,7 @@ struct ZoneShape {
   glm::dmat2 second_moments_m4{0};  ///< integral of (x - centroid)(x - centroid)^T over its area
 };
 ZoneShape disc_shape(double radius_m);
-/// Exactly that of a polygon, `vertices` (rows of `points`) in order either way round: Hull::vertices.
+/// The exact shape of a polygon, `vertices` (rows of `points`) in order either way round: Hull::vertices.
 ZoneShape polygon_shape(std::span<const Vec2> points, std::span<const std::uint32_t> vertices);
 
 /// Above this z2 photons say that dark occluders, which the analytic gradient cannot see, make a gradient

@@ -26,7 +26,7 @@ void ZoneGatherer::gather(const ZonePlace& place, float radius_m, const LeftOut&
     if (row == left_out.own || row == left_out.decided || !is_wanted(photons_, row, counted_)) continue;
     const Vec3 local = place.frame.to_local(photons_.position[row] - place.p);
     if (local.z > place.above_m || local.z < -place.below_m) continue;
-    // Strictly inside: a zone whose radius is that of a photon does not hold that photon
+    // Strictly inside: a zone that ends at a photon does not hold that photon
     // (docs/methods.md#c4).
     if (!(local.x * local.x + local.y * local.y < radius_m * radius_m)) continue;
     if (photons_.normal[row] != last_code) {

@@ -33,7 +33,7 @@ class TangentSurface {
   /// place.parted where there is, but out of sight.
   bool on_surface(ZonePlace& place, const Vec2& offset_m) const;
 
-  /// Does a line above the surface lead from the place to what lies `height_m` over its plane at an offset?
+  /// Does a line above the surface lead from the place to a point `height_m` over its plane at an offset?
   /// Walls that stand on the surface part it, and surfaces run on inside of walls, where no light comes.
   bool within_sight(const ZonePlace& place, const Vec2& offset_m, float height_m) const;
 

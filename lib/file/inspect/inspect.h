@@ -1,4 +1,4 @@
-// What a container says, for people and for programs: what phos-info prints.
+// The content of a container, for people and for programs, as phos-info prints it.
 #pragma once
 
 #include <functional>
@@ -19,8 +19,8 @@ Json describe(const Container& file);
 /// describe() as text for people.
 std::string describe_text(const Container& file);
 
-/// Only what a difference in rounding does not change: kinds, commands, parameters, names, shapes, dtypes,
-/// units, counters, whole numbers of the extra values. For golden files.
+/// Only the content that a difference in rounding does not change: kinds, commands, parameters, names,
+/// shapes, dtypes, units, counters, whole numbers of the extra values. For golden files.
 std::string canonical_text(const Container& file);
 
 /// Is this tensor a column of octahedral directions?

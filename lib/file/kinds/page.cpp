@@ -70,7 +70,7 @@ std::string section(const KindRow& kind) {
     head = "";
     for (const TensorRow& row : group.rows) out += row_line(row);
   }
-  if (!elsewhere.empty()) out += text("\nAs in files of irradiance: ", elsewhere, ".\n");
+  if (!elsewhere.empty()) out += text("\nThese tensors are as in files of irradiance: ", elsewhere, ".\n");
   return out;
 }
 

@@ -14,15 +14,15 @@ namespace {
 
 /// One extent of a row's shape.
 struct ExtentPattern {
-  std::uint64_t number = 0;  ///< where there is no symbol
+  std::uint64_t number = 0;  ///< the extent, where it has no symbol
   std::string symbol;
   enum class Of { itself, plus_one, square } of = Of::itself;
-  std::string_view names;  ///< of three indices, "rgb" or "xyz"
+  std::string_view names;  ///< names of three indices, "rgb" or "xyz"
 
   std::uint64_t from(std::uint64_t known) const {
     return of == Of::itself ? known : of == Of::plus_one ? known + 1 : known * known;
   }
-  /// The symbol's value where this extent is n; nothing if it is not of any.
+  /// The symbol's value where this extent is n; nothing where no value gives n.
   std::optional<std::uint64_t> solved(std::uint64_t n) const {
     if (of == Of::itself) return n;
     if (of == Of::plus_one) return n > 0 ? std::optional(n - 1) : std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kAgain = "; rerun the command that made it";
 
-/// "" for rows that are of no table.
+/// "" for rows that are not of tables.
 std::vector<std::string> tables_of(const Container& file) {
   std::set<std::string> tables;
   for (const auto& [name, tensor] : file.tensors())
@@ -81,7 +81,7 @@ bool is_sound_row(const T* row, std::size_t n, const NumberCheck& check) {
   return std::all_of(row, row + n, [&](T v) { return is_sound_number(v, check); });
 }
 
-/// The first row that is not sound; `rows` for none. The same for any number of threads.
+/// The first row that is not sound; `rows` where all are sound. The same for any number of threads.
 std::size_t first_bad_row(const Tensor& tensor, std::size_t rows, const NumberCheck& check) {
   return with_type_of(tensor.dtype, [&]<class T>(T) {
     const auto* v = reinterpret_cast<const T*>(tensor.bytes.data());

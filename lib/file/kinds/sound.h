@@ -1,4 +1,4 @@
-// Is a file what the table of its kind says?
+// Checks a file against the table of its kind.
 #pragma once
 
 #include "file/container.h"
@@ -6,11 +6,11 @@
 
 namespace phos::inline file {
 
-/// The tensor. Throws Error(bad_input) naming it where there is none.
+/// The tensor of that name. Throws Error(bad_input) with the name where there is none.
 const Tensor& require_tensor(const Container& file, const std::string& name);
 
-/// Throws Error(bad_input), naming tensor and file, for a tensor that lacks, is of another type, or of a
-/// shape that does not fit its row and the others. Tensors without a row are let pass. Looks at no data.
+/// Throws Error(bad_input), naming tensor and file, for a tensor that is missing, that has another type, or
+/// whose shape does not fit its row and the other tensors. Tensors without a row pass. Reads no data.
 Extents require_layout(const Container& file);
 
 /// Throws Error(bad_input), naming tensor, row and file, for the first number that fails the check of its

@@ -24,64 +24,71 @@ constexpr NumberCheck kAny{Rule::any, ""}, kFinite{Rule::finite, "finite"},
 // --- photons ---
 
 constexpr TensorRow kPhoton[] = {
-    {"position", Dtype::f32, "n,xyz", "m", kPlace, "the place where it landed"},
+    {"position", Dtype::f32, "n,xyz", "m", kPlace, "place where the photon landed"},
     {"flux", Dtype::f32, "n,rgb", "lm", kFinite, "flux before the surface reflects"},
-    {"direction", Dtype::u32, "n", kOctahedralUnit, kAny, "towards the place it came from"},
+    {"direction", Dtype::u32, "n", kOctahedralUnit, kAny,
+     "unit vector towards the place that the photon came from"},
     {"normal", Dtype::u32, "n", kOctahedralUnit, kAny,
-     "of the surface it landed on, on the side it landed on"},
-    {"source_normal", Dtype::u32, "n", kOctahedralUnit, kAny, "of the surface it left; gradients need it"},
-    {"distance", Dtype::f32, "n", "m", kNotNegative, "to the surface it left"},
+     "unit normal of the surface where the photon landed, on the side where it landed"},
+    {"source_normal", Dtype::u32, "n", kOctahedralUnit, kAny,
+     "unit normal of the surface that the photon left; gradients need it"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "distance to the surface that the photon left"},
     {"path", Dtype::u8, "n", "1", kPath,
-     "0 straight from a light; 1 last left a surface that is no mirror, or further back did so; 2 caustic: "
-     "light, then mirrors and glass only; 3 the same over flat mirrors in which shadow rays find the light "
-     "too"},
-    {"bounce", Dtype::u8, "n", "1", kAny, "surfaces met before"},
+     "0: straight from a light; 1: from a light by way of a surface that is no mirror; 2: caustic, from a "
+     "light by mirrors and glass only; 3: caustic, by flat mirrors in which shadow rays find the light too"},
+    {"bounce", Dtype::u8, "n", "1", kAny, "number of surfaces that the photon met before"},
 };
 constexpr TensorRow kTree[] = {
     {"kdtree", Dtype::u8, "bytes", kOpaqueUnit, kAny, "the tree, compressed with lz4"},
 };
 constexpr TensorRow kFlights[] = {
     {"flight_from", Dtype::f32, "flights,xyz", "m", kPlace, "where a stretch of caustic light begins"},
-    {"flight_flux", Dtype::f32, "flights,rgb", "lm", kFinite, "its flux"},
-    {"flight_direction", Dtype::u32, "flights", kOctahedralUnit, kAny, "towards which it goes"},
-    {"flight_length", Dtype::f32, "flights", "m", kNotNegative, "how far it goes"},
+    {"flight_flux", Dtype::f32, "flights,rgb", "lm", kFinite, "flux of the stretch"},
+    {"flight_direction", Dtype::u32, "flights", kOctahedralUnit, kAny,
+     "direction of the light on the stretch"},
+    {"flight_length", Dtype::f32, "flights", "m", kNotNegative, "length of the stretch"},
 };
 constexpr TensorGroup kPhotonGroups[] = {
     {always, "", kPhoton},
     {always, "", kTree, FileForm::whole, FileForm::shard},
     {optional,
-     "Sensors in mid-air need stretches of caustic light that end at no stored photon. They are absent where "
-     "there are none:",
+     "Sensors in mid-air need the stretches of caustic light that end at no stored photon. These tensors are "
+     "absent where there are no such stretches:",
      kFlights},
 };
 
-// --- what records of both kinds have ---
+// --- tensors of both kinds of records ---
 
 constexpr TensorRow kLives[] = {
-    {"birth", Dtype::i32, "n", "frame", kAny, "first frame that it serves"},
-    {"end", Dtype::i32, "n", "frame", kAny, "first frame after its birth that it does not serve"},
-    {"chain", Dtype::u32, "n", "1", kAny, "number of its place: the records of one follow one another"},
-    {"rate", Dtype::f32, "n", "1/frame", kFiniteNotNegative, "relative change that was expected", "f2"},
+    {"birth", Dtype::i32, "n", "frame", kAny, "first frame that the record serves"},
+    {"end", Dtype::i32, "n", "frame", kAny, "first frame after its birth that the record does not serve"},
+    {"chain", Dtype::u32, "n", "1", kAny,
+     "number of the record's place; the records of one place follow one another"},
+    {"rate", Dtype::f32, "n", "1/frame", kFiniteNotNegative, "relative change per frame that was expected",
+     "f2"},
 };
 constexpr TensorRow kAnchors[] = {
-    {"anchor", Dtype::u32, "n", "1", kAny, "triangle that it rides on; 4294967295: none"},
+    {"anchor", Dtype::u32, "n", "1", kAny, "triangle that the record moves with; 4294967295: none"},
     {"anchor_uv", Dtype::f32, "n,2", "1", kFinite, "place in the triangle"},
-    {"anchor_turn", Dtype::f32, "n,4", "1", kUnit, "turn of the triangle at birth, quaternion x, y, z, w"},
+    {"anchor_turn", Dtype::f32, "n,4", "1", kUnit,
+     "rotation of the triangle at the record's birth, quaternion x, y, z, w"},
 };
 constexpr TensorRow kRadiusChange[] = {
     {"radius_change", Dtype::f32, "n", "m/frame", kFinite, "change of the radius per frame"},
 };
 constexpr TensorRow kShared[] = {
     {"shared", Dtype::f32, "n", "1", kShare,
-     "part of the variance that records about it have too; absent where it is the default for all"},
+     "share of the variance that records nearby have in common; absent where every record has the default"},
 };
 constexpr TensorRow kCaustics[] = {
-    {"caustic_position", Dtype::f32, "caustics,xyz", "m", kPlace, "place where a photon landed"},
-    {"caustic_flux", Dtype::f32, "caustics,rgb", "lm", kFinite, "its flux before the surface reflects"},
-    {"caustic_direction", Dtype::u32, "caustics", kOctahedralUnit, kAny, "towards the place it came from"},
+    {"caustic_position", Dtype::f32, "caustics,xyz", "m", kPlace, "place where the photon landed"},
+    {"caustic_flux", Dtype::f32, "caustics,rgb", "lm", kFinite, "flux before the surface reflects"},
+    {"caustic_direction", Dtype::u32, "caustics", kOctahedralUnit, kAny,
+     "unit vector towards the place that the photon came from"},
     {"caustic_normal", Dtype::u32, "caustics", kOctahedralUnit, kAny,
-     "of the surface, on the side it landed on"},
-    {"caustic_distance", Dtype::f32, "caustics", "m", kNotNegative, "to the last surface that turned it"},
+     "unit normal of the surface where the photon landed, on the side where it landed"},
+    {"caustic_distance", Dtype::f32, "caustics", "m", kNotNegative,
+     "distance to the last surface that changed the photon's direction"},
 };
 constexpr TensorRow kCausticFlights[] = {
     {"caustic_flight_from", Dtype::f32, "caustic_flights,xyz", "m", kPlace, "as `flight_from` of photons"},
@@ -92,13 +99,13 @@ constexpr TensorRow kCausticFlights[] = {
 };
 constexpr TensorGroup kSharedGroup{optional, "", kShared};
 constexpr TensorGroup kCausticGroup{
-    optional, "Where a scene has caustic light, caches of records carry its photons:", kCaustics};
+    optional, "Where a scene has caustic light, caches of records carry caustic photons:", kCaustics};
 constexpr TensorGroup kCausticFlightGroup{optional, "", kCausticFlights};
 constexpr TensorGroup kLifeGroup{
     always,
-    "Records of films (`phos-temporal`) are those above, as they were born, in order of `chain` and `birth`. "
-    "One serves frames from its birth to before its end. `extra.film` of the header holds frames, fade, and "
-    "the scene's hash at each frame:",
+    "Files of films (`phos-temporal`) hold the tensors above for each record as it was born, in the order of "
+    "`chain` and `birth`. A record serves the frames from its birth on and before its end. `extra.film` of "
+    "the header holds the frames, the fade, and the scene's hash at each frame:",
     kLives, FileForm::film};
 constexpr TensorGroup kAnchorGroup{optional, "Where surfaces move:", kAnchors, FileForm::film};
 constexpr TensorGroup kRadiusChangeGroup{
@@ -107,53 +114,58 @@ constexpr TensorGroup kRadiusChangeGroup{
 // --- irradiance ---
 
 constexpr TensorRow kIrradiance[] = {
-    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place"},
+    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place of the record"},
     {"normal", Dtype::f32, "n,xyz", "1", kUnit, "unit normal on the lit side"},
     {"irradiance", Dtype::f32, "n,rgb", "lx", kFiniteNotNegative,
-     "by the light that `quantity` of the header names: `indirect` or `all`"},
-    {"stderr", Dtype::f32, "n,rgb", "lx", kFinite, "its standard error"},
-    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance of the surroundings", "a7 c6"},
+     "irradiance by the light that `quantity` of the header names: `indirect` or `all`"},
+    {"stderr", Dtype::f32, "n,rgb", "lx", kFinite, "standard error of the irradiance"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance to the surroundings", "a7 c6"},
     {"radius", Dtype::f32, "n", "m", kPositive,
-     "R of the weight; a record serves points within accuracy × R"},
-    {"rotation_gradient", Dtype::f32, "n,rgb,xyz", "lx/rad", kFinite, "change of light by a turn", "a5"},
-    {"translation_gradient", Dtype::f32, "n,rgb,xyz", "lx/m", kFinite, "change of light by a step", "a5"},
+     "radius R of the weight; a record serves points within accuracy × R"},
+    {"rotation_gradient", Dtype::f32, "n,rgb,xyz", "lx/rad", kFinite,
+     "change of irradiance by a turn of the normal", "a5"},
+    {"translation_gradient", Dtype::f32, "n,rgb,xyz", "lx/m", kFinite, "change of irradiance by a step",
+     "a5"},
 };
 constexpr TensorRow kLeastRadius[] = {
-    {"least_radius", Dtype::f32, "n", "m", kNotNegative, "the radius that neighbours leave at least"},
+    {"least_radius", Dtype::f32, "n", "m", kNotNegative, "least radius that neighbours leave to the record"},
 };
 constexpr TensorRow kFootprint[] = {
     {"footprint_axis", Dtype::f32, "n,xyz", "1", kUnit, "first of eight axes, 45 degrees apart"},
     {"footprint_length", Dtype::f32, "n,8", "m", kPositive, "length of each axis"},
     {"footprint_slope", Dtype::f32, "n,rgb,8", "lx", kFinite,
-     "first order change of light over the whole of each axis"},
+     "first order change of irradiance over the length of each axis"},
     {"footprint_bend", Dtype::f32, "n,rgb,8", "lx", kFinite,
-     "second order change over the whole of each axis"},
+     "second order change of irradiance over the length of each axis"},
     {"footprint_turn_slope", Dtype::f32, "n,rgb,8", "lx/rad", kFinite,
-     "first order change by a turn of the surface about each axis"},
-    {"footprint_turn_bend", Dtype::f32, "n,rgb,8", "lx/rad2", kFinite, "second order change by such a turn"},
+     "first order change of irradiance by a turn of the normal towards each axis"},
+    {"footprint_turn_bend", Dtype::f32, "n,rgb,8", "lx/rad2", kFinite,
+     "second order change of irradiance by a turn of the normal towards each axis"},
 };
 constexpr TensorRow kIndex[] = {
-    {"index_box", Dtype::f64, "4", "m", kFinite, "lower corner and side of the root"},
+    {"index_box", Dtype::f64, "4", "m", kFinite, "lower corner and side of the root cell"},
     {"index_children", Dtype::u8, "cells", "1", kAny, "bit o tells whether octant o has a cell"},
-    {"index_cells", Dtype::u32, "cells+1,2", "1", kAny, "first child, first entry"},
+    {"index_cells", Dtype::u32, "cells+1,2", "1", kAny, "number of the first child, and of the first entry"},
     {"index_entries", Dtype::u32, "entries", "1", kAny, "numbers of records, cell after cell"},
 };
 constexpr TensorRow kIrradianceChanges[] = {
     {"irradiance_change", Dtype::f32, "n,rgb", "lx/frame", kFinite, "change of the irradiance per frame"},
     {"rotation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/rad/frame", kFinite,
-     "of its gradient by turns"},
+     "change of `rotation_gradient` per frame"},
     {"translation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/m/frame", kFinite,
-     "of its gradient by steps"},
+     "change of `translation_gradient` per frame"},
 };
 constexpr TensorGroup kIrradianceGroups[] = {
     {always, "", kIrradiance},
     kSharedGroup,
     {optional, "With `--footprint adaptive` ([methods E](../methods.md#e)):", kFootprint},
     {optional,
-     "Files of 65,536 records or more also hold an octree, so that opening one builds nothing:", kIndex},
+     "Files of 65,536 records or more also hold an octree, so that a program that opens the file need not "
+     "build one:",
+     kIndex},
     kCausticGroup,
     kCausticFlightGroup,
-    {always, "Parts of a run (`--part`) alone:", kLeastRadius, FileForm::part},
+    {always, "Only in parts of a run (`--part`):", kLeastRadius, FileForm::part},
     kLifeGroup,
     kAnchorGroup,
     kRadiusChangeGroup,
@@ -163,23 +175,24 @@ constexpr TensorGroup kIrradianceGroups[] = {
 // --- radiance ---
 
 constexpr TensorRow kRadiance[] = {
-    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place"},
+    {"position", Dtype::f32, "n,xyz", "m", kFinite, "place of the record"},
     {"frame", Dtype::f32, "n,2,xyz", "1", kFrame, "x axis and normal (z); y = z × x"},
-    {"coefficients", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)", kFinite, "c_i by colour"},
+    {"coefficients", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)", kFinite, "coefficients c_i of each colour"},
     {"stderr", Dtype::f32, "n,rgb,N", "cd/m2 sqrt(sr)", kFiniteNotNegative,
      "standard error of one coefficient of each band"},
-    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance of the surroundings", "a7 c6"},
+    {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance to the surroundings", "a7 c6"},
     {"radius", Dtype::f32, "n", "m", kPositive,
-     "R of the weight; a record serves points within accuracy × R"},
+     "radius R of the weight; a record serves points within accuracy × R"},
 };
 constexpr TensorRow kRadianceGradients[] = {
     {"gradient_x", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
-     "change per metre along x; absent where there is none"},
+     "change of the coefficients per metre along x; absent where there is none"},
     {"gradient_y", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
-     "change per metre along y; absent where there is none"},
+     "change of the coefficients per metre along y; absent where there is none"},
 };
 constexpr TensorRow kOrder[] = {
-    {"order", Dtype::u8, "n", "1", kAny, "where orders differ; numbers beyond a record's own are 0"},
+    {"order", Dtype::u8, "n", "1", kAny,
+     "order of the record; absent where all orders are N; coefficients beyond a record's order are 0"},
 };
 constexpr TensorRow kRadianceChanges[] = {
     {"coefficients_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/frame", kFinite,
@@ -213,9 +226,8 @@ constexpr TensorRow kLobes[] = {
 };
 constexpr TensorRow kLobeCoefficients[] = {
     {"K.coefficients", Dtype::f32, "K.rows,K.i,rgb", "1/sqrt(sr)", kFinite,
-     "coefficients of the cosine-weighted lobe; of isotropic materials only coefficients of 0 ≤ m ≤ l; "
-     "absent "
-     "where all is traced"},
+     "coefficients of the cosine-weighted lobe; for isotropic materials only the coefficients with 0 ≤ m ≤ "
+     "l; absent where all directions are traced"},
 };
 constexpr TensorGroup kLobeGroups[] = {{always, "", kLobes}, {optional, "", kLobeCoefficients}};
 
@@ -226,12 +238,13 @@ constexpr KindRow kKindRows[] = {
      "Irradiance records", "", kIrradianceGroups},
     {FileKind::radiance, 1, ".radiance", "phos-radiance phos-temporal",
      "radiance records: light by direction", "Radiance records",
-     "N is the greatest order. Light arriving along w is the sum of c_i H_i(w), w in the record's frame; i = "
-     "l² + l + m; orthonormal, with the Condon-Shortley phase.",
+     "N is the greatest order. The radiance that arrives from the direction w, in the record's frame, is the "
+     "sum of c_i H_i(w) with i = l² + l + m. The H_i are orthonormal, with the Condon-Shortley phase.",
      kRadianceGroups},
     {FileKind::brdf, 1, ".brdf", "phos-brdf", "glossy lobes as hemispherical harmonics", "Lobes",
-     "One table for each glossy material; K is its number in the file. An isotropic material has a row for "
-     "each of `resolution` angles, another one for each cell of the parabolic map.",
+     "Each glossy material has one table, and K is the number of the material in the file. The table of an "
+     "isotropic material has a row for each of `resolution` angles. The table of any other material has a "
+     "row for each cell of the parabolic map.",
      kLobeGroups},
     {FileKind::image,
      1,

@@ -9,14 +9,14 @@
 
 namespace phos::inline file {
 
-/// Collects the tensors of a file of one kind: type, shape and unit are those of their rows. Aborts for a
-/// tensor without a row, of another type, or of numbers that are no such shape. Spans must stay alive until
-/// write().
+/// Collects the tensors of a file of one kind. Type, shape and unit come from the rows of the table. Aborts
+/// for a tensor without a row, with another type, or with numbers that do not fill the row's shape. Spans
+/// must stay alive until write().
 class TensorWriter {
  public:
   explicit TensorWriter(FileKind kind) : kind_(kind) {}
-  /// The extent that a symbol of shapes stands for. One that is not stated follows from the first tensor that
-  /// has it.
+  /// The extent that a symbol of shapes stands for. An extent that is not stated follows from the first
+  /// tensor whose shape holds the symbol.
   void extent(const std::string& symbol, std::uint64_t n) { extents_[symbol] = n; }
   template <class T>
   void add(const std::string& name, std::span<const T> values) {
@@ -26,7 +26,7 @@ class TensorWriter {
   void add_vectors(const std::string& name, std::span<const Vec3> v) {
     add_bytes(name, Dtype::f32, std::as_bytes(v));
   }
-  /// As ContainerWriter::write(); kind and version are those of the table.
+  /// As ContainerWriter::write(), with the kind and the version of the table.
   void write(const std::string& path, Provenance provenance) const;
 
  private:
@@ -36,18 +36,18 @@ class TensorWriter {
   ContainerWriter file_;
 };
 
-/// The tensors of a file, present and shaped as the table of its kind says. Values are looked at by
-/// Container::require_sound().
+/// The tensors of a file, present and shaped as the table of its kind says. Container::require_sound() checks
+/// their values.
 class TensorReader {
  public:
   /// Throws Error(bad_input) as require_layout().
   explicit TensorReader(const Container& file);
   const Container& file() const { return file_; }
   bool has(const std::string& name) const { return file_.has(name); }
-  /// What a symbol of shapes stands for; 0 where no tensor of the file has it.
+  /// The extent that a symbol of shapes stands for; 0 where no tensor of the file has the symbol.
   std::uint64_t extent(const std::string& symbol) const;
-  /// In place. Throws Error(bad_input) where the file has no such tensor; aborts for one without a row, or of
-  /// another type.
+  /// The numbers in place. Throws Error(bad_input) where the file has no such tensor. Aborts for a tensor
+  /// without a row, or with another type.
   template <class T>
   std::span<const T> values(const std::string& name) const {
     const Tensor& t = require(name, dtype_of<T>());

@@ -1,4 +1,5 @@
-// What each kind of file holds: one row a tensor, which drives writing, reading, phos-info and the manual.
+// The contents of each kind of file: one row for each tensor, which drives writing, reading, phos-info and
+// the manual.
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 
 namespace phos::inline file {
 
-/// What every number of a sound tensor is.
+/// The condition that every number of a sound tensor meets.
 struct NumberCheck {
   enum class Rule {
     any,
@@ -21,19 +22,19 @@ struct NumberCheck {
     frame,     ///< rows are two such vectors at right angles
   };
   Rule rule;
-  std::string_view words;  ///< what follows "is": "finite"; "" of `any`
+  std::string_view words;  ///< the condition, after "is": "finite"; "" for `any`
   double least = 0, most = 0;
 };
 
-/// Units of numbers that are codes: of directions, and of bytes that another library reads.
+/// Units of codes: of direction codes, and of bytes that another library reads.
 inline constexpr std::string_view kOctahedralUnit = "octahedral", kOpaqueUnit = "FLANN index";
 
 struct TensorRow {
-  std::string_view name;  ///< "K.orders" of each table of lobes: 0.orders, 1.orders, ...
+  std::string_view name;  ///< "K.orders" stands for 0.orders, 1.orders, ... of the tables of lobes
   Dtype dtype;
   /// Extents, separated by commas: a number, "rgb" or "xyz" (3, with these names), or a symbol, which is the
-  /// same number in the whole file. "s+1" and "s^2" are made of the extent s. A symbol that begins with "K."
-  /// is one of each table.
+  /// same number in the whole file. "s+1" and "s^2" follow from the extent s. A symbol that begins with "K."
+  /// has a number for each table.
   std::string_view shape;
   std::string_view unit;  ///< "1": none
   NumberCheck check;
@@ -42,19 +43,19 @@ struct TensorRow {
   std::string_view methods = "";
 };
 
-/// Tensors that are in a file all together.
+/// Tensors that are in a file together.
 struct TensorGroup {
   enum class Present {
     always,
-    optional,  ///< or none of them is
+    optional,  ///< all or none of them
   };
   Present present;
-  /// Of the manual: stands over a table of these; "": they continue the table before.
+  /// Line over the table of these tensors in the manual; "": they continue the table before.
   std::string_view title;
   std::span<const TensorRow> rows;
-  /// The form that a file has in which they can be; whole: any form.
+  /// The only form of file that can hold them; whole: any form.
   FileForm only_of = FileForm::whole;
-  /// They are in no file of this form; whole: there is no such form.
+  /// No file of this form holds them; whole: there is no such form.
   FileForm not_of = FileForm::whole;
   bool can_be_in(FileForm form) const {
     return (only_of == FileForm::whole || only_of == form) && (not_of == FileForm::whole || not_of != form);
@@ -63,12 +64,12 @@ struct TensorGroup {
 
 struct KindRow {
   FileKind kind;
-  int version;                   ///< of the layout; another one is refused
-  std::string_view ending;       ///< usual end of a file's name
-  std::string_view programs;     ///< that write it, separated by spaces
-  std::string_view holds;        ///< in a few words
-  std::string_view heading;      ///< of its section in the manual
-  std::string_view explanation;  ///< that the section begins with
+  int version;                   ///< version of the layout; other versions are refused
+  std::string_view ending;       ///< usual ending of a file's name
+  std::string_view programs;     ///< the programs that write it, separated by spaces
+  std::string_view holds;        ///< its contents in a few words
+  std::string_view heading;      ///< heading of its section in the manual
+  std::string_view explanation;  ///< text with which the section begins
   std::span<const TensorGroup> groups;
 };
 
@@ -76,12 +77,12 @@ const KindRow& row_of(FileKind kind);
 
 /// A tensor's row in the table of its kind; null: there is none.
 const TensorRow* find_row(FileKind kind, std::string_view tensor);
-/// The number before the point in the name of a tensor of which there is one for each table ("12" of
-/// "12.orders"); "" in other names.
+/// The number of the table in the name of a tensor ("12" in "12.orders"); "" in names of tensors that are of
+/// no table.
 std::string_view table_of(std::string_view tensor);
-/// The name of this row's tensor of a table: "12.orders". Rows that are no such row have their own.
+/// The name of this row's tensor for a table: "12.orders". A row that is not of tables keeps its own name.
 std::string tensor_name(const TensorRow& row, std::string_view table);
-/// Is there one for each table?
+/// Does each table have a tensor of this row?
 bool is_of_tables(const TensorRow& row);
 
 }  // namespace phos::inline file

@@ -50,7 +50,7 @@ class Products {
     if (filled_ == kAtOnce) finish();
   }
   void finish() {
-    std::fill(weight_ + filled_, weight_ + kAtOnce, 0.);  // what the last ones left there counts nothing
+    std::fill(weight_ + filled_, weight_ + kAtOnce, 0.);  // earlier nodes left values there
     filled_ = 0;
     add_products(turn_.cosine, &Apart::cosine);
     add_products(turn_.sine, &Apart::sine);
@@ -147,8 +147,8 @@ Turn kept(int order, double beta) {
   return turn;
 }
 
-/// Adds what is now above the horizon and was below: psi in (pi - beta, pi), filled with the function's value
-/// on the old horizon, one for all of it: H_l0 = (-1)^l sqrt((2l+1) / 2 pi), the others 0.
+/// Adds the part that is now above the horizon and was below: psi in (pi - beta, pi), filled with the
+/// function's value on the old horizon, which is one value: H_l0 = (-1)^l sqrt((2l+1) / 2 pi), the others 0.
 void fill_constant(Turn& turn, double beta) {
   Apart here(turn.order);
   const std::size_t n = turn.cosines();
@@ -183,7 +183,7 @@ Turn unturned(int order) {
   return turn;
 }
 
-/// The function less what will go below the horizon: psi in (0, beta).
+/// The function less the part that will go below the horizon: psi in (0, beta).
 Turn without_digon(int order, double beta) {
   Turn turn = unturned(order);
   Products products(turn);
@@ -195,7 +195,7 @@ Turn without_digon(int order, double beta) {
   return turn;
 }
 
-/// HSH follow SH on the mapped sphere; the angle mapped likewise is right at the pole alone.
+/// HSH follow SH on the mapped sphere; an angle that is mapped in the same way is right at the pole alone.
 Turn digon(int order, double beta) {
   const double mapped = 2 * std::asin(std::min(1., std::numbers::sqrt2 * std::sin(beta / 2)));
   const ShTurn bands(order, mapped);

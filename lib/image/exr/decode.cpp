@@ -46,7 +46,8 @@ std::uint64_t extent(int lo, int hi) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, std::int64_t{hi} - lo + 1));
 }
 
-/// A damaged header may ask for terabytes: refuse what the file cannot hold, before anything is allocated.
+/// A damaged header may ask for terabytes: refuse sizes that the file cannot hold, before memory is
+/// allocated.
 void require_plausible(const Imf::Header& header, std::uint64_t file_bytes) {
   constexpr std::uint64_t kSide = 1u << 18, kAllowance = 16u << 20;
   std::uint64_t channels = 1;
@@ -115,7 +116,7 @@ void read_part(Imf::MultiPartInputFile& file, int index, const std::string& pref
   }
 }
 
-/// Rec.709 and cd/m2 from what the header says of the colours.
+/// Rec.709 and cd/m2 from the colours that the header states.
 void convert_colours(const Imf::Header& header, Image& image) {
   const float white = Imf::hasWhiteLuminance(header) ? Imf::whiteLuminance(header) : 1.0f;
   const float scale = std::isfinite(white) && white > 0 ? white : 1.0f;

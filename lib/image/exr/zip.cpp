@@ -57,7 +57,7 @@ Bytes deflated(Bytes block) {
       libdeflate_alloc_compressor(kLevel));
   if (!compressor) throw std::bad_alloc();
   const Bytes differences = predicted(block);
-  Bytes smaller(block.size() - 1);  // what does not fit is not smaller
+  Bytes smaller(block.size() - 1);  // a result that does not fit is not smaller
   const std::size_t size = libdeflate_zlib_compress(compressor.get(), differences.data(), differences.size(),
                                                     smaller.data(), smaller.size());
   if (size == 0) return block;

@@ -22,7 +22,7 @@ class Net {
 
   std::vector<std::vector<PlotPoint>> lines() {
     std::vector<std::vector<PlotPoint>> all;
-    // Those with ends first, from an end; what is left is closed.
+    // Lines with ends first, from an end; the other lines are closed.
     std::vector<bool> seen(points_.size(), false);
     for (const bool closed : {false, true})
       for (std::size_t i = 0; i < points_.size(); ++i)

@@ -24,8 +24,8 @@ void declare_options(Options& options, CsvPlotOptions& plot);
 std::string given_plot_option(const Options& options);
 
 /// One line for each column of `y` and each value of the `series` column, in the order in which they first
-/// appear; points by ascending x, those of one x as they stand in the table. Throws Error(usage) for a column
-/// that the table lacks, Error(bad_input) for a cell that is no number, or where no row is left.
+/// appear; points by ascending x, and points of one x as they stand in the table. Throws Error(usage) for a
+/// column that the table lacks, Error(bad_input) for a cell that is no number, or where no row is left.
 Plot plot_of(const CsvTable& table, const CsvPlotOptions& options);
 
 }  // namespace phos::inline image

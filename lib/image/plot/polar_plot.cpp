@@ -13,7 +13,7 @@ namespace phos::inline image {
 namespace {
 
 constexpr Colour8 kGrid{205, 205, 205};
-constexpr std::size_t kColours = 4;  // of those of lines
+constexpr std::size_t kColours = 4;  // of the colours of lines
 constexpr const char* kDegree = "\xc2\xb0";
 constexpr int kStep_deg = 15;
 constexpr double kGap = 10, kMargin = 60, kSample = 34;

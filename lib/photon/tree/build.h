@@ -10,13 +10,13 @@
 
 namespace phos::inline photon {
 
-/// Where things stand in what FLANN saves of a KDTreeSingleIndex over n points, behind its header: members
-/// and box, the order of the points (4 bytes each), the nodes depth first (five values of 4 bytes and one of
-/// 1).
+/// The positions of the parts that FLANN saves of a KDTreeSingleIndex over n points, behind its header:
+/// members and box, the order of the points (4 bytes each), the nodes depth first (five values of 4 bytes and
+/// one of 1).
 inline constexpr std::size_t kTreeOrder = 95, kTreeNode = 21, kTreeBox = 63;
 
 /// The same bytes as FLANN's own builder, which runs on one thread, saves behind its header: the planes, the
-/// points in the leaves and their order are those of KDTreeSingleIndex::buildIndex (midpoint of the widest
+/// points in the leaves and their order are as in KDTreeSingleIndex::buildIndex (midpoint of the widest
 /// side, moved to where there are points) with this leaf size and without reordering. `points` (1 to 2^31-1)
 /// must be finite and so near 0 that squares of distances are finite.
 Column<std::byte> build_tree(std::span<const Vec3> points, int leaf_size);

@@ -38,7 +38,7 @@ class Checker {
       : points_(points), in_(stream.bytes, stream.header_bytes, stream.first_block) {}
 
   void check() {
-    const NoFloatTraps traps;  // files may hold what is not a number
+    const NoFloatTraps traps;  // files may hold numbers that are not finite
     read_index();
     read_order();
     const Bounds all = read_nodes();
@@ -48,7 +48,7 @@ class Checker {
   }
 
  private:
-  /// What FLANN keeps of every index, then what it keeps of this kind.
+  /// The members that FLANN keeps of every index, then the members of this kind.
   void read_index() {
     require(in_.take<std::uint64_t>() == points_.size(), "is over another number of points");
     require(in_.take<std::uint64_t>() == 3, "is not over points in space");

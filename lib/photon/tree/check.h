@@ -1,4 +1,4 @@
-// Is a saved kd-tree one over these points? FLANN believes what it loads.
+// Checks that a saved kd-tree is a tree over these points. FLANN trusts the bytes that it loads.
 #pragma once
 
 #include <cstddef>

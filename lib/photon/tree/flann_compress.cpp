@@ -50,9 +50,9 @@ std::vector<std::size_t> block_ends(std::span<const std::byte> contents, std::si
   return ends;
 }
 
-/// FLANN keeps two blocks in turn in the halves of one buffer. LZ4 then has, of what came before a block,
-/// what lies just before it in memory, or else as far as the half that the block takes has not overwritten
-/// it. Only 64 KiB can be referred to.
+/// FLANN keeps two blocks in turn in the halves of one buffer. Of the bytes before a block, LZ4 then has
+/// the bytes just before it in memory, or else the bytes that the block's half has not
+/// overwritten. Only 64 KiB can be referred to.
 class Blocks {
  public:
   Blocks(std::span<const std::byte> contents, std::size_t header_bytes)
@@ -82,7 +82,7 @@ class Blocks {
   std::size_t known_before(std::size_t i) const {
     if (i == 0) return 0;
     std::size_t known = size(i - 1);
-    // Of the block before that, what this one leaves of it.
+    // The part of the earlier block that this block leaves.
     if (i % 2 == 0 && is_full(i - 2)) known += kBlock - size(i);
     return std::min(known, kBlock);
   }

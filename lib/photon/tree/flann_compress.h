@@ -9,8 +9,8 @@ namespace phos::inline photon {
 
 /// The stream that FLANN's SaveArchive writes, byte for byte with the same LZ4: its header, whose last 8
 /// bytes become the length of the first block, then `contents` in blocks (flann_stream.h), each compressed as
-/// if after all before it. `contents` are what build_tree() returns; values do not span blocks. Throws
-/// std::bad_alloc.
+/// if after all before it. `contents` are the bytes that build_tree() returns; values do not span blocks.
+/// Throws std::bad_alloc.
 std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents);
 
 }  // namespace phos::inline photon

@@ -32,11 +32,11 @@ class KdTree {
   static void require_fit(std::span<const Vec3> points);
 
   /// The same points give the same tree; in space_order() they are faster to build over, and to ask. Throws
-  /// what require_fit() does.
+  /// as require_fit().
   static KdTree build(std::span<const Vec3> points);
 
-  /// The tree of save() over the same points. Whoever wrote `bytes`, FLANN, which trusts what it reads, sees
-  /// them only once they are known to be a tree over these points (photon/tree/check.h). Throws
+  /// The tree of save() over the same points. Whoever wrote `bytes`, FLANN, which trusts the bytes that it
+  /// reads, sees them only once they are known to be a tree over these points (photon/tree/check.h). Throws
   /// Error(bad_input) naming `where` if they are not, or if a point is not finite.
   static KdTree load(std::span<const Vec3> points, std::span<const std::byte> bytes,
                      const std::string& where);

@@ -52,9 +52,9 @@ double ReferenceCost::samples(double resolution) const {
 }
 
 PlanModel image_error_model(const PlanTask& task, double detail) {
-  // Samples at edges share the rays of their pixel: what each adds falls with the square of its own few, its
-  // share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under an
-  // edge, whose mean varies as n^-1.5. Where a surface curves, each sample of a pixel sees that edge
+  // Samples at edges share the rays of their pixel: the part of each falls with the square of its own few,
+  // its share of the pixel with the number of samples. Points that gloss rays find on lamps: even ones, under
+  // an edge, whose mean varies as n^-1.5. Where a surface curves, each sample of a pixel sees that edge
   // elsewhere, and its few rays find it as independent ones do. Half shadows may be narrower than a pixel of
   // the pilot.
   const std::pair<Knob, double> narrow{K::pixels, calibration::kShadowNoisePixels};

@@ -34,15 +34,15 @@ struct ReferenceCost {
   double places = 0;  ///< pixels or sensors of the whole result
 
   double seconds(double samples) const { return fixed_s + sample_s * samples * places; }
-  /// The least relative error that two of them, of so many samples, tell from none: what the noise of both
-  /// feigns at two standard deviations (see measure_picture()).
+  /// The least relative error that two of them, of so many samples, distinguish from none: the error that the
+  /// noise of both feigns at two standard deviations (see measure_picture()).
   double resolution(double samples) const;
   /// Samples for a resolution.
   double samples(double resolution) const;
 };
 
 /// Terms of the models.
-/// `detail`: power with which what lies within pixels shrinks as there are more of them (detail_power()).
+/// `detail`: power with which differences within pixels shrink as there are more pixels (detail_power()).
 PlanModel image_error_model(const PlanTask& task, double detail);
 /// Of `detail`, `sampled` (the same, as pictures of few samples tell it) and `growth` (pixels over the
 /// pilot's): where few samples miss more of finer pixels than of the pilot's, with a term that falls as their

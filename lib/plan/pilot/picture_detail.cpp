@@ -18,7 +18,7 @@ struct Pair {
   }
 };
 
-/// Mean over pixels of the product of what they differ by from the mean of their block.
+/// Mean over pixels of the product of their differences from the mean of their block.
 double within_blocks(const Pair& pair, int side) {
   double sum = 0, pixels = 0;
   for (int y0 = 0; y0 + side <= pair.height; y0 += side)

@@ -1,4 +1,4 @@
-// How fast what lies within pixels shrinks as they do.
+// How fast differences within pixels shrink with the pixels.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace phos::inline plan {
 
-/// Power h of the mean square of what differs within pixels, as N^-h of the number N of pixels: 1 for smooth
+/// Power h of the mean square of differences within pixels, as N^-h of the number N of pixels: 1 for smooth
 /// light, 1/2 for lone edges, of which each pixel row shows as many whatever its height, next to nothing for
 /// textures and mouldings that go on below a pixel. Taken from how much the pixels of blocks of 2 x 2 and of
 /// 4 x 4 differ in a pair of pictures of one view (from products of the two, so that their noise is not in
@@ -15,8 +15,8 @@ namespace phos::inline plan {
 /// times the first. From calibration::kLeastDetailPower (nothing is known, or detail is everywhere) to 1.
 double detail_power(const Image& a, const Image& b);
 
-/// Mean square by which a layer of two pictures differs, over that of its mean in the second: with few and
-/// with more samples in each pixel, what the few miss of what lies within pixels. 0 where it is dark.
+/// Mean square by which a layer of two pictures differs, over the square of its mean in the second: with few
+/// and with more samples in each pixel, the part within pixels that the few samples miss. 0 where it is dark.
 double differs_within_pixels(const Image& few, const Image& more, const std::string& layer);
 
 }  // namespace phos::inline plan

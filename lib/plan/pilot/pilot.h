@@ -1,4 +1,4 @@
-// A few seconds of small runs that tell what a scene's pipeline costs and how wrong it is.
+// A few seconds of small runs that measure the cost and the error of a scene's pipeline.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Pilot {
   std::optional<PlanModel> image_error, lux_error;  ///< mean square, relative
   RecordCount records;                              ///< all that the pipeline makes
   ReferenceCost image_reference, lux_reference;
-  std::optional<double> image_resolution, lux_resolution;  ///< what the pilot's own references tell from none
+  std::optional<double> image_resolution, lux_resolution;  ///< least errors that its references can show
   double seconds = 0;                                      ///< that it took
   std::size_t sensors = 0;
   /// Why its references, and so all errors that it foretells, are not to be trusted; empty: they are.
@@ -30,7 +30,7 @@ struct PilotOptions {
   double seconds = 10;                   ///< it may take, about
   std::optional<double> most_seconds{};  ///< it is given up once it took so long: PilotTooLong is thrown
   double error =
-      0.02;  ///< that will be asked for; the references are made to tell half of it, time permitting
+      0.02;  ///< that will be asked for; the references should show half of this error, time permitting
   std::uint64_t seed = 0;
   std::vector<std::string> common;  ///< words for every program: "--threads", "2"
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
@@ -43,19 +43,19 @@ struct PilotTooLong {
 /// Runs the pipeline twice each at four settings of photons and records and, with the last of them, six of
 /// the picture's samples (eight with gloss), at a size of at most kPilotPixels and for at most
 /// kPilotSensors sensors; counts records, and times two pictures (drawn small too, to see what finer pixels
-/// show), at the full size; and fits models to what comes out. Throws Error(bad_input) where nothing that is
-/// looked at is lit, or a program fails.
+/// show), at the full size; and fits models to the results. Throws Error(bad_input) where no
+/// visible place is lit, or a program fails.
 Pilot run_pilot(const PlanTask& task, const PilotOptions& options);
 /// Photons and records of those runs: each term of indirect light follows another way through them.
-/// Sensors read records of accuracies 0.4 and 0.2 alike (reading_accuracy()), so those of a pilot without a
-/// picture go to 0.1.
+/// Sensors read records of accuracies 0.4 and 0.2 alike (reading_accuracy()), so a pilot without a picture
+/// goes down to 0.1.
 std::vector<Knobs> pilot_caches(bool image);
 /// The picture's samples of those runs, all with the last of those caches.
 std::vector<Knobs> pilot_pictures(bool gloss);
 inline constexpr double kPilotPixels = 4800;
 inline constexpr std::size_t kPilotSensors = 64;
 
-/// Columns of a table of sensors: what phos-reference reads, and what is measured.
+/// Columns of a table of sensors: the columns that phos-reference reads, and the measured columns.
 inline const std::vector<std::string> kSensorColumns{"x", "y", "z", "nx", "ny", "nz"};
 inline const std::vector<std::string> kLuxColumns{"x", "y", "z", "E_lx", "stderr_lx"};
 

@@ -124,7 +124,8 @@ ReferenceRun PilotRuns::references(bool lux, double samples) {
   out.places = static_cast<double>(a.size() / components);
   const double all = lux ? out.places : pixels_of(small_);
   for (const Json& of_one : stats) out.doubts.add(of_one, all);
-  // The mean of d^2 / 2 deviates by the root of twice that of products of the two errors: see ReferenceCost.
+  // The mean of d^2 / 2 deviates by the root of twice the mean of products of the two errors: see
+  // ReferenceCost.
   out.variance = separate(a, b, a, b, components).over(mean).noise2_sigma * std::sqrt(out.places / 2);
   return out;
 }

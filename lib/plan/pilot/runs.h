@@ -1,4 +1,4 @@
-// The runs of a pilot: files in a folder that goes with it, times, and what two of a kind tell.
+// The runs of a pilot: files in a folder that goes with it, times, and the differences of two runs of a kind.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,8 @@ struct ReferenceRun {
 /// Relative to the mean of the whole.
 struct SeparatedLayers {
   Separated whole, indirect;
-  /// Straight from the lamps, and what is neither that nor indirect (gloss, mirrors): their noise alone.
+  /// Light straight from the lamps, and light that is neither direct nor indirect (gloss, mirrors): their
+  /// noise alone.
   Separated direct, gloss;
 };
 
@@ -44,7 +45,7 @@ class PilotRuns {
   std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
   /// The picture that is meant, in its own size, of the last records that were counted, with few and with
   /// more samples of pixels: edges are a smaller share of more pixels. Returns the power, as detail()'s, with
-  /// which what the few miss within pixels shrinks from the pilot's own size to this one.
+  /// which the part within pixels that the few miss shrinks from the pilot's own size to this one.
   double time_pictures(const Knobs& few, const Knobs& more);
 
   /// The knobs with the pilot's own number of pixels.

@@ -13,8 +13,8 @@ namespace {
 /// "0.orders", "0.error", "0.coefficients" of table 0. There are no coefficients where all is traced.
 std::string name_of(std::size_t table, const char* column) { return text(table, '.', column); }
 
-/// Calls visit(row of the file, index in the table) for what an entry stores: all coefficients, or those of
-/// cosines (0 <= m <= l) where the others are 0.
+/// Calls visit(row of the file, index in the table) for the coefficients that an entry stores: all, or the
+/// coefficients of cosines (0 <= m <= l) where the others are 0.
 template <class Visit>
 void for_each_stored(const BrdfTable& table, const Visit& visit) {
   std::size_t row = 0;

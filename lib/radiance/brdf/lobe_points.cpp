@@ -17,14 +17,14 @@ constexpr std::size_t kPoints = kAcross * kAcross;
 constexpr double kTolerance = 1e-5;
 /// What a scout sees is seen by a cell when one of its points has this share of the value.
 constexpr float kSeen = 0.5f;
-/// How far outside of a cell, in widths of it, a scout still concerns it.
+/// How far outside of a cell, in widths of the cell, a scout still concerns it.
 constexpr double kMargin = 0.1;
 constexpr std::size_t kMostCells = 4000;
 /// Points whose share of the albedo is less than this add nothing that single precision would keep.
 constexpr double kNegligible = 0x1p-30;
 
-/// The Gauss-Legendre rule of a cell, and what gives the square roots of the energies of its two highest
-/// Legendre coefficients from values at its points.
+/// The Gauss-Legendre rule of a cell, and the factors that give the square roots of the energies of its two
+/// highest Legendre coefficients from values at its points.
 struct Rule {
   std::array<double, kAcross> point, weight;
   std::array<std::array<double, kAcross>, 2> highest;
@@ -69,7 +69,7 @@ struct Scout {
   }
 };
 
-/// All points made so far, those of halved cells too.
+/// All points made so far, also the points of halved cells.
 class Builder {
  public:
   Builder(const std::function<Rgb(const Vec3&)>& f, std::span<const Vec3> scouts) : f_(f) {

@@ -20,13 +20,13 @@ struct LobePoints {
   double energy = 0;                        ///< integral of (f cos)^2, summed over RGB
   bool resolved = true;                     ///< false: the lobe had to be left with too few points
   std::size_t rejected = 0;                 ///< values of f that were not finite, taken as 0
-  std::size_t evaluated = 0;                ///< values of f in all, with those of cells that were halved
+  std::size_t evaluated = 0;                ///< values of f in all, also in cells that were halved
   std::size_t size() const { return x.size(); }
 };
 
 /// Points such that sums of value * (harmonic below `order`) are integrals of f cos times it, to about 1e-4
 /// of the lobe's norm. `f` is in 1/sr, local, without the cosine. `scouts` (unit, z > 0, one at least) are
-/// directions where f is large, such as samples of it: a narrow lobe is found by them.
+/// directions where f is large, such as samples of f: they find a narrow lobe.
 ///
 /// Cells of the (b, phi) plane, cos(theta) = cos^2(b), with Gauss-Legendre points: in these coordinates the
 /// harmonics, with their sqrt(cos theta), are analytic in every closed cell. A cell is halved while the

@@ -16,7 +16,7 @@ struct LobeProjection {
   std::size_t evaluated = 0;        ///< values of f in all
 
   /// The lowest order whose bands leave out at most the share `tolerance` of the energy, or 0; `error`
-  /// receives that share, or what all bands leave out.
+  /// receives that share, or the share that all bands leave out.
   int lowest_order(double tolerance, float& error) const;
 };
 

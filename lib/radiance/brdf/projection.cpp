@@ -74,7 +74,7 @@ struct Projected {
 
 Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis,
                   const BrdfTableOptions& options) {
-  // Samples of the lobe find it, and tell whether all of it was found.
+  // Samples of the lobe find it, and show whether the whole lobe was found.
   std::vector<Vec3> scouts{mirrored(wo)};
   double expected = 0;
   for (int i = 0; i < kScouts; ++i) {

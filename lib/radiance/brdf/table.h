@@ -35,8 +35,8 @@ void declare_options(Options& options, BrdfTableOptions& brdf);
 /// c_i(wo) = integral of (glossy part of f)(wo, wi) cos(theta_i) H_i(wi) dwi, local frame of the surface,
 /// RGB; no Lambert part. An isotropic table holds wo = (sin t, 0, cos t) alone (its sin coefficients are 0)
 /// and is turned about z: row k is tan(t/2) = k / (resolution - 1). Others hold the parabolic map of all wo:
-/// entry (row j, column i) of the grid is x/(1+z) = 2 (i + 1/2) / resolution - 1, y/(1+z) likewise by j
-/// (docs/methods.md#j5). Directions at and below the horizon are taken at z = kLeastCosine; entries that no
+/// entry (row j, column i) of the grid is x/(1+z) = 2 (i + 1/2) / resolution - 1, y/(1+z) in the same way by
+/// j (docs/methods.md#j5). Directions at and below the horizon are taken at z = kLeastCosine; entries that no
 /// lookup reads are 0.
 struct BrdfTable {
   static constexpr float kLeastCosine = 1e-3f;
@@ -50,7 +50,7 @@ struct BrdfTable {
   std::vector<float> error;          ///< per entry: energy left out, relative (by max_order, where traced)
   std::vector<float> coefficients;   ///< [entry][order^2][3], 1/sqrt(sr); 0 beyond the entry's own order
   float albedo = 0;                  ///< greatest over wo and colours, the Lambert part with it
-  std::string note;                  ///< what the table leaves out, "" if nothing
+  std::string note;                  ///< the directions that the table leaves out, "" if none
 
   std::size_t entries() const { return orders.size(); }
   /// wo that an entry stands for.
@@ -63,10 +63,10 @@ struct BrdfTable {
 
 /// A table in figures; over the directions above the horizon.
 struct BrdfSummary {
-  int least_order = 0, greatest_order = 0;  ///< of what is not traced
+  int least_order = 0, greatest_order = 0;  ///< of directions that are not traced
   double mean_order = 0;
   double traced_share = 0;                 ///< of the entries
-  double mean_error = 0, worst_error = 0;  ///< energy, of what is not traced
+  double mean_error = 0, worst_error = 0;  ///< energy, of directions that are not traced
   std::uint64_t bytes = 0;                 ///< in the file
 };
 BrdfSummary summarize(const BrdfTable& table);

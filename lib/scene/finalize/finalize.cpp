@@ -122,7 +122,7 @@ void repair_normals(Scene& scene) {
     Vec3& n = scene.normal[i];
     const Vec3 unit = normalized_or_zero(n);
     if (unit != Vec3(0)) {
-      // Twice normalised is not bitwise once normalised; leave what is unit already.
+      // Twice normalised is not bitwise once normalised; leave vectors that are unit already.
       if (std::abs(glm::dot(n, n) - 1.0f) > 1e-6f) n = unit;
       continue;
     }
@@ -147,8 +147,8 @@ Bounds bounds_of(const Scene& scene, bool with_area) {
   return bounds;
 }
 
-/// Between these, estimates hold (docs/reference/measured-limits.md); beyond, squares of slopes and of distances begin
-/// to be lost. What has no size at this time is not looked at.
+/// Between these, estimates hold (docs/reference/measured-limits.md); beyond, squares of slopes and of
+/// distances begin to be lost. What has no size at this time is not looked at.
 void require_size(const Scene& scene) {
   constexpr float kLeast_m = 1e-9f, kMost_m = 1e10f;
   const float size_m = scene.bounds.diagonal_m();

@@ -147,7 +147,7 @@ std::string hash_environment(const Environment* environment) {
   return hasher.finish().hex();
 }
 
-/// Of what measured luminaires do, wherever they hang; empty where there are none.
+/// The light of measured luminaires, wherever they hang; empty where there are none.
 std::string hash_luminaires(const Scene& scene) {
   if (scene.fitting.empty()) return {};
   Hasher hasher;

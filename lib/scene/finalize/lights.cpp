@@ -64,8 +64,8 @@ void fill_openings(Scene& scene) {
   }
 }
 
-/// From here on estimates hold (docs/reference/measured-limits.md): what paths share is lumens, lux is lumens over
-/// squares of lengths, and its slopes over cubes. Below, floats begin to lose some of it.
+/// From here on estimates hold (docs/reference/measured-limits.md): paths share lumens, lux is lumens over
+/// squares of lengths, and its slopes over cubes. Below, floats begin to lose digits.
 void require_power(Scene& scene) {
   constexpr double kLeast_lm = 1e-24, kLeastSlope = 1e-33;  // lm, lm/m3
   const double size_m = static_cast<double>(scene.bounds.diagonal_m());

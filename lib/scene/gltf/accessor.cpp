@@ -9,7 +9,7 @@ namespace phos::inline scene {
 namespace {
 
 /// An accessor without bytes of its own is all zeros. It belongs to others that have some (a vertex that a
-/// target moves has a position), so that there cannot be more of it than this and the bytes there are.
+/// target moves has a position), so that it cannot be larger than this and the bytes there are.
 constexpr std::uint64_t kZeroElements = 1u << 16;
 
 struct View {

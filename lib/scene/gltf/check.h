@@ -1,4 +1,4 @@
-// Is a glTF document's JSON what the rest of the reader takes for granted?
+// Checks that a glTF document's JSON is as the rest of the reader expects.
 #pragma once
 
 #include <string>

@@ -10,10 +10,10 @@ namespace phos::inline scene {
 /// materials[i], textures decoded: right in what is reflected in the mean over all directions.
 ///
 /// A coat (glTF: a Fresnel lobe of index 1.5 over the base, which it dims) takes the place of the base's own
-/// lobe where it is the brighter of the two and the base is no metal; what both lobes reflect beyond that one
-/// goes to the base's diffuse part. Over a metal it is added to the metal's reflectance. Sheen is added to
-/// the diffuse part. Under a base colour texture what is added is in proportion to the texture. Materials
-/// that transmit and those of extras.phos stay as they are.
+/// lobe where it is the brighter of the two and the base is no metal; the light that both lobes reflect
+/// beyond that one goes to the base's diffuse part. Over a metal it is added to the metal's reflectance.
+/// Sheen is added to the diffuse part. Under a base colour texture the addition is in proportion to the
+/// texture. Materials that transmit and materials of extras.phos stay as they are.
 void lay_coats(const GltfDocument& document, Scene& scene);
 
 /// Mean over the hemisphere of the albedo of glTF's sheen (Charlie) of colour 1.

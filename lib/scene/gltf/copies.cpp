@@ -12,7 +12,7 @@ namespace phos::inline scene {
 namespace {
 
 bool all_finite(const std::vector<float>& values) {
-  const NoFloatTraps traps;  // files may hold what is not a number
+  const NoFloatTraps traps;  // files may hold numbers that are not finite
   for (const float v : values)
     if (!std::isfinite(v)) return false;
   return true;

@@ -40,8 +40,8 @@ bool looks_like_json(std::string_view bytes);
 /// extension (named), a buffer that is missing or too short, an index out of range.
 GltfDocument read_gltf(const std::string& path, std::string_view bytes);
 
-/// Files that the document's buffers and images name, whether they exist or not; with `spectra` those of
-/// extras.phos.spectrum too.
+/// Files that the document's buffers and images name, whether they exist or not; with `spectra` the files
+/// of extras.phos.spectrum too.
 std::vector<std::string> gltf_external_files(const std::string& path, std::string_view bytes,
                                              bool spectra = false);
 /// The file that extras.phos.spectrum of a material or light names; "" where it names none. Throws

@@ -164,7 +164,7 @@ class Finder {
   std::vector<Note> notes_;
   std::set<std::tuple<std::string, std::string, std::string>> known_;
   std::set<std::string> used_;  // extensions
-  std::string kind_, name_;     // of what is walked through
+  std::string kind_, name_;     // of the object that is walked through
   bool exact_ = false;
 };
 

@@ -6,8 +6,9 @@
 
 namespace phos::inline scene {
 
-/// Appends every material of the document, and asks `textures` for what they use. Throws Error(bad_input) for
-/// a model in extras.phos that phos does not have (named), or a parameter that is negative or not a number.
+/// Appends every material of the document, and asks `textures` for their textures. Throws Error(bad_input)
+/// for a model in extras.phos that phos does not have (named), or a parameter that is negative or not a
+/// number.
 void read_gltf_materials(const GltfDocument& document, TexturePool& textures, Scene& scene);
 
 }  // namespace phos::inline scene

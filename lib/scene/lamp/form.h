@@ -25,7 +25,7 @@ class LampForm {
   bool closed() const { return !polygon_.empty(); }
   /// cd/m2
   const Rgb& luminance() const { return luminance_; }
-  /// Projected solid angle, sr: irradiance over luminance, of what turns its shining side to p.
+  /// Projected solid angle, sr: irradiance over luminance, of the part that turns its shining side to p.
   float projected_solid_angle(const Vec3& p, const Vec3& n) const;
 
  private:

@@ -86,14 +86,15 @@ Corners corners_of(const Scene& scene, std::uint32_t triangle) {
   return {{scene.position[v[0]], scene.position[v[1]], scene.position[v[2]]}};
 }
 
-/// Square of the distance from the middle of a triangle, or of what it is a part of, within which it is near.
+/// Square of the distance from the middle of a triangle, or of the whole of which it is a part, within which
+/// it is near.
 float near2_m2(const Vec3 corner[3], const Vec3& middle) {
   float radius_m = 0;
   for (int i = 0; i < 3; ++i) radius_m = std::max(radius_m, glm::length(corner[i] - middle));
   return kNearRadii * radius_m * (kNearRadii * radius_m);
 }
 
-/// Mean luminance of a triangle's emission, from 16 points of it.
+/// Mean luminance of a triangle's emission, from 16 of its points.
 double mean_emission(const Scene& scene, std::uint32_t triangle) {
   constexpr int kSide = 4;
   const Material& material = scene.material_of(triangle);
@@ -203,7 +204,7 @@ Luminaires::Spot Luminaires::choose(const Shape& shape, float u_triangle, const 
   return {second, {weight[3 - corner], weight[4 - corner]}};
 }
 
-/// Uniform over the solid angle of what is near.
+/// Uniform over the solid angle of near parts.
 Luminaires::Spot Luminaires::choose(const Shape& shape, std::size_t facet, const Near& near, const Vec2& u) {
   const auto [second, weights] = near.patch.sample(u);
   if (!shape.parallelogram) return {static_cast<std::uint32_t>(facet), weights};
@@ -359,7 +360,7 @@ float Luminaires::density_beyond(const Vec3& from, const Vec3& direction) const 
 
 float Luminaires::promise_beyond_lx(const Vec3& from) const {
   if (environment_ < 0) return 0;
-  // A surface turned any way receives a quarter of what comes from all sides.
+  // A surface turned any way receives a quarter of the light from all sides.
   return portals_ ? portals_->promise_lx(from) : 0.25f * luminance(Rgb(scene_->environment->integral_lx()));
 }
 

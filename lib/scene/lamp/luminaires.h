@@ -17,10 +17,10 @@ namespace phos::inline scene {
 /// Luminance leaving a surface point on the side it is seen from, towards a unit direction, cd/m2 (0 behind a
 /// one-sided emitter).
 Rgb emitted_luminance(const Scene& scene, const SurfacePoint& point, const Vec3& towards);
-/// Has what an area light's instance emits one luminance, all over and from everywhere?
+/// Has the emission of an area light's instance one luminance, all over and from everywhere?
 bool shines_evenly(const Scene& scene, const Instance& instance);
 
-/// Luminance of what a ray that leaves the scene sees, cd/m2 (0 without an environment).
+/// Luminance that a ray which leaves the scene sees, cd/m2 (0 without an environment).
 Rgb background_luminance(const Scene& scene, const Vec3& direction);
 
 /// Factor of a spot light's intensity at an angle from its axis: glTF's ((c - outer) / (inner - outer))^2, 1
@@ -58,7 +58,7 @@ struct EmissionPoint {
 /// The ray along which a light's sample reaches a point; t_max_m as of ray_between().
 Ray shadow_ray(const SurfacePoint& point, const Illumination& light);
 
-/// Share of the light, by channel, that gets along a shadow ray, straight through panes; all of it where
+/// Share of the light, by channel, that gets along a shadow ray, straight through panes; all light where
 /// t_max_m is not above 0.
 Rgb arriving_share(const RayScene& rays, const Ray& shadow_ray);
 /// The same from a sample of a light to a point.
@@ -97,7 +97,7 @@ class Luminaires {
     return View(*this, i, from).illuminate(u_triangle, u, result);
   }
 
-  /// Light `i` as seen from one place, for several samples of it: what of it is near is looked at once. For
+  /// Light `i` as seen from one place, for several samples: its near parts are looked at once. For
   /// one thread; holds a reference.
   class View {
    public:
@@ -111,7 +111,7 @@ class Luminaires {
     std::size_t i_;
     Vec3 from_;
     std::optional<std::size_t> looked_at_;  // facet
-    std::optional<Near> near_;              // of it; none where it is far
+    std::optional<Near> near_;              // of the light; none where it is far
   };
 
   /// Is illuminate(i) steered by `u` alone? Else `u_triangle` chooses a part of the lamp, and `u` a place on
@@ -136,8 +136,8 @@ class Luminaires {
 
   /// A point on area light i, chosen in proportion to the emitted power of its triangles.
   EmissionPoint sample_point(std::size_t i, float u_triangle, const Vec2& u) const;
-  /// A point on the luminous opening of area light i (which has a fitting), uniform over what of it is seen
-  /// from far away in unit `direction`; the normal is that of the side seen. density 0: nothing is seen.
+  /// A point on the luminous opening of area light i (which has a fitting), uniform over the part that is
+  /// seen from far away in unit `direction`; the normal is on the side seen. density 0: nothing is seen.
   EmissionPoint sample_seen_from(std::size_t i, const Vec3& direction, float u_triangle, const Vec2& u) const;
 
   /// Probability of each light in proportion to its flux (luminance of flux_lm), each at least
@@ -150,7 +150,7 @@ class Luminaires {
     Vec3 corner[3], normal;
     float error_m;
     float density_per_m2;  // 0 for one that is never chosen
-    float share;           // probability of it
+    float share;           // its probability
     Vec3 middle;
     float near2_m2;  // square of the distance from the middle within which it is near
   };

@@ -1,4 +1,4 @@
-// When what gives light is near: sampled uniform in the solid angle under which it is seen.
+// Near lamps and openings: sampled uniformly in the solid angle under which they are seen.
 #pragma once
 
 namespace phos::inline scene {

@@ -8,8 +8,8 @@
 namespace phos::inline scene {
 namespace {
 
-/// Rays from infinitely far away start this part of the bounding radius before its sphere, so that what
-/// touches the sphere is not behind them.
+/// Rays from infinitely far away start this part of the bounding radius before its sphere, so that
+/// surfaces that touch the sphere are not behind them.
 constexpr float kBefore = 1.001f;
 
 double grey(const Rgb& light) { return static_cast<double>(luminance(light)); }
@@ -144,7 +144,7 @@ ProbeRay LampProbe::from_portal(const Vec3& direction, double lux, RandomStream&
   ProbeRay ray;
   float cosine = std::fabs(glm::dot(normal, direction));
   if (portal.inwards != Vec3(0)) cosine = std::fmax(0.f, glm::dot(portal.inwards, direction));
-  // From outside of all: what stands before the window counts.
+  // From outside of all: objects before the window count.
   const float back_m = 2 * kBefore * bounding_radius_m(*scene_);
   ray.ray.origin = portal.at(portal.triangle ? sample_triangle(place) : place) - back_m * direction;
   ray.ray.direction = direction;

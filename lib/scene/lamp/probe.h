@@ -11,7 +11,7 @@
 
 namespace phos::inline scene {
 
-/// A lamp as people name it: a light of the scene; of an environment, its sun and the rest of it, each apart.
+/// A lamp as people name it: a light of the scene; of an environment, its sun and the rest, each apart.
 struct Lamp {
   enum class Part : std::uint8_t { whole, sun, sky };
   std::string name;  ///< of the light; "sun" for a sun
@@ -36,7 +36,7 @@ struct ProbeRay {
 class LampProbe {
  public:
   LampProbe(const Scene& scene, const Luminaires& luminaires) : scene_(&scene), luminaires_(&luminaires) {}
-  /// The numbers of ray `number` of a lamp. sample() draws from bounce 0; the others are for what follows.
+  /// The numbers of ray `number` of a lamp. sample() draws from bounce 0; the others are for later bounces.
   static RandomStream stream(const Lamp& lamp, std::uint32_t number);
   ProbeRay sample(const Lamp& lamp, RandomStream& random) const;
 

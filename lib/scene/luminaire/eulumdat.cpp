@@ -11,7 +11,7 @@
 namespace phos::inline scene {
 namespace {
 
-/// The table and what the file says of it may differ by so much before it is told: efficiency and downward
+/// The table and the file's own figures may differ by so much before a warning: efficiency and downward
 /// share, both in percent.
 constexpr double kTold_percent = 5;
 constexpr double kMillimetre_m = 1e-3;
@@ -117,7 +117,8 @@ class Reader {
       warn(text("the luminous sides have several heights: all are given their mean, ", 0.25 * sum, " m"));
   }
 
-  /// Sets are what the luminaire may be equipped with. A negative number of lamps is absolute photometry.
+  /// Sets are the lamps that the luminaire may be equipped with. A negative number of lamps is absolute
+  /// photometry.
   void read_lamps() {
     const std::size_t sets = whole("the number of lamp sets", 0, 1000);
     for (std::size_t k = 0; k < sets; ++k) {

@@ -52,7 +52,7 @@ class Fitting {
   float projected_area_m2(const Vec3& direction) const;
   /// Of every point of the opening that is seen so, cd/m2. 0 where nothing is seen.
   Rgb luminance(const Vec3& direction) const;
-  /// A facet in proportion to what is seen of it, by u in [0, 1).
+  /// A facet in proportion to its visible area, by u in [0, 1).
   std::size_t seen_facet(const Vec3& direction, float u) const;
 
   void add_to(Hasher& hasher) const;

@@ -86,8 +86,7 @@ void hang_luminaire(Scene& scene, std::shared_ptr<const PhotometricFile> file, c
   const auto index = static_cast<std::int32_t>(scene.fitting.size());
   const bool point = as == LuminairesAs::points || file->opening.form == LuminousOpening::Form::point;
   if (!point && file->photometry->flux_lm() > 0) {
-    Material
-        material;  // black, but for its light: what falls into a luminaire is in its measured light already
+    Material material;  // black, but for its light: measured light holds the light that falls in
     material.name = place.name + " opening";
     MeshData mesh = opening_mesh(file->opening, *file->photometry, material.double_sided);
     const std::size_t before = scene.instance.size();

@@ -28,7 +28,7 @@ class GivenLuminaires {
   std::map<std::string, bool> asked_;
 };
 
-/// Where a luminaire hangs. Its axes in `to_world` (from the scene's origin) are those of photometry.h, as in
+/// Where a luminaire hangs. Its axes in `to_world` (from the scene's origin) are as in photometry.h, as in
 /// EXT_lights_ies: it shines down its z axis, C0 lies along x. What scales it scales its opening; its candela
 /// stay.
 struct LuminairePlace {

@@ -62,7 +62,7 @@ class Numbers {
     return static_cast<std::size_t>(v);
   }
 
-  /// Angles or the like; memory only for what is there.
+  /// Angles or the like; memory only for the numbers that are there.
   std::vector<double> list(std::size_t n, const std::string& what) {
     std::vector<double> values;
     for (std::size_t i = 0; i < n; ++i) values.push_back(next(text(what, " ", i + 1, " of ", n)));
@@ -217,8 +217,8 @@ class Reader {
     return all[at + n - 1].first <= 360;
   }
 
-  /// Some makers leave out the line of the ballast, or a length of the opening: what follows would be taken
-  /// for what it is not. The counts of angles tell how many numbers there should be.
+  /// Some makers leave out the line of the ballast, or a length of the opening: the numbers after it would
+  /// be taken for others. The counts of angles tell how many numbers there should be.
   void require_all_before_angles(const Numbers& numbers) const {
     constexpr std::size_t kBefore = 13, kCounts = 5;  // numbers before the angles; up to the counts of these
     const std::vector<std::pair<double, std::size_t>> all = numbers.rest();
@@ -280,8 +280,8 @@ class Reader {
     file_.format = text("LM-63-", edition_, ", type ", "CBA"[type_ - 1]);
   }
 
-  /// Ballast factor, and what was the ballast-lamp photometric factor until 1991, then unused, since 2019 the
-  /// kind of measurement, coded close to 1.
+  /// Ballast factor, and a number that was the ballast-lamp photometric factor until 1991, then unused, since
+  /// 2019 the kind of measurement, coded close to 1.
   void read_factors(Numbers& numbers) {
     const double ballast = numbers.next("the ballast factor");
     if (!(ballast > 0))

@@ -1,4 +1,4 @@
-// The luminous opening of a luminaire: what shines, as files state it, and its surface.
+// The luminous opening of a luminaire: its shape, as files state it, and its surface.
 #pragma once
 
 #include <string>

@@ -26,12 +26,12 @@ struct PhotometricFile {
   std::shared_ptr<const Photometry> photometry;   ///< in cd, all of the file's factors applied
   LuminousOpening opening;
   TiltTable tilt;
-  bool absolute = false;              ///< measured with its lamps: `lamp_lm` is not what it was measured by
+  bool absolute = false;              ///< measured with its lamps: it was not measured by `lamp_lm`
   double lamp_lm = 0;                 ///< of all lamps of the luminaire together; 0 where not stated
   double watts = 0;                   ///< input; 0 where not stated
-  std::vector<std::string> warnings;  ///< what was accepted though the format does not allow it
+  std::vector<std::string> warnings;  ///< faults that were accepted though the format does not allow them
 
-  /// Maker and luminaire, or what there is of them; `absent` if nothing.
+  /// Maker and luminaire, or one of them; `absent` if neither is there.
   std::string title(const std::string& absent) const;
 };
 
@@ -55,7 +55,7 @@ bool looks_like_photometry(std::string_view bytes);
 bool is_photometry(const std::string& path);
 
 /// Figures for people and scripts: lumens, share of the lamps' light, greatest intensity and where, beam and
-/// field angles of both planes, opening, what the file says of itself, warnings.
+/// field angles of both planes, opening, the file's own description, warnings.
 Json describe_photometry(const PhotometricFile& file);
 std::string photometry_text(const Json& description);
 

@@ -47,7 +47,7 @@ std::string plain_text(std::string_view words) {
   std::string out;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto c = static_cast<unsigned char>(words[i]);
-    // Two-byte sequences of UTF-8 cover what Latin-1 has; longer ones are kept where they are whole.
+    // Two-byte sequences of UTF-8 cover Latin-1; longer ones are kept where they are whole.
     const std::size_t more = c >= 0xf0 && c < 0xf5   ? 3
                              : c >= 0xe0 && c < 0xf0 ? 2
                              : c >= 0xc2 && c < 0xe0 ? 1

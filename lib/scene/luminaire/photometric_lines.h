@@ -41,12 +41,12 @@ struct CandelaList {
                             std::vector<std::string>& warnings) const;
 };
 
-/// Planes of a half or a quarter of the circle, mirrored into all of it. `azimuth_deg` ascends and ends where
-/// the mirrors stand; `row[i]` is the plane of the file that node i shows.
+/// Planes of a half or a quarter of the circle, mirrored into the whole circle. `azimuth_deg` ascends and
+/// ends where the mirrors stand; `row[i]` is the plane of the file that node i shows.
 struct Planes {
   std::vector<double> azimuth_deg;
   std::vector<std::size_t> row;
-  /// Mirrors what there is in the plane of azimuth `deg`, which is the last or the first of it.
+  /// Mirrors all planes in the plane of azimuth `deg`, which is the last or the first plane.
   void mirror_at_end();
 };
 

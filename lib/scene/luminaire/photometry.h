@@ -36,8 +36,8 @@ class Photometry {
   float candela(const Vec3& direction) const;
   /// Integral of candela() over the sphere, exact but for rounding, lm.
   double flux_lm() const { return flux_lm_; }
-  /// Share of it that goes below the horizontal (z < 0); 0 without flux. Exact for grids whose nodes hold the
-  /// horizontal or end before it, else by the middles of cells.
+  /// Share of the flux that goes below the horizontal (z < 0); 0 without flux. Exact for grids whose nodes
+  /// hold the horizontal or end before it, else by the middles of cells.
   double downward_share() const { return downward_share_; }
   /// Greatest intensity, cd, and a direction that has it.
   float peak_cd() const { return peak_cd_; }
@@ -76,8 +76,8 @@ class Photometry {
 
 /// Whole angles about the vertical axis in the plane of azimuth C `c_deg` and its opposite, within which the
 /// intensity reaches half and a tenth of the plane's greatest: from the outermost direction on one side to
-/// the outermost on the other, of the lower half-space and what goes on from there without a gap (of a lamp
-/// that shines more strongly up: about the zenith, of the upper one). 0 where the plane is dark.
+/// the outermost on the other, of the lower half-space and of directions that go on from there without a gap
+/// (of a lamp that shines more strongly up: about the zenith, of the upper one). 0 where the plane is dark.
 struct BeamAngles {
   double half_deg = 0, tenth_deg = 0;
 };

@@ -157,9 +157,9 @@ void Bsdf::put_under_coat(const Rgb& base, float f0, float f90, float k_interref
   const float transmitted = coat_mean_ = mean_coat_transmittance();
   if (!(max_component(base) > 0) || !(transmitted > 0)) return;
   coated_ = true;
-  // k_interreflection is 1/eta^2 of the coat, or 0 for a base whose colour already is what leaves the coat.
-  // Of the light below the coat, transmitted / eta^2 leaves it (the same reciprocity that makes the outside
-  // reflect 1 - transmitted).
+  // k_interreflection is 1/eta^2 of the coat, or 0 for a base whose colour already holds the light that
+  // leaves the coat. Of the light below the coat, transmitted / eta^2 leaves it (the same reciprocity that
+  // makes the outside reflect 1 - transmitted).
   Rgb k(1 / transmitted);
   if (k_interreflection > 0) {
     const Rgb kd = glm::min(base, Rgb(1));

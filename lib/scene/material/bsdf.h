@@ -25,8 +25,8 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 
 /// The material at one point, textures looked up. `wo` and `wi` are unit, world space, and point away from
 /// the surface. Reflection is two-sided; wo and wi must both lie above the surface and above its shading
-/// normal's horizon, else the value is 0 (no light leaks through bumps), but for what a sheet passes
-/// diffusely: there one of the two lies below both, whichever it is. Albedo is at most 1 for every wo,
+/// normal's horizon, else the value is 0 (no light leaks through bumps), but for light that a sheet
+/// passes diffusely: there one of the two lies below both, whichever it is. Albedo is at most 1 for every wo,
 /// except that phong and ward add kd and their lobe as the scene states them, and that measured data may gain
 /// energy.
 ///
@@ -47,14 +47,14 @@ enum class TransportMode : std::uint8_t { radiance, flux };
 /// the pigment's own reflectance, as in the physical model of a coat of refractive index ior). A GGX or Ward
 /// roughness below kSmoothestAlpha is a mirror.
 ///
-/// Beside all of it, a thin sheet may pass light diffusely: 1/pi times diffuse_transmittance() between
+/// Besides, a thin sheet may pass light diffusely: 1/pi times diffuse_transmittance() between
 /// directions on its two sides, whatever they are. Under a coat that is the mean over directions, so that
 /// albedo and transmittance are at most 1 together in the mean.
 ///
 /// Light passes straight through panes (thin_dielectric), thin sheets (transmission of metallic_roughness)
 /// and the share of a surface that alpha blending leaves open. A sheet passes base colour x transmission x (1
-/// - F of its coat), as glTF has it, where little passes, and towards a transmission of 1 that of a pane, so
-/// that it is continuous with clear glass.
+/// - F of its coat), as glTF has it, where little passes, and towards a transmission of 1 the transmittance
+/// of a pane, so that it is continuous with clear glass.
 class Bsdf {
  public:
   static constexpr float kSmoothestAlpha = 1e-3f;
@@ -80,46 +80,44 @@ class Bsdf {
   int specular_branches(const Vec3& wo, BsdfSample branches[2],
                         TransportMode mode = TransportMode::radiance) const;
 
-  /// Diffuse reflectance (Lambert part): what an irradiance E is multiplied by, over pi, for outgoing
-  /// luminance. Under a coat this is the mean over all pairs of directions; evaluate_gloss holds the
-  /// difference.
+  /// Diffuse reflectance (Lambert part): times an irradiance E over pi, it gives the outgoing luminance.
+  /// Under a coat this is the mean over all pairs of directions; evaluate_gloss holds the difference.
   Rgb diffuse_reflectance() const { return diffuse_; }
   bool has_diffuse() const { return max_component(diffuse_) > 0; }
-  /// Diffuse transmittance: what the irradiance on the other side is multiplied by, over pi, for outgoing
-  /// luminance on this side.
+  /// Diffuse transmittance: times the irradiance on the other side over pi, it gives the outgoing luminance
+  /// on this side.
   Rgb diffuse_transmittance() const { return through_; }
   bool transmits_diffusely() const { return max_component(through_) > 0; }
   /// Has lobes that are no delta lobes.
   bool scatters() const { return has_diffuse() || transmits_diffusely() || has_gloss(); }
-  /// Does light that lands here stay to be told of: photons are stored, records placed? Not where all of it
-  /// is reflected or passes as by mirrors and glass.
+  /// Are photons stored and records placed here? Not where all light is reflected or passes as by mirrors and
+  /// glass.
   bool takes_light() const { return !has_specular() || scatters(); }
-  /// A Lambert reflector that faces the other way and has diffuse_transmittance() as its reflectance: what it
-  /// reflects of the light there is what comes through here.
+  /// A Lambert reflector that faces the other way and has diffuse_transmittance() as its reflectance: the
+  /// light that it reflects there is the light that comes through here.
   Bsdf other_side() const;
-  /// Delta lobes: mirror, smooth glass, what passes straight.
+  /// Delta lobes: mirror, smooth glass, straight passage.
   bool has_specular() const { return delta_ != Delta::none || coverage_ < 1; }
   bool passes_straight() const {
     return delta_ == Delta::thin || coverage_ < 1 ||
            (delta_ != Delta::dielectric && max_component(sheet_) > 0);
   }
-  /// What passes straight towards -wo, and what a delta lobe reflects; 0 for wo below the surface.
+  /// The shares that pass straight towards -wo and that a delta lobe reflects; 0 for wo below the surface.
   PaneLayer pane(const Vec3& wo) const;
   /// A plate of solid glass whose other face lies `thickness_m` behind the point, parallel to it.
   PaneLayer plate(const Vec3& wo, float thickness_m) const;
-  /// From here on passes and reflects what a plate or a pack of panes does, of which the point is the first
-  /// face.
+  /// From here on passes and reflects as a plate or a pack of panes does, whose first face has the point.
   void replace_pane(const PaneLayer& pack);
   bool has_gloss() const { return lobe_ != Lobe::none || uneven_base(); }  ///< neither diffuse nor delta
   /// evaluate() without the Lambert part. Under a coat it is signed: the coat takes light from the Lambert
   /// part at grazing angles and leaves a little more elsewhere; over all directions that part adds up to
   /// nothing. So it is for a rough matt surface.
   Rgb evaluate_gloss(const Vec3& wo, const Vec3& wi) const;
-  /// Under a coat, or rough and matt: from now on diffuse_reflectance() is that towards wo, a mean over
-  /// directions of arrival alone, and evaluate_gloss() holds what is left of the change, which is little. For
-  /// light that is traced: tables of lobes know the other split. sample() is then not to be used.
+  /// Under a coat, or rough and matt: from now on diffuse_reflectance() is the reflectance towards wo, a mean
+  /// over directions of arrival alone, and evaluate_gloss() holds the rest of the change, which is little.
+  /// For light that is traced: tables of lobes know the other split. sample() is then not to be used.
   void look_from(const Vec3& wo);
-  /// sample() restricted to what evaluate_gloss holds; the weight can be negative under a coat.
+  /// sample() restricted to the lobes of evaluate_gloss; the weight can be negative under a coat.
   bool sample_gloss(const Vec3& wo, const Vec2& u, BsdfSample& result) const;
   /// Density of sample_gloss, per sr.
   float density_gloss(const Vec3& wo, const Vec3& wi) const;
@@ -130,7 +128,7 @@ class Bsdf {
   enum class Lobe : std::uint8_t { none, phong, ward, ggx, measured };
   enum class Delta : std::uint8_t { none, mirror, schlick, dielectric, thin, sheet };
 
-  struct Looked;  // what the textures say
+  struct Looked;  // the values of the textures
 
   void resolve(const Scene& scene, const Material& material, const Looked& looked);
   // One for each row of the table of models.
@@ -186,7 +184,7 @@ class Bsdf {
   const MerlBrdf* measured_ = nullptr;
   const TransmittanceCurve* curve_ = nullptr;
   Rgb inside_{1};     // of a pane
-  Rgb travelled_{1};  // of a solid: what is left of light that came here through its inside
+  Rgb travelled_{1};  // of a solid: the share of light left after its way through the inside
   Rgb absorption_per_m_{0};
   float pane_share_ = 0;  // of a sheet: how much of a pane it is
   float coverage_ = 1;    // share of the surface that is there

@@ -183,7 +183,7 @@ MerlBrdf read_merl(const std::string& path) {
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     fail(path, "is not a file; give a .binary file of the MERL database");
   }
-  // No need to read what cannot be one.
+  // No need to read a file that cannot be one.
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > 2 * kFileBytes) {
     fail(path, text("too long: ", size, " bytes, a MERL file has ", kFileBytes));

@@ -16,8 +16,8 @@ namespace phos::inline scene {
 /// 1998). Values stand for the middles of their cells and are interpolated linearly between them; the table
 /// is reciprocal by its period of pi in phi_d. Directions are local, z the normal.
 ///
-/// Light is split in a Lambert part, the lower quartile of pi f over pairs of directions (what most pairs
-/// reach at least), and the rest, which is signed and is called the gloss.
+/// Light is split in a Lambert part, the lower quartile of pi f over pairs of directions (most pairs reach
+/// at least that), and the rest, which is signed and is called the gloss.
 class MerlBrdf {
  public:
   static constexpr int kThetaH = 90, kThetaD = 90, kPhiD = 180;
@@ -28,7 +28,7 @@ class MerlBrdf {
   /// too long, of other sizes, not finite, or without any data.
   MerlBrdf(std::string_view bytes, const std::string& path);
 
-  /// The same material with other colours: each value of pi f replaced by `colour` of it.
+  /// The same material with other colours: each value of pi f replaced by its `colour`.
   MerlBrdf recoloured(const std::function<Rgb(const Rgb&)>& colour) const;
 
   /// f(o, i) in 1/sr, o.z and i.z > 0.
@@ -43,14 +43,15 @@ class MerlBrdf {
   /// Draws i for the gloss from a mixture of a GGX and a cosine lobe, which are fitted for least variance.
   /// False: below the surface.
   bool sample_gloss(const Vec3& o, const Vec2& u, Vec3& i) const;
-  /// Its density per sr, above 0 for every i above the surface; integrates to one minus what is lost below.
+  /// Its density per sr, above 0 for every i above the surface; integrates to one minus the part that is lost
+  /// below.
   float gloss_density(const Vec3& o, const Vec3& i) const;
   /// Roughness of that GGX lobe.
   float alpha() const { return alpha_; }
 
   /// Reflectance for light from (or towards) an angle of that cosine.
   Rgb albedo(float cos_theta) const;
-  /// Luminance of the gloss' reflectance, counting what it takes away as positive.
+  /// Luminance of the gloss' reflectance, counting negative values as positive.
   float gloss_albedo(float cos_theta) const;
   /// Reflectance of diffuse light.
   Rgb mean_albedo() const;

@@ -65,7 +65,7 @@ struct ModelRow {
   bool spectrum_is_of_ks = false;     ///< else of kd
   const char* no_spectrum = nullptr;  ///< why it takes none
   std::span<const ModelParameter> parameters = {};
-  /// Reads what extras.phos states beside kd, ior, alpha and `parameters`.
+  /// Reads the keys of extras.phos beside kd, ior, alpha and `parameters`.
   void (*read)(const StatedBrdf& stated, Material& material) = nullptr;
   /// Puts its lobes together at a point.
   void (Bsdf::*resolve)(const Scene&, const Material&, const Bsdf::Looked&) = nullptr;

@@ -52,7 +52,7 @@ class TransmittanceCurve {
     double angle_deg, transmittance;
   };
   /// Points by growing angle, the first at 0, transmittances in [0, 1]; (90, 0) is added if it is not there.
-  /// Throws std::runtime_error, with what is wrong, for others.
+  /// Throws std::runtime_error with the fault for other points.
   explicit TransmittanceCurve(std::vector<Point> points);
   /// `cosine` of incidence, in [0, 1].
   float at(float cosine) const;

@@ -147,7 +147,7 @@ const PaneHit* find_crossings(const RayScene& rays, const Ray& ray, std::span<Pa
     } else {
       next.layer = Bsdf(scene, next.point).pane(wo);
     }
-    // Only what reflects as a mirror does has anything to do with what is next to it.
+    // Only surfaces that reflect as mirrors do interact with the next surface.
     if (!crossings.empty() && max_component(next.layer.reflectance()) > 0) {
       Crossing& last = crossings.back();
       const Vec3& n = last.point.normal;

@@ -1,4 +1,4 @@
-// Light straight through panes: what a ray crosses on its way.
+// Light straight through panes: the surfaces that a ray crosses on its way.
 #pragma once
 
 #include <span>
@@ -21,10 +21,10 @@ bool transmits(const Scene& scene, const Material& material);
 struct Crossing {
   SurfacePoint point;   ///< where the ray enters, seen against it
   PaneLayer layer;      ///< of the whole
-  float leave_m = 0;    ///< distance along the ray at which it leaves the last of it
+  float leave_m = 0;    ///< distance along the ray at which it leaves the last part
   float plate_m = 0;    ///< solid glass in it, along the normal; 0: it is thin
   float plate_ior = 1;  ///< its index
-  bool own = true;      ///< `layer` is what Bsdf::pane() of the point says
+  bool own = true;      ///< `layer` is Bsdf::pane() of the point
 };
 
 /// Crossings that follow each other along a straight line: the light that is left. Polarisation is carried
@@ -41,7 +41,7 @@ class StraightLight {
   float nearer(float distance_m) const;
 
  private:
-  Rgb before_{1};  // the mean of what is not parallel to the last
+  Rgb before_{1};  // the mean over crossings that are not parallel to the last
   Rgb pass_[2]{Rgb(1), Rgb(1)};
   Vec3 normal_{0};
   float cosine_ = 1;
@@ -52,21 +52,21 @@ class StraightLight {
   bool parallel_ = true;  // all plates
 };
 
-/// One hit of a ray on what may pass it.
+/// One hit of a ray on a surface that may pass it.
 struct PaneHit {
   float distance_m;
   std::uint32_t triangle;
   float u, v;
 };
 
-/// Crossings of a ray from its hits on what may pass it. Sorts the hits. Returns the hit that does not pass
-/// it straight after all (a face of solid glass without a parallel one behind it), or null; crossings are
-/// those before it.
+/// Crossings of a ray from its hits on surfaces that may pass it. Sorts the hits. Returns the hit that does
+/// not pass it straight after all (a face of solid glass without a parallel one behind it), or null;
+/// crossings are those before it.
 const PaneHit* find_crossings(const RayScene& rays, const Ray& ray, std::span<PaneHit> hits,
                               std::vector<Crossing>& crossings);
 
 /// The nearest surface that does not pass a ray straight, as trace(); `share` of the light from there that
-/// comes straight through what is before it. What panes themselves send along the ray is left out.
+/// comes straight through the surfaces before it. Light that panes themselves send along the ray is left out.
 bool trace_straight(const RayScene& rays, const Ray& ray, SurfacePoint& point, Rgb& share);
 
 /// The surfaces that a ray meets one after another, for a walk that may pass straight through some of them.
@@ -74,8 +74,8 @@ bool trace_straight(const RayScene& rays, const Ray& ray, SurfacePoint& point, R
 class Way {
  public:
   Way(const RayScene& rays, const Ray& ray) : rays_(&rays), ray_(ray) {}
-  /// The next one. False: the ray leaves the scene (or reaches its t_max_m). Only what passes straight has
-  /// one behind it.
+  /// The next one. False: the ray leaves the scene (or reaches its t_max_m). Only a surface that passes light
+  /// straight has one behind it.
   bool next(SurfacePoint& point);
   /// Of the point that next() found.
   Bsdf bsdf(const SurfacePoint& point) const;

@@ -33,8 +33,8 @@ double lobe_hit_share(const Scene& scene, const Material& material);
 bool gathers_light(const Scene& scene);
 
 /// Has the scene light that reaches a diffuse surface by way of a mirror, of glass that bends or reflects it,
-/// or of sharp gloss? Path tracing finds such light only where its paths hit a lamp by chance, and that of
-/// point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().
+/// or of sharp gloss? Path tracing finds such light only where its paths hit a lamp by chance, and light
+/// of point lamps not at all. True wherever there is a lamp and a material that reflects_sharply().
 bool has_caustic_ways(const Scene& scene);
 
 }  // namespace phos::inline scene

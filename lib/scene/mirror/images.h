@@ -7,7 +7,7 @@
 
 namespace phos::inline scene {
 
-/// Has a light images? Of the environment its sun has; the rest of it is found in mirrors by rays and
+/// Has a light images? Of the environment the sun has; the rest is found in mirrors by rays and
 /// photons.
 bool has_images(const Scene& scene, const Light& light);
 

@@ -23,9 +23,9 @@ class MirrorPlanes {
 
   struct Plane {
     Vec3 point{0}, normal{0, 0, 1};  ///< unit
-    Bounds box;                      ///< of what lies in it
-    float slack_m = 0;      ///< so far rounding may put a point of it off the plane or out of the box
-    float reflectance = 0;  ///< luminance, at normal incidence: the greatest of its materials
+    Bounds box;                      ///< of the surfaces in the plane
+    float slack_m = 0;               ///< so far rounding may put a point off the plane or out of the box
+    float reflectance = 0;           ///< luminance, at normal incidence: the greatest of its materials
     float area_m2 = 0;
 
     bool front_of(const Vec3& p) const { return glm::dot(p - point, normal) > 0; }

@@ -18,7 +18,7 @@ struct Anchor {
   float u = 0, v = 0;
 };
 
-/// Where a triangle has taken a point of it, and how it is turned.
+/// Where a triangle has taken one of its points, and how it is turned.
 struct Pose {
   Vec3 position{0};            ///< m
   glm::quat turn{1, 0, 0, 0};  ///< unit; takes the axes x, y, z to edge 0-1, to what completes the frame, and

@@ -127,7 +127,7 @@ Target target_of(const Json& channel) {
   return target;
 }
 
-/// Does the reader of that list ask for what a pointer sets?
+/// Does the reader of that list ask for the property that a pointer sets?
 bool is_asked_for(const std::string& pointer) {
   constexpr const char* kPointers[] = {
       "/nodes/%d/extensions/KHR_node_visibility/visible%n",
@@ -190,7 +190,7 @@ class Animator {
     if (keys.time_s.empty()) document_.fail(place_ + " has no keys");
     keys.width = keys.value.size() / (keys.time_s.size() * per_key);
     if (keys.width == 0) document_.fail(place_ + " has fewer values than keys");
-    const NoFloatTraps traps;  // files may hold what is not a number
+    const NoFloatTraps traps;  // files may hold numbers that are not finite
     for (std::size_t i = 0; i < keys.time_s.size(); ++i) {
       if (!std::isfinite(keys.time_s[i]) || (i > 0 && keys.time_s[i] <= keys.time_s[i - 1]))
         document_.fail(place_ + " has keys that do not increase");

@@ -1,4 +1,4 @@
-// Frames of an animation: which there are, the scene at each, and what changes from one to another.
+// Frames of an animation: their range, the scene at each, and the changes from one to another.
 #pragma once
 
 #include <cstdint>

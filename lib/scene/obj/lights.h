@@ -11,7 +11,8 @@ namespace phos::inline scene {
 /// "room.obj" -> "room.lights.json".
 std::string obj_lights_path(const std::string& obj_path);
 
-/// Adds what <name>.lights.json says, if that file is there. It is an object of two arrays, both optional:
+/// Adds the lights and cameras of <name>.lights.json, if that file is there. It is an object of two arrays,
+/// both optional:
 ///   "lights":  [{"name", "kind": "point"|"spot"|"directional", "position": [m], "direction": [3],
 ///                "intensity": number or RGB (cd; directional: lx), "inner_deg", "outer_deg": half angles of
 ///                a spot, at most 90; equal ones are a hard edge}]

@@ -149,7 +149,7 @@ class ObjReader {
     }
   }
 
-  /// Sheets of glass are thin panes; what is closed is solid, wherever the file splits it.
+  /// Sheets of glass are thin panes; closed parts are solid, wherever the file splits them.
   void tell_sheets_from_solids() {
     for (std::size_t m = 0; m < materials_.size(); ++m) {
       const auto index = static_cast<std::uint32_t>(m);
@@ -217,7 +217,7 @@ class ObjReader {
     return *default_material_;
   }
 
-  /// One instance per material of a shape (two of glass, where some of it is solid); vertices joined where
+  /// One instance per material of a shape (two of glass, where some parts are solid); vertices joined where
   /// position, normal and texture coordinates agree.
   void add_shape(const tinyobj::shape_t& shape, std::size_t index) {
     skipped_ += shape.lines.num_line_vertices.size() + shape.points.indices.size();

@@ -29,12 +29,13 @@ std::optional<std::string> read_if_there(const std::string& path);
 ///
 ///   illum 4, 6, 7, 9 with Ni above 1 (6, 7, 9: or with a Tf), and d absent, 1 or 0: smooth glass. A sheet is
 ///   a
-///     thin pane that passes Tf times what a pane of index Ni passes; a closed solid refracts, and each face
-///     passes the root of Tf. Kd, Ks and map_Kd are not used. (Ni 1 beside illum 4 is what some modellers
-///     write of every opaque material.)
+///     thin pane that passes Tf times the light that a pane of index Ni passes; a closed solid refracts, and
+///     each face passes the root of Tf. Kd, Ks and map_Kd are not used. (Some modellers write Ni 1 beside
+///     illum 4 for every opaque material.)
 ///   d, 1 - Tr, map_d: the share of the surface that is there; the rest of the light passes straight,
 ///   untinted.
-///     map_d is the image's alpha where it has one, else its luminance (or what -imfchan names), times d.
+///     map_d is the image's alpha where it has one, else its luminance (or the channel that -imfchan names),
+///     times d.
 ///   illum 3, 5, 8 with Ks, and Ns absent or from 900 on: Kd beside a mirror of reflectance Ks at every
 ///   angle. illum 2 and above with Ks and Ns: a normalised Phong lobe; else Lambert.
 ///
@@ -74,8 +75,7 @@ class ObjMaterials {
   TexturePool textures_;
   std::vector<Coverage> coverage_;
   std::set<std::uint32_t> glass_;
-  std::map<std::string, std::vector<std::string>>
-      unread_;  ///< what is wrong with it, by statement: materials
+  std::map<std::string, std::vector<std::string>> unread_;  ///< faults, by statement: materials
 };
 
 }  // namespace phos::inline scene

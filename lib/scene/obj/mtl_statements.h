@@ -1,5 +1,5 @@
-// What a material library states, word by word: tinyobjloader keeps neither what was left out nor what it
-// does not know.
+// The statements of a material library, word by word: tinyobjloader does not tell which statements are
+// absent, and drops those that it does not know.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ struct MtlStatements {
   std::map<std::string, std::string> rest;
 
   bool states(const std::string& keyword) const { return rest.contains(keyword); }
-  /// Does an option ("-halo") stand before what the statement states?
+  /// Does an option ("-halo") stand before the value of the statement?
   bool has_option(const std::string& keyword, const std::string& option) const;
   /// The options of a statement, each with its dash.
   std::vector<std::string> options(const std::string& keyword) const;

@@ -12,8 +12,8 @@
 namespace phos::inline scene {
 
 /// Parts a rectangle into cells and finds those through which lookers see the sky: they look at places of the
-/// cells. A cell that is found has all closed neighbours looked at more often, by those who have seen the sky
-/// beside it, until no further cell is found: so an opening is found whole wherever a part of it is. Same
+/// cells. A cell that is found has all closed neighbours looked at more often, by the lookers that have seen
+/// the sky beside it, until no further cell is found: so an opening is found whole wherever a part is. Same
 /// for any number of threads.
 class Openings {
  public:
@@ -23,7 +23,7 @@ class Openings {
 
   /// A looker has seen the sky in a direction, through this place of the rectangle.
   void mark(std::size_t looker, const Vec3& direction, const Vec3& place);
-  /// Has every cell looked at, by all lookers and by those of `knowing`.
+  /// Has every cell looked at, by all lookers and by the lookers of `knowing`.
   void look(std::span<const std::uint32_t> knowing);
   /// Has the neighbours of open cells looked at, until nothing is found.
   void grow();

@@ -9,7 +9,7 @@ namespace phos::inline scene {
 namespace {
 
 constexpr float kStray = 0.1f, kStrayOfSpots = 0.5f;
-/// A piece is not taken for darker than this part of what the environment is on the mean: its middle may be.
+/// A piece is not taken for darker than this part of the environment's mean: its middle may be.
 constexpr float kLeastLuminance = 0.05f;
 /// A portal behind a blind is chosen so often for each time that a gap is: light may come beside the gaps.
 constexpr float kBesideGaps = 0.1f;
@@ -52,7 +52,7 @@ float PortalLight::share_behind_blinds(const PortalPiece& piece, const Vec3& fro
   return static_cast<float>(behind) / static_cast<float>(std::size(kPlaces));
 }
 
-/// Portals behind blinds lose their promise to the gaps, but for a tenth of what the gaps promise.
+/// Portals behind blinds lose their promise to the gaps, but for a tenth of the gaps' promise.
 void PortalLight::prefer_gaps(const Vec3& from, std::vector<float>& promise) const {
   float gaps = 0, behind = 0;
   for (std::size_t k = piece_.size(); k < promise.size(); ++k) gaps += promise[k];
@@ -172,10 +172,10 @@ Environment::Sample PortalLight::sample(const Vec3& from, const Vec2& u) const {
 
 float PortalLight::promise_lx(const Vec3& from) const {
   const Chances c = chances(from);
-  // A surface turned any way receives a quarter of what comes from all sides.
+  // A surface turned any way receives a quarter of the light from all sides.
   if (!(c.sum > 0)) return 0.25f * luminance(Rgb(light_->integral_lx()));
   const float sun_lx = c.sun > 0 ? luminance(light_->sun()->illuminance_lx) : 0.f;
   return c.sum + sun_lx;
 }
 
-}  // namespace phos::scene
+}  // namespace phos::inline scene

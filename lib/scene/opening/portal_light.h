@@ -30,7 +30,7 @@ class PortalLight {
   Environment::Sample sample(const Vec3& from, const Vec2& u) const;
   /// Density per sr with which sample() chooses a direction.
   float density(const Vec3& from, const Vec3& direction) const;
-  /// Illuminance on a surface that faces what light there is, roughly, lx: through the portals, or from all
+  /// Illuminance on a surface that faces the light, roughly, lx: through the portals, or from all
   /// around.
   float promise_lx(const Vec3& from) const;
 
@@ -66,4 +66,4 @@ class PortalLight {
   float stray_ = 0;
 };
 
-}  // namespace phos::scene
+}  // namespace phos::inline scene

@@ -20,8 +20,8 @@ struct PortalPiece {
   float before_m(const Vec3& from) const;
   /// The same of light that goes through it away from that place.
   float behind_m(const Vec3& from) const;
-  /// A place of it, from two numbers in [0, 1): uniform over the solid angle where it is near, else over its
-  /// area.
+  /// A place of the piece, from two numbers in [0, 1): uniform over the solid angle where it is near, else
+  /// over its area.
   Vec3 sample(const Vec3& from, const Vec2& u) const;
   /// Density per sr of the direction to that place; the line through `from` crosses the piece.
   double density(const Vec3& from, const Vec3& direction) const;

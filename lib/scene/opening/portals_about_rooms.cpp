@@ -8,10 +8,10 @@ namespace phos::inline scene {
 namespace {
 
 constexpr int kCells = 64;      // along each side of a face of the box
-constexpr int kFineCells = 64;  // and of what is found open in it
+constexpr int kFineCells = 64;  // and of the parts found open in it
 constexpr double kLeastSaved = 0.1;
 
-/// An opening with less of what is closed about it, in one piece or more.
+/// An opening with less of the closed surface about it, in one piece or more.
 std::vector<Portal> refined(const RayScene& rays, std::span<const Looker> lookers, const Portal& found,
                             std::span<const std::uint32_t> witnesses, std::uint64_t number) {
   Openings fine(rays, lookers, found, kFineCells, number);

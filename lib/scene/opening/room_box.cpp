@@ -3,7 +3,7 @@
 namespace phos::inline scene {
 namespace {
 
-/// Beyond the box of the lookers, of its diagonal: what is flat still has sides, and an opening in a
+/// Beyond the box of the lookers, of its diagonal: a flat box still has sides, and an opening in a
 /// side of the room lies within the box, next to its face.
 constexpr float kMargin = 3e-5f;
 

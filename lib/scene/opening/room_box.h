@@ -13,7 +13,7 @@ namespace phos::inline scene {
 Bounds box_about(std::span<const Looker> lookers);
 /// Face 2 * axis + (1 for the upper) of a box, inwards.
 Portal face_of(const Bounds& box, int face);
-/// The face and the place of it at which a ray from within leaves the box.
+/// The face at which a ray from within leaves the box, and the place on it.
 std::pair<int, Vec3> way_out(const Bounds& box, const Vec3& from, const Vec3& direction);
 
 }  // namespace phos::inline scene

@@ -35,7 +35,7 @@ double open_area_m2(std::span<const Looker> lookers, const Bounds& box) {
   return sum;
 }
 
-/// All but the share of them that lies outermost on one side, and what lies in one plane with that.
+/// All but the share that lies outermost on one side, and the places in one plane with that share.
 std::vector<Looker> without_outermost(std::span<const Looker> lookers, int axis, float side, double share) {
   std::vector<float> out;
   for (const Looker& looker : lookers) out.push_back(side * looker.position[axis]);

@@ -1,4 +1,4 @@
-// A scene in figures: what it holds, how bright it is, and what computing its light requires.
+// A scene in figures: its contents, its brightness, and the requirements of computing its light.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace phos::inline scene {
 
-/// A material and what it does to light. Textures and vertex colours count by their mean
+/// A material and its effect on light. Textures and vertex colours count by their mean
 /// (over the area that has the material).
 struct MaterialSummary : ReflectionSummary {
   const Material* material = nullptr;
@@ -21,7 +21,7 @@ struct MaterialSummary : ReflectionSummary {
 std::vector<MaterialSummary> summarize_materials(const Scene& scene);
 const char* model_name(Model model);
 
-/// What the light of this scene needs, and why; what is not listed need not be computed. "gloss" is had by
+/// The stages that the light of this scene needs, and why; other stages need not run. "gloss" is had by
 /// radiance records or rays: which of them suits each lobe is for others to say (radiance/gloss_report.h).
 struct Requirement {
   std::string what;  ///< "irradiance records"

@@ -77,7 +77,7 @@ std::string light_line(const Json& l) {
   return line;
 }
 
-/// Luminance of what passes: straight along the normal, or scattered.
+/// Luminance of the light that passes: straight along the normal, or scattered.
 std::string passes(const Json& m) {
   std::string all;
   for (const auto& [key, how] : {std::pair{"transmittance", ""}, {"diffuse_transmittance", " scattered"}}) {

@@ -1,4 +1,4 @@
-// What scene files can say, and what phos makes of it: one row each, for findings and for docs/scenes.md.
+// The statements of scene files, and how phos treats them: one row each, for findings and for docs/scenes.md.
 #pragma once
 
 #include <span>
@@ -13,14 +13,14 @@ struct Feature {
   enum class Group : std::uint8_t { property, extension, obj, mtl };
   enum class State : std::uint8_t {
     modelled,
-    in_part,    ///< told where what is missing is used
+    in_part,    ///< told where the missing part is used
     told,       ///< not modelled
     no_effect,  ///< on light, geometry and pictures
   };
   Group group;
   std::string_view name;
   State state;
-  std::string_view sentence;  ///< what is done; of in_part and told it follows the name: "is ignored"
+  std::string_view sentence;  ///< the treatment; of in_part and told it follows the name: "is ignored"
   /// Of a finding: info where light and geometry are as the file says.
   Note::Level level = Note::Level::warning;
   /// Extensions: the members, with commas between, of which one at least must be there and not 0 for a

@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t kChunk = 64;
 constexpr std::uint32_t kRaysOfAll = 1u << 17;
 constexpr std::size_t kMostEvents = 12;
-/// Lines of one lamp ray, with all that comes of it.
+/// Lines of one lamp ray, with all rays that follow.
 constexpr std::uint32_t kMostTurns = 4096;
-/// Of what a ray started with: less than that is not followed.
+/// Share of a ray's first light: less than that is not followed.
 constexpr double kLeastLeft = 1e-4;
 /// Vertex normals of a plane facet lie as near as that to its own (cosine): 2 mrad.
 constexpr float kPlane = 1 - 2e-6f;

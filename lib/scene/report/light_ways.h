@@ -1,5 +1,5 @@
-// The ways other than straight ones by which lamps can light surfaces: what mirrors, panes, curved glass and
-// sharp gloss send on.
+// The ways other than straight ones by which lamps can light surfaces: by mirrors, panes, curved glass and
+// sharp gloss.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace phos::inline scene {
 /// over flat mirrors in which lamps have images (scene/mirror/images.h): direct light holds them.
 struct LightWay {
   enum class Kind : std::uint8_t {
-    mirrored,  ///< by plane mirrors and by what plane panes reflect: images of the lamp
+    mirrored,  ///< by plane mirrors and by reflection at plane panes: images of the lamp
     bent,      ///< by curved mirrors and by glass that refracts: caustics
     gloss,     ///< by a lobe that is sharper than kSharpLobe, first of all
   };
   std::string lamp;  ///< as lamps_of() names it
   Kind kind = Kind::mirrored;
-  std::vector<std::string> materials;  ///< names, those that send most of it first
+  std::vector<std::string> materials;  ///< names, in order of the light that they send
   std::vector<std::string> by;         ///< the same for people: mirror "wall"
   double share = 0;                    ///< of the lamp's flux; of what hits the scene, or comes through its
                                        ///< portals, where the lamp is infinitely far away
@@ -52,7 +52,7 @@ inline constexpr std::uint32_t kRaysOfALamp = 4096, kLeastRaysOfALamp = 256;
 
 /// [{"lamp":..,"way":"mirrored","materials":[..],"by":[..],"share":..,"hit_share":..}]
 Json to_json(const std::vector<LightWay>& ways);
-/// The inverse; what is no such thing is passed over.
+/// The inverse; entries that are no ways are passed over.
 std::vector<LightWay> light_ways_from(const Json& json);
 
 }  // namespace phos::inline scene

@@ -92,7 +92,7 @@ class Linter {
               : text("give a material Ke (cd/m2), or ", how_to_add_to(scene_), ", or give --environment"));
       return;
     }
-    // A surface turned any way receives a quarter of what an environment sends from all sides.
+    // A surface turned any way receives a quarter of the light that an environment sends from all sides.
     double lumens = 0, area = 0, mean_lx = 0;
     for (const Light& light : scene_.light) {
       if (light.kind == Light::Kind::environment) {
@@ -141,7 +141,7 @@ class Linter {
     }
   }
 
-  /// A luminaire hangs within what it lights.
+  /// A luminaire hangs within the room that it lights.
   void check_luminaire(const Light& light) {
     Bounds room, lamp;
     for (const Instance& instance : scene_.instance) {
@@ -270,7 +270,7 @@ class Linter {
     }
   }
 
-  /// Stretched highlights need to know along what.
+  /// Stretched highlights need a direction.
   void check_tangents() {
     for (const Instance& instance : scene_.instance) {
       const Material& m = scene_.material[instance.material];

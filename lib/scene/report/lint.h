@@ -12,8 +12,8 @@ struct Finding {
   enum class Level { info, warning, error };
   Level level = Level::info;
   std::string code;     ///< stable, for scripts: "no-light"
-  std::string message;  ///< what was found, with figures
-  std::string mend;     ///< what to do about it
+  std::string message;  ///< the finding, with figures
+  std::string mend;     ///< the remedy
 };
 const char* level_name(Finding::Level level);
 

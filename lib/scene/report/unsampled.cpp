@@ -16,7 +16,7 @@ struct SamplerRow {
   Sampler sampler;
   const char* name;
   Finds mirrored, bent, gloss;
-  const char* instead;  ///< what to do where it does not
+  const char* instead;  ///< the remedy where it does not
 };
 
 /// The table: estimator x way.

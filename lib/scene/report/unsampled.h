@@ -32,7 +32,7 @@ bool samples(Sampler sampler, const LightWay& way, double samples);
 /// The ways that are not.
 std::vector<LightWay> unsampled(const std::vector<LightWay>& ways, Sampler sampler, double samples);
 
-/// The ways of two lists, those of the first one first: ways of one lamp and kind are one, with the larger
+/// The ways of two lists, ways of the first list first: ways of one lamp and kind are one, with the larger
 /// share, the lesser hit_share, and the materials of both.
 std::vector<LightWay> united(std::vector<LightWay> ways, const std::vector<LightWay>& more);
 
@@ -41,7 +41,7 @@ std::vector<LightWay> united(std::vector<LightWay> ways, const std::vector<Light
 std::int64_t samples_wanted(const std::vector<LightWay>& ways, Sampler sampler, std::int64_t most);
 
 /// A line on a way that is not: lamp "sun" reaches surfaces by way of mirror "wall", which path tracing does
-/// not sample ..., with what does.
+/// not sample ..., with the method that does.
 std::string unsampled_line(const LightWay& way, Sampler sampler, double samples);
 
 /// A warning for each, but for no more than kShownWays; with --strict Error(numerical) instead. Also the
@@ -50,14 +50,15 @@ void tell_unsampled(Tool& tool, const std::vector<LightWay>& ways, Sampler sampl
                     const std::string& what = "");
 inline constexpr std::size_t kShownWays = 3;
 
-/// A file's records do not hold these ways; nothing is noted where there are none, so that such files are
-/// what they always were.
+/// A file's records do not hold these ways; nothing is noted where there are none, so that such files stay
+/// as they always were.
 void note_unsampled(Provenance& provenance, const std::vector<LightWay>& ways);
 std::vector<LightWay> unsampled_in(const Provenance& provenance);
 /// Warns as above of the files that say so. All their ways.
 std::vector<LightWay> tell_unsampled_in(Tool& tool, const std::vector<Container>& files);
-/// Of a file whose records are kept beside new ones: `kept` are its ways, `missed` those of the new records,
-/// which are told already. Warns as above of those that the file alone says. The ways of both, united.
+/// Of a file whose records are kept beside new ones: `kept` are its ways, `missed` the ways of the new
+/// records, which are told already. Warns as above of ways that the file alone states. The ways of both,
+/// united.
 std::vector<LightWay> tell_unsampled_kept(Tool& tool, const std::string& path,
                                           const std::vector<LightWay>& kept,
                                           const std::vector<LightWay>& missed);

@@ -151,7 +151,7 @@ void check_against_space(const DaylightOptions& o, double distance_au, Daylight&
   warn("--sky-illuminance", o.sky_lx.value_or(0), most_lx, "lx");
 }
 
-/// Six digits of each number: what of them the processor's rounding leaves alone.
+/// Six digits of each number, which the processor's rounding leaves alone.
 std::string recipe_of(const Daylight& d) {
   std::string recipe;
   const auto add = [&](double value) { recipe += text(value + 0.0, ' '); };

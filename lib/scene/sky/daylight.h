@@ -20,7 +20,7 @@ struct Daylight {
   double sun_lx = 0;                 ///< on a surface that faces the sun, by the sun alone
   double sun_radius_rad = 0;         ///< half the angle of its disc
   double ground_albedo = 0;
-  std::string recipe;                 ///< says all of it in numbers; equal where the light is
+  std::string recipe;                 ///< states the light in numbers; equal where the light is
   std::vector<std::string> warnings;  ///< one line each
 };
 
@@ -35,7 +35,7 @@ Daylight resolve(const DaylightOptions& options);
 /// Is the sky one of those that daylight factors are of by the norm: overcast, the same all around?
 bool is_overcast(const DaylightOptions& options);
 
-/// The light of it: the sky's luminance as the means of texels of a third of a degree, scaled to its
+/// Its light: the sky's luminance as the means of texels of a third of a degree, scaled to its
 /// illuminance; below the horizon the ground's, albedo times illuminance by sky and sun / pi; the sun as it
 /// is. On surfaces of any slope the texels change illuminance by less than a thousandth
 /// (tests/unit/scene_daylight.cpp).

@@ -12,7 +12,7 @@ namespace phos::inline scene {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// Of the mean luminance: what is brighter is a peak.
+/// Over the mean luminance: brighter texels are a peak.
 constexpr double kPeak = 4;
 
 /// luminance() in double: the dimmest texel keeps a probability of its own.

@@ -12,7 +12,7 @@ namespace phos::inline scene {
 
 /// Luminance over the sphere, constant over each texel of an equirectangular map: every sum over it is exact,
 /// and a sun of one texel is a sun of one texel. +Y is up: row 0 is the topmost. As in OpenEXR and Mitsuba,
-/// the middle of the picture shows +Z, and +X a quarter of the width to the left of it. The map is turned
+/// the middle of the picture shows +Z, and +X a quarter of the width to the left. The map is turned
 /// about +Y by `rotation_rad`, counter-clockwise seen from above: +Z goes towards +X. A sun, if there is one,
 /// is no texel but an exact disc: its luminance is added to the map's.
 class Environment {
@@ -32,7 +32,7 @@ class Environment {
   double rotation_rad() const { return rotation_rad_; }
   const std::vector<Rgb>& texels() const { return texels_; }
   const std::optional<Sun>& sun() const { return sun_; }
-  /// Same text, same light: what a map that was computed is known by, instead of the last bits of its texels.
+  /// Same text, same light: it identifies a map that was computed, instead of the last bits of its texels.
   /// Empty for other maps.
   const std::string& recipe() const { return recipe_; }
   void set_recipe(std::string recipe) { recipe_ = std::move(recipe); }
@@ -52,7 +52,7 @@ class Environment {
     float density = 0;        ///< per sr
   };
   /// A direction in which a point looks for light: half of them with density in proportion to the luminance,
-  /// half to what of it is below four times its mean, so that the sky is still seen where a small sun is
+  /// half to the part of it below four times its mean, so that the sky is still seen where a small sun is
   /// hidden (of a map without such peaks, all by luminance). A sun gets its share of the light, but at most
   /// half of them, the smallest u.y. Rows by u.y, columns by u.x, both monotonous, so that strata of `u` are
   /// strata of the sphere. Density 0 where all is black.
@@ -77,7 +77,7 @@ class Environment {
 
   /// Integral of the luminance over the sphere, lx (cd/m2 sr), the sun included.
   const DVec3& integral_lx() const { return integral_lx_; }
-  /// Luminance of it without the sun, lx.
+  /// Luminance of its illuminance without the sun, lx.
   double map_lx() const { return luminous_lx_; }
   /// Irradiance of an unoccluded surface that faces up, lx, by the map alone.
   DVec3 irradiance_up_lx() const;

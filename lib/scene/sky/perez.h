@@ -20,7 +20,7 @@ struct Irradiances {
 struct PerezSky {
   SkyShape shape;
   double clearness = 1;   ///< epsilon: 1 overcast, above 6.2 very clear
-  double brightness = 0;  ///< Delta: diffuse irradiance, of what would reach the ground without air
+  double brightness = 0;  ///< Delta: diffuse irradiance, over the irradiance of the ground without air
   double sky_lx = 0;      ///< on a horizontal surface, by the sky alone
   double sun_lx = 0;      ///< on a surface that faces the sun, by the sun alone
 };

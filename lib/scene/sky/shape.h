@@ -10,7 +10,7 @@ namespace phos::inline scene {
 struct SkyShape {
   double a = 0, b = -1;
   double c = 0, d = -1, e = 0, f = 0;
-  bool traditional = false;  ///< (1 + 2 cos Z) / 3 instead of all of it (Moon and Spencer 1942; CIE type 16)
+  bool traditional = false;  ///< (1 + 2 cos Z) / 3 instead of the form (Moon and Spencer 1942; CIE type 16)
 
   /// Brighter about the sun, so that the sun's position must be known?
   bool has_sun_side() const { return c != 0 || e != 0; }

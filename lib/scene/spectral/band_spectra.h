@@ -1,4 +1,4 @@
-// Which spectrum belongs to what of a scene.
+// The spectra that belong to materials and lights of a scene.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Wavelength bands: what they are, and what light in them is.
+// Wavelength bands, and the measure of light in them.
 //
 // Light in N bands is computed in ceil(N / 3) ordinary runs, in each of which the three components of Rgb are
 // not red, green and blue but three neighbouring bands, a triplet; bands do not mix in transport. Then
@@ -6,9 +6,9 @@
 //   - light (lm, lx, cd, cd/m2) of component c is the luminous share of the light that lies in the band,
 //     over the weight of component c in luminance() (0.2126, 0.7152, 0.0722).
 // So luminance() of a triplet is the photometric quantity of the light in its bands, and the sum over
-// triplets is that of all light: lux stay lux. Within a band the colour matching functions count by their
-// means under D65 (as the weights of ASTM E308 do), so that white light on grey surfaces is white for every
-// N.
+// triplets is the quantity of all light: lux stay lux. Within a band the colour matching functions count by
+// their means under D65 (as the weights of ASTM E308 do), so that white light on grey surfaces is white for
+// every N.
 #pragma once
 
 #include <vector>
@@ -31,7 +31,7 @@ class Bands {
   double lo_nm(int band) const;
   double hi_nm(int band) const { return lo_nm(band + 1); }
 
-  /// CIE XYZ of what lies in a band of white light (D65) with Y = 1; the sum over all bands is the white of
+  /// CIE XYZ of the part in a band of white light (D65) with Y = 1; the sum over all bands is the white of
   /// Rec.709 exactly.
   const DVec3& white_xyz(int band) const { return white_xyz_[static_cast<std::size_t>(band)]; }
   /// Luminous share of each band in light of a relative power; sums to 1.

@@ -11,10 +11,10 @@
 namespace phos::inline scene {
 
 /// A light as its power in steps of wavelength: colour matching functions, test colours and reference lights
-/// are taken in the same steps, so that what steps are too coarse for mostly cancels.
+/// are taken in the same steps, so that errors of coarse steps mostly cancel.
 class WavelengthSteps {
  public:
-  /// The points of the CIE's tables, every 5 nm: what CIE 13.3-1995 asks for.
+  /// The points of the CIE's tables, every 5 nm, as CIE 13.3-1995 asks.
   WavelengthSteps();
   /// Bands, by the means over them.
   explicit WavelengthSteps(const Bands& bands);

@@ -10,8 +10,8 @@ namespace phos::inline scene {
 
 /// Pictures as one in linear Rec.709, with the layers that any of them has. Light is the exact sum; a
 /// standard error is the greater of two, as if all bands erred alike (they share random numbers) or each on
-/// its own; albedo is the colour under D65, and left out where triplets are dark; weight the least; what has
-/// no colour (normal, position, Z) must be the same everywhere. Colours beyond Rec.709 keep negative
+/// its own; albedo is the colour under D65, and left out where triplets are dark; weight the least; layers
+/// without colour (normal, position, Z) must be the same everywhere. Colours beyond Rec.709 keep negative
 /// components.
 struct JoinedPicture {
   Image image;

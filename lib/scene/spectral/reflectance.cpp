@@ -9,7 +9,7 @@ namespace phos::inline scene {
 namespace {
 
 constexpr int kMaxSteps = 60;
-/// Linear Rec.709; a thousandth of what an 8-bit texture can tell apart.
+/// Linear Rec.709; a thousandth of a step of an 8-bit texture.
 constexpr double kGoodEnough = 1e-6;
 /// A determinant below which a step would be beyond numbers.
 constexpr double kSingular = 1e-100;

@@ -37,7 +37,8 @@ class BandColours {
   int triplet() const { return triplet_; }
   const Bands& bands() const { return *bands_; }
 
-  /// Reflectance in the three bands. Above 1 it is that of the colour over its largest component, times this.
+  /// Reflectance in the three bands. Above 1 it is the reflectance of the colour over its largest component,
+  /// times that component.
   Rgb reflectance(const Rgb& rgb) const;
   /// Light of that colour: D65 through a filter of half the largest component's strength (which is smoother
   /// than the colour at its full strength).

@@ -52,7 +52,7 @@ class ToBands {
     return *table_;
   }
 
-  /// Light of luminance 1 with a spectrum. What of it is less than floats can add to the rest is left out.
+  /// Light of luminance 1 with a spectrum. A part that is less than floats can add to the rest is left out.
   Rgb share_of(const Spectrum& power) {
     DVec3 shares = bands_.triplet_of(bands_.luminous_shares(power), colours_.triplet());
     for (int c = 0; c < 3; ++c) {

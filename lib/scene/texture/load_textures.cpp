@@ -51,7 +51,7 @@ Size jpeg_size(const unsigned char* p, std::size_t n) {
   return {};
 }
 
-/// Does a PNG hold what its chunks say? The decoder takes memory for them before it looks.
+/// Does a PNG hold the bytes that its chunks state? The decoder takes memory for them before it looks.
 bool holds_its_chunks(const std::string& bytes) {
   const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
   for (std::size_t at = 8; at + 8 <= bytes.size();) {

@@ -19,7 +19,7 @@ struct Decoded {
 };
 const Decoded kLinear(false), kSrgb(true);
 
-/// t - floor(t); 0 for what is not finite. (std::floor is a call on the oldest x86.)
+/// t - floor(t); 0 for a t that is not finite. (std::floor is a call on the oldest x86.)
 float fraction(float t) {
   if (!std::isless(std::fabs(t), 0x1p23f)) return 0;  // whole
   const float truncated = static_cast<float>(static_cast<int>(t));

@@ -21,7 +21,7 @@ Vec4 mean_texel(const Scene& scene, const TextureUse& use);
 /// are the barycentric weights of the second and third vertex.
 Vec2 texture_coordinates(const Scene& scene, std::uint32_t triangle, int set, float u, float v);
 
-/// Luminance leaving the shining side of a triangle at a point of it, cd/m2, emissive texture and
+/// Luminance leaving the shining side of a triangle at one of its points, cd/m2, emissive texture and
 /// visible_share() included.
 Rgb emission_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 

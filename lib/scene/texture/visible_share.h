@@ -9,7 +9,8 @@ namespace phos::inline scene {
 /// `u` and `v` are the barycentric weights of the second and third vertex.
 float alpha_at(const Scene& scene, std::uint32_t triangle, float u, float v);
 
-/// Share of a surface that is there at a point of it, 0 to 1: 0 in holes of a mask, alpha of blending, else
+/// Share of a surface that is there at one of its points, 0 to 1: 0 in holes of a mask, alpha of blending,
+/// else
 /// 1. Light that a surface emits is multiplied by it.
 float visible_share(const Scene& scene, std::uint32_t triangle, float u, float v);
 /// The same at a point that a ray has hit: not in a hole.

@@ -28,7 +28,7 @@ struct GlossGroup {
   float per_unit;
 };
 
-/// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius; over_limit_m is that of
+/// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius; over_limit_m is the limit of
 /// record_apart().
 struct GlossSplat {
   float position[3], inverse_radius, normal[3], front_limit_m, over_limit_m;
@@ -42,9 +42,9 @@ struct GlossSplat {
 /// The weights of a record at the pixels; 0 where it is not valid.
 using GlossWeights = void(const GlossGroup& group, const GlossSplat& record, float inverse_accuracy,
                           float least_weight, GlossLane& weight);
-/// Adds what a record sends through the pixels' lobes.
+/// Adds the light that a record sends through the pixels' lobes.
 using GlossAdd = void(GlossGroup& group, const GlossSplat& record, const GlossLane& weight);
-/// Makes the sums of errors out of those of bands: independent from band to band.
+/// Makes the sums of errors out of the sums of bands: independent from band to band.
 using GlossFinish = void(GlossGroup& group);
 
 struct GlossKernel {

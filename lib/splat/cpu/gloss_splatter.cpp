@@ -69,7 +69,8 @@ class GlossSplatter {
     buffer_.light.assign(g_.position.size(), Vec4(0)), buffer_.error.assign(g_.position.size(), Vec4(0));
   }
 
-  /// Leaves pixels whose lobe is in `rows` to others; `left` says which, where it is, and what errors need.
+  /// Leaves pixels whose lobe is in `rows` to others; `left` names the pixels, their rows, and the data for
+  /// errors.
   void leave(const GlossRows& rows, GlossLeft& left) {
     left.place.assign(g_.position.size(), Vec4(-1, 0, 0, 0)), left.spread.assign(g_.position.size(), {});
     rows_ = &rows, left_ = &left;

@@ -1,4 +1,4 @@
-// Drawing radiance records over a G-buffer: what they send towards the eye through glossy lobes.
+// Drawing radiance records over a G-buffer: the light that they send towards the eye through glossy lobes.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct GlossBuffer {
   std::uint64_t turned = 0;  ///< pixels whose records had to be rotated: looked up instead of drawn
 };
 
-/// Every radiance record's weight (at `accuracy`, that of the cache) and light, at the pixels whose lobe is
+/// Every radiance record's weight (at `accuracy`, the cache's) and light, at the pixels whose lobe is
 /// read from records (all others stay 0): GlossCache::outgoing to 1e-4, but for rounding on the rim of
 /// records. Of `gbuffer`, seen by `camera` through the point `subpixel` of each pixel. Tiled and vectorised;
 /// lobes are made for a few pixels at a time. Where records are in other frames than the surface seen (curved
@@ -27,12 +27,12 @@ struct GlossBuffer {
 GlossBuffer splat_gloss_on_cpu(const GlossCache& cache, double accuracy, const RayScene& rays,
                                const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
 
-/// The error of a pixel: sums over its records of w, of w x light (`kept`: what harmonics ring below the
+/// The error of a pixel: sums over its records of w, of w x light (`kept`: with harmonics that ring below the
 /// least cut off) and of w x their errors; `sums` in squares of `unit`.
 Rgb gloss_error(const BlendSums& sums, float weight, const Rgb& kept, const Rgb& light, const Rgb& error,
                 float unit);
 
-/// The same by lookups alone: what splatting gives; without leaks where the cache tests for them.
+/// The result of splatting by lookups alone; without leaks where the cache tests for them.
 GlossBuffer look_up_gloss(const GlossCache& cache, const RayScene& rays, const GBuffer& gbuffer,
                           const Camera& camera, const Vec2& subpixel);
 

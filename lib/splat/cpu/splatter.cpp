@@ -12,7 +12,7 @@
 namespace phos::inline splat {
 namespace {
 
-/// Pixels of a tile in a picture: where its row y starts, and how many columns and rows of it there are.
+/// Pixels of a tile in a picture: where its row y starts, and its numbers of columns and rows.
 struct TileWindow {
   int x0, y0, columns, rows, width;
   std::size_t pixel(int x, int y) const {

@@ -22,7 +22,7 @@ struct SplatBuffer {
   Interpolated at(std::size_t pixel) const;
 };
 
-/// The unit that keeps squares of the records' irradiance within the range of floats: the largest of it.
+/// The unit that keeps squares of the records' irradiance within the range of floats: the largest irradiance.
 float splat_unit_lx(std::span<const IrradianceRecord> records);
 
 /// Every record's weight (record_weight at `accuracy`) and extrapolated irradiance, summed. Tiled,

@@ -22,8 +22,8 @@ struct alignas(64) SplatTile {
   float light[4][kTilePixels], error[4][kTilePixels], spread[3][kTilePixels];
 };
 
-/// An IrradianceRecord as the loop wants it. front_limit_m = -tolerance * radius; over_limit_m is that of
-/// record_apart(); turn = g_r x n_i, so that the change by rotation, (n_i x n).g_r, is (n - n_i).turn.
+/// An IrradianceRecord as the loop wants it. front_limit_m = -tolerance * radius; over_limit_m is the limit
+/// of record_apart(); turn = g_r x n_i, so that the change by rotation, (n_i x n).g_r, is (n - n_i).turn.
 struct PackedRecord {
   float position[3], inverse_radius, normal[3], front_limit_m;
   float irradiance[3], weight, limit[3], stderr_lx[3], shared;

@@ -17,8 +17,8 @@ constexpr float kUneven = 0.05f;
 constexpr float kSteep = 0.03f;
 constexpr std::size_t kWhole = 32;
 constexpr std::uint32_t kShifts = 3;  // of a lamp's points
-/// Variance of the share that even points see of a lamp, over that of independent ones: 0.11 was measured for
-/// straight shadow edges; more is left for others.
+/// Variance of the share that even points see of a lamp, over the variance by independent points: 0.11 was
+/// measured for straight shadow edges; more is left for others.
 constexpr float kEven = 0.25f;
 
 /// Of the share of a lamp that `found` saw. That all rays arrive, or none does, does not tell that nothing
@@ -123,7 +123,7 @@ SharedLight EdgeLight::light(const EdgeSamples& samples, const SharedLight* abou
     right = std::fabs(found - expected) <= kUneven * std::max(found, expected);
   }
   if (!right) send(samples, tests, places, s);
-  // Even where the pixel about them is right: light may change much from one side of it to the other.
+  // Even where the pixel about them is right: light may change much from one side of the pixel to the other.
   const std::vector<std::uint32_t> two = mirrored(samples);
   if (two.empty() || find_whole(samples, two, s) > kSteep)
     find_whole(samples, some_of(samples, std::min(places, kWhole)), s);

@@ -18,10 +18,10 @@ struct EdgeSamples {
   std::span<const std::uint32_t> sample;  ///< those that show the surface, in order; at least one
 };
 
-/// They share their shadow rays: of a lamp with a closed form (LampForm) the share of it that they see, of
-/// others the mean of what rays brought. The first of them put to the test what a pixel about them, that
-/// shows the same surface, has found: shadows may be narrower than the pixel. Const, usable from any thread;
-/// holds references.
+/// They share their shadow rays: of a lamp with a closed form (LampForm) the share that they see, of
+/// others the mean of the light that rays brought. The first of them test the result of a pixel about them
+/// that shows the same surface: shadows may be narrower than the pixel. Const, usable from any thread; holds
+/// references.
 class EdgeLight {
  public:
   /// `rays_each`: from a sample to each lamp with an area.
@@ -33,10 +33,10 @@ class EdgeLight {
     std::vector<float> whole, first;    // per lamp: projected solid angle, mean and of one sample
     std::vector<std::uint32_t> shift;
   };
-  /// Light of them all. Where `about`, that of the pixel about them (null: none), is what the first of them
-  /// find, no more rays are sent. The variance is a sample's, such that the sum of as many that are
-  /// independent has that of the sum of these, which share theirs. It is not zero where all rays agree, for
-  /// they may have missed something.
+  /// Light of all samples. Where the first of them find `about`, the light of the pixel about them (null:
+  /// none), no more rays are sent. The variance is a sample's, such that the sum of as many independent
+  /// samples has the variance of the sum of these, which share their rays. It is not zero where all rays
+  /// agree, for they may have missed something.
   SharedLight light(const EdgeSamples& samples, const SharedLight* about, Scratch& scratch) const;
 
  private:

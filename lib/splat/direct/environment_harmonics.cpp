@@ -58,7 +58,7 @@ RowIntegrals integrate_row(const Environment& map, int row, int order, const Cir
       const auto turned = static_cast<std::size_t>(std::int64_t{m} * k % columns);
       c += circle.cosine[turned] * DVec3(texel[k]), s -= circle.sine[turned] * DVec3(texel[k]);
     }
-    // A texel's integral is the value at its middle times that of cos(m phi) about 0.
+    // A texel's integral is the value at its middle times the integral of cos(m phi) about 0.
     const double width = 2 * std::numbers::pi / columns, half = 0.5 * m * width;
     const double own = m == 0 ? width : width * std::sin(half) / half;
     const double first = m * (std::numbers::pi + map.rotation_rad()) - half;
@@ -89,8 +89,8 @@ void add_row(const Environment& map, int row, const Circle& circle, const Harmon
   }
 }
 
-/// Integral of max(z, 0) Y_l^0, times what turns it into a factor of SH coefficients (Ramamoorthi and
-/// Hanrahan 2001): irradiance is a convolution.
+/// Integral of max(z, 0) Y_l^0, times the number that turns it into a factor of SH coefficients (Ramamoorthi
+/// and Hanrahan 2001): irradiance is a convolution.
 std::vector<double> cosine_factors(int order) {
   const HarmonicConversion conversion(2, order);
   std::vector<double> factors;
@@ -103,7 +103,8 @@ std::vector<double> cosine_factors(int order) {
   return factors;
 }
 
-/// A disc's coefficients are those of its middle, times the means of the Legendre polynomials over it.
+/// A disc's coefficients are the coefficients of its middle, times the means of the Legendre polynomials over
+/// it.
 void add_sun(const Environment::Sun& sun, const HarmonicBasis<double>& basis, std::vector<DVec3>& sum) {
   const DVec3 towards = glm::normalize(sun.towards);
   const Frame frame = environment_frame();

@@ -13,7 +13,7 @@
 
 namespace phos::inline splat {
 
-/// How the environment lights what the eye sees.
+/// How the environment lights the surfaces that the eye sees.
 enum class EnvironmentBy : unsigned char {
   traced,  ///< by rays
   hsh,     ///< by hemispherical harmonics; the map has bands enough for them

@@ -20,8 +20,8 @@ constexpr std::size_t kChunk = 1024;
 // Of the row or column at this distance: the outer two together count like one, so that the mean about a
 // pixel holds each part of the set once.
 constexpr float kShare[kReach + 1] = {1, 1, 0.5f};
-/// Rays of a pixel to a lamp, all passes counted, from which on those of the pixels next to it do, without
-/// the others about it, and from which on its own alone do: the more, the less is blurred.
+/// Rays of a pixel to a lamp, all passes counted, from which on the rays of the pixels next to it suffice,
+/// without the other pixels about it, and from which on its own rays suffice: the more, the less is blurred.
 struct Enough {
   int next, own;
 };
@@ -32,11 +32,11 @@ constexpr Enough kNoisyEnough = {128, 4096};
 constexpr int kPerTest = 16;
 /// Of one pass, that alone tell the variance of their mean.
 constexpr int kTelling = 16;
-/// Standard errors at which what is nearer is believed against what is all about: a shadow's edge.
+/// Standard errors at which nearer pixels are believed against all pixels about: a shadow's edge.
 constexpr float kDoubt = 2;
 /// Median of the square of a normal number.
 constexpr double kMedianOfSquare = 0.455;
-/// Variances of its noise beyond which a mean of what is nearer counts.
+/// Variances of its noise beyond which a mean of nearer pixels counts.
 constexpr double kDoubtMeans = 6;
 /// Rays of one pass that it takes for that. A single one would be believed where it differs from most of
 /// those about it, and not where it agrees: half shadows would come out too dark or too bright.
@@ -54,11 +54,11 @@ enum Reach : std::size_t { kOwn, kNext, kAll, kReaches };
 /// Bits: some ray of the pixel arrived, some did not.
 enum : std::uint8_t { kNothing = 0, kSeen = 1, kBlocked = 2, kMixed = 3 };
 
-/// Of a lamp, 4 x 4, where the first ray of the pixel at (x, y) of a picture goes: the pixels of any 4 x 4
-/// meet each once, those of any 2 x 2 a quarter each.
+/// The part, of 4 x 4 of a lamp, to which the first ray of the pixel at (x, y) of a picture goes: the pixels
+/// of any 4 x 4 meet each part once, the pixels of any 2 x 2 a quarter each.
 struct Stratum {
   Stratum(std::size_t x, std::size_t y) : column(corner(x)), row(corner(y)) {}
-  /// Of 0 .. 3: the half, and which part of it.
+  /// Of 0 .. 3: the half, and the part of that half.
   static std::uint32_t corner(std::size_t at) {
     return static_cast<std::uint32_t>((at & 1) << 1 | (at >> 1 & 1));
   }
@@ -166,7 +166,7 @@ class Interleaved {
   }
 
   /// Rays first .. first + count - 1 of each pixel's part of its block's set, of the pixels that want them.
-  /// Tile by tile, those of one stratum of the lamp together: such rays run side by side.
+  /// Tile by tile, the rays of one stratum of the lamp together: such rays run side by side.
   template <class Wanted>
   void send(std::size_t lamp, int first, int count, const Wanted& wanted) {
     const std::size_t height = pixels_ / width_;
@@ -228,7 +228,7 @@ class Interleaved {
         row, about_, width_, [&](std::size_t i) { return i / width_; }, height);
   }
 
-  /// The light of a lamp with a closed form at a pixel, from what it and its neighbours found.
+  /// The light of a lamp with a closed form at a pixel, from the results of the pixel and its neighbours.
   void add_share(std::size_t lamp, std::size_t i) {
     const LampForm& form = lamps_.form[lamp];
     if (!(about_[i] & kSeen)) return;
@@ -255,8 +255,9 @@ class Interleaved {
   }
 
   /// By the pixel's own rays. A few of them, of one pass, see the lamp's parts in proportions that are not
-  /// right, so that seen / sent would be biased: what they saw is divided by what there is to see, with the
-  /// share about the pixel as control variate, so that there is no noise where all see it or none does.
+  /// right, so that seen / sent would be biased: the light that they saw is divided by the light to be seen,
+  /// with the share about the pixel as control variate, so that there is no noise where all rays see the lamp
+  /// or none does.
   void add_own_share(const LampForm& form, std::size_t i,
                      const std::array<PooledVisibility, kReaches>& found) {
     const float whole = unoccluded(form, i);
@@ -278,7 +279,7 @@ class Interleaved {
     });
   }
 
-  /// Draws the mean within reach towards those of what is nearer where these differ by more than noise: at
+  /// Draws the mean within reach towards the means of nearer pixels where these differ by more than noise: at
   /// the edge of a shadow. By a share that grows from 0 with the difference (James and Stein 1961), so that
   /// noise is believed nowhere.
   static void draw_nearer(const std::array<PooledVisibility, kReaches>& found, std::size_t reach, double gain,
@@ -302,10 +303,10 @@ class Interleaved {
     /// Of the pixel in the middle, whatever the edges of shadows are, where pixels a block apart differ.
     double usual = 1;
   };
-  /// Variance of what a pixel's rays bring, over that of independent rays; at most 1. Pixels a block apart
-  /// send theirs to the same part of the lamp, so half the mean square of their differences is the first;
-  /// the other is the mean square of a ray's light less that of the mean about the pixel, which holds all
-  /// parts.
+  /// Variance of the light of a pixel's rays, over the variance by independent rays; at most 1. Pixels a
+  /// block apart send their rays to the same part of the lamp, so half the mean square of their differences
+  /// is the first; the other is the mean square of a ray's light less the square of the mean about the pixel,
+  /// which holds all parts.
   Gain gain_of_strata(const std::vector<SharedLight>& mean) const {
     struct Variances {
       double in_strata = 0, independent = 0;
@@ -388,7 +389,7 @@ class Interleaved {
   std::vector<Receiver> receiver_;
   std::vector<LampVisibility> sight_;        // per pixel, of one lamp
   std::vector<Brought> brought_;             // empty for a lamp with a closed form
-  std::vector<std::uint8_t> found_, about_;  // states of a pixel, and of it with its neighbours
+  std::vector<std::uint8_t> found_, about_;  // states of a pixel, and of a pixel with its neighbours
   std::vector<SharedLight> shared_;
 };
 

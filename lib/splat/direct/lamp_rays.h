@@ -19,7 +19,7 @@ struct LampVisibility {
   std::uint32_t rays = 0;
 };
 
-/// What they brought, for lamps without closed form: sums of it, lx, and of its squares.
+/// Sums of the light that they brought, lx, and of its squares, for lamps without closed form.
 struct Brought {
   Rgb light{0};
   DVec3 light2{0};
@@ -43,7 +43,7 @@ struct PooledVisibility {
 struct SharedLight {
   Rgb illuminance{0};
   DVec3 variance{0};
-  /// Adds a lamp without closed form: the mean of what the rays brought.
+  /// Adds a lamp without closed form: the mean light of the rays.
   void add_mean(const PooledVisibility& found);
   /// Adds one of which a share is seen, with its variance.
   void add_share(const Rgb& whole_lx, float share, float variance);
@@ -69,7 +69,7 @@ class LampRays {
   /// many, some are sent before.
   void aim(std::size_t lamp, const SurfacePoint& p, float u_triangle, const Vec2& u, LampVisibility& sight,
            Brought* brought);
-  /// Tells each sight what the rest of its rays found.
+  /// Gives each sight the result of the rest of its rays.
   void send();
 
  private:

@@ -20,7 +20,7 @@ struct SeenSurface {
   }
 };
 
-/// Same material, normals within 6 degrees, one plane: may what shines on b stand for what shines on a?
+/// Same material, normals within 6 degrees, one plane: may the light on b stand for the light on a?
 inline bool same_surface(const SeenSurface& a, const SeenSurface& b) {
   constexpr float kSameDirection = 0.9945f;  // cos 6 degrees
   constexpr float kSamePlane = 0.1f;         // sine of the slope at which b leaves the tangent plane of a
@@ -29,7 +29,7 @@ inline bool same_surface(const SeenSurface& a, const SeenSurface& b) {
   return std::fabs(glm::dot(a.normal, way)) <= kSamePlane * glm::length(way);
 }
 
-/// The same of what pixel j shows, if anything.
+/// The same for the surface that pixel j shows, if any.
 inline bool same_surface(const SeenSurface& a, const GBuffer& g, std::size_t j) {
   return g.covered(j) && same_surface(a, SeenSurface::of(g, j));
 }

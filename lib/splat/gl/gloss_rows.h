@@ -9,11 +9,11 @@
 
 namespace phos::inline splat {
 
-/// Tables of isotropic materials one below the other, those of one order together. Column l (l + 1) / 2 + m
+/// Tables of isotropic materials one below the other, tables of one order together. Column l (l + 1) / 2 + m
 /// holds the coefficient c_l^m, RGB; w of the first column is the entry's order.
 class GlossRows {
  public:
-  /// Tables beyond `most` rows are left out, and so are those of lobes that may take light away.
+  /// Tables beyond `most` rows are left out, and so are tables of lobes that may take light away.
   GlossRows(const GlossTables& tables, std::size_t materials, int most);
   int width() const { return width_; }
   int height() const { return static_cast<int>(texels_.size() / static_cast<std::size_t>(width_)); }

@@ -20,10 +20,10 @@ class RayScene;
 namespace phos::inline splat {
 
 /// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
-/// each way (raster_plane.h); what each pixel shows is lit like the place where a gathered ray lands. Without
-/// noise but for the lamps' samples: stderr_lx says nothing of what falls between pixels. The near plane lies
-/// at the rounding of positions, so that walls which touch the record are drawn as far as they are told apart
-/// from it. With paths = all, direct light at the record is added from samples of the lamps.
+/// each way (raster_plane.h); the place that a pixel shows is lit like the place where a gathered ray lands.
+/// Without noise but for the lamps' samples: stderr_lx does not contain the light between pixels. The near
+/// plane lies at the rounding of positions, so that walls which touch the record are drawn as far as they are
+/// told apart from it. With paths = all, direct light at the record is added from samples of the lamps.
 class RasterEstimator : public Estimator {
  public:
   /// Draws in the thread that calls this. Throws Error(bad_input) if no OpenGL context can be had,

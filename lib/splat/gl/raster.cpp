@@ -1,5 +1,5 @@
-// The visible surface by rasterising: OpenGL finds the triangle of each pixel; where on it the pixel's ray
-// meets it, and what it is like there, is worked out as for traced rays. Nothing but edges can then differ.
+// The visible surface by rasterising: OpenGL finds the triangle of each pixel; the place where the pixel's
+// ray meets it, and the surface there, are worked out as for traced rays. Nothing but edges can then differ.
 #include "splat/gl/raster.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ GlView camera_view(const Scene& scene, const Camera& camera, int width, int heig
   view.axes = Mat3(projection.axes() * scale);
   view.perspective = projection.perspective();
   const double unit = view.perspective ? 1 : scale;
-  // Row 0 is the top. A pixel's sample lies at its centre for OpenGL: shift the picture by what the subpixel
-  // differs.
+  // Row 0 is the top. A pixel's sample lies at its centre for OpenGL: shift the picture by the offset of the
+  // subpixel.
   view.lens = Vec4(1 / (projection.half_width() * unit), -1 / (projection.half_height() * unit),
                    (1 - 2 * subpixel.x) / static_cast<float>(width),
                    (1 - 2 * subpixel.y) / static_cast<float>(height));

@@ -15,8 +15,8 @@ namespace phos::inline splat {
 /// OpenGL 4.5 core through OSMesa (llvmpipe). One context per object, used from the thread that made it.
 class GlRenderer {
  public:
-  /// Throws Error(bad_input) if no context can be had, saying what is missing and that --splat cpu needs
-  /// none.
+  /// Throws Error(bad_input) if no context can be had; the message names the missing part, and --splat cpu,
+  /// which needs no context.
   explicit GlRenderer(const Scene& scene);
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
@@ -28,7 +28,7 @@ class GlRenderer {
   SplatBuffer splat(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                     const Camera& camera);
   /// As splat_gloss_on_cpu(). Lobes of isotropic tables are looked up and combined with records pixel by
-  /// pixel; the CPU draws what else there is (anisotropic and coated lobes, mapped normals, turned records),
+  /// pixel; the CPU draws the rest (anisotropic and coated lobes, mapped normals, turned records),
   /// and tells which records reach where.
   GlossBuffer splat_gloss(const GlossCache& cache, double accuracy, const RayScene& rays,
                           const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);

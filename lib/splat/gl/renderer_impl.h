@@ -10,7 +10,7 @@
 
 namespace phos::inline splat {
 
-/// Textures of one picture size, and what draws into them. Made when a size is first asked for.
+/// Textures of one picture size, and the objects that draw into them. Made when a size is first asked for.
 struct GlPictureTarget {
   int width = 0, height = 0;
   GlObject position, normal, facet;            // of the G-buffer

@@ -26,7 +26,7 @@ enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3, ma
 struct ShareMap {
   static constexpr int kWidth = 361, kHeight = 181;
   std::vector<float> share;  // 1 at most
-  float greatest = 0;        // what 1 stands for, in shares of the peak intensity (of solids, per m2)
+  float greatest = 0;        // the value of 1, in shares of the peak intensity (of solids, per m2)
   Mat3 axes{1};
 };
 
@@ -69,7 +69,7 @@ void add_views(const Scene& scene, ShadowSample& sample, const Vec3& eye, std::s
   sample.colour = Rgb(glm::dvec3(sample.colour) * (scale * scale));
 }
 
-/// Parallel views: only as wide as what is visible.
+/// Parallel views: only as wide as the visible surfaces.
 void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sample, int map_size) {
   const Vec3 eye = scene.bounds.centre();
   const double scale = 1 / std::max(static_cast<double>(bounding_radius_m(scene)), 1e-30);
@@ -192,7 +192,7 @@ ShadowSample environment_sample(const Scene& scene, const GBuffer& gbuffer, int 
   return punctual_sample(scene, gbuffer, sun, map_size);
 }
 
-/// Geometric normal of what each pixel shows, on the side that is seen.
+/// Geometric normal of the surface in each pixel, on the side that is seen.
 std::vector<Vec4> facets(const Scene& scene, const GBuffer& g) {
   std::vector<Vec4> facet(g.position.size(), Vec4(0));
   parallel_for(facet.size(), 1 << 14, [&](std::size_t i) {

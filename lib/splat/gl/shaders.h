@@ -17,8 +17,8 @@ extern const char* const record_weight;
 extern const char* const splat_fragment;
 /// One rectangle per instance, all of one radiance record.
 extern const char* const gloss_vertex;
-/// Weight of a radiance record at a pixel, and what it sends through the pixel's lobe. To be put after
-/// #version, record_weight, and a definition of COUNT, the number of coefficients.
+/// Weight of a radiance record at a pixel, and the light that it sends through the pixel's lobe. To be put
+/// after #version, record_weight, and a definition of COUNT, the number of coefficients.
 extern const char* const gloss_fragment;
 /// One triangle over the whole picture.
 extern const char* const picture_vertex;

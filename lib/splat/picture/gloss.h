@@ -13,7 +13,7 @@ namespace phos::inline splat {
 /// Who computes the gloss of a picture.
 struct PictureGloss {
   std::optional<GlossCache> cache;  ///< nothing: all is traced
-  Json report;                      ///< gloss_report(): per glossy material, what was chosen and why
+  Json report;                      ///< gloss_report(): per glossy material, the choice and its reason
   bool projected = false;           ///< tables were made here, for lack of a .brdf file
 };
 

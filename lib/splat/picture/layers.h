@@ -56,7 +56,7 @@ struct PixelSample {
   Rgb beauty() const { return direct + indirect + glossy + specular + emission; }
 };
 
-/// Sums of what is asked for alone.
+/// Sums of the layers that are asked for.
 class Layers {
  public:
   /// Pixels get up to `most_samples`. Those of more than one, and no fewer than `spread_from`, send single

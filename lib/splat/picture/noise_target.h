@@ -16,7 +16,7 @@ struct NoiseTarget {
 /// Sets light_samples and gloss_samples of resolved options such that each brings half of the variance of
 /// `noise`, a root mean square of the same kind. Emission does not count as light. Two small pictures of
 /// other random numbers tell: their differences, but for the largest fiftieth, which are of edges. Rays of
-/// independent noise are assumed: where they are stratified, the noise falls below what was asked. No
+/// independent noise are assumed: where they are stratified, the noise falls below the target. No
 /// fewer than those pictures have: 64, to each of n lamps of an extent 64 / sqrt(n), at least 4; and at most
 /// 4096. Nothing where noise is not asked for.
 NoiseTarget choose_rays(const RayScene& rays, const IrradianceCache& cache, RenderOptions& render,

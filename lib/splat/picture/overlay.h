@@ -14,10 +14,10 @@ enum class Overlay { none, records };
 /// What the colour of a record tells, on a logarithmic scale from blue (least) to red.
 enum class OverlayColour {
   radius,   ///< m
-  stderr_,  ///< luminance of the standard error over that of the irradiance
+  stderr_,  ///< luminance of the standard error over the luminance of the irradiance
 };
 
-/// What has been drawn, and what its colours stand for.
+/// The records drawn, and the meaning of their colours.
 struct DrawnRecords {
   std::size_t count = 0;
   double least = 0, most = 0;  ///< value of the first and last colour; one mark in a hundred lies beyond each

@@ -159,7 +159,7 @@ void PixelShader::from_caustics(const SampleOfPixel& sample, const SurfacePoint&
   light.indirect_error = glm::sqrt(light.indirect_error * light.indirect_error + unsure * unsure);
 }
 
-/// Of rays for a whole pixel, those of each of its samples: at least one, if there are any.
+/// The rays of each sample, of the rays for a whole pixel: at least one, if there are any.
 int PixelShader::rays_of_each(bool at_edge, std::int64_t of_pixel) const {
   const std::int64_t samples = options_.pixel_samples + (at_edge ? options_.edge_samples : 0);
   return static_cast<int>((of_pixel + samples - 1) / samples);
@@ -170,7 +170,7 @@ bool PixelShader::single_rays(bool at_edge) const {
          rays_of_each(at_edge, options_.gloss_samples) == 1;
 }
 
-/// This sample's part of what is asked for the whole pixel.
+/// This sample's part of the rays for the whole pixel.
 SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixel) const {
   const int n = rays_of_each(sample.at_edge, of_pixel);
   const std::int64_t group = sample.at_edge ? options_.edge_samples : options_.pixel_samples;
@@ -220,7 +220,7 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
   if (!cached_direct_) light.illuminance_lx += luminance(direct.illuminance);
 }
 
-/// Lamps on what reflects nothing of them, such as black surfaces, mirrors and clear glass.
+/// Lamps on surfaces that reflect nothing of them, such as black surfaces, mirrors and clear glass.
 void PixelShader::lux_from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
                                   const Vec3& wo, const SharedLight* shared, bool environment,
                                   PixelSample& light) const {
@@ -262,7 +262,7 @@ void PixelShader::from_mirrors(const SampleOfPixel& sample, const SurfacePoint& 
 void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
                              const Vec3& wo, bool environment, RandomStream& sequence, RandomStream& random,
                              PixelSample& light, ShadingLog& log) const {
-  // Shadow maps light diffuse surfaces only: what glossy ones show of the lamps is left to these rays.
+  // Shadow maps light diffuse surfaces only: the lamps in glossy surfaces are left to these rays.
   const int light_samples = options_.direct == DirectBy::traced || options_.direct == DirectBy::interleaved
                                 ? range(sample, options_.light_samples).count
                                 : 0;

@@ -45,7 +45,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The records at each visible point by lookups, with a ray to each: what splatting gives, without leaks.
+/// The records at each visible point by lookups, with a ray to each: the result of splatting, without leaks.
 SplatBuffer look_up(const RecordTree& records, const GBuffer& g) {
   SplatBuffer buffer;
   for (std::vector<Vec4>* sums : {&buffer.light, &buffer.error, &buffer.spread})

@@ -64,8 +64,8 @@ struct Rendering {
   Image image;               ///< layers, named as image/image.h says
   std::vector<Miss> misses;  ///< visible points without a valid record, in an order that spreads them
   std::uint64_t missed = 0, looked_up = 0;  ///< of all points that read the cache
-  std::vector<Miss> gloss_misses;           ///< places of lobes that no radiance record reaches, likewise
-  /// Lobes that read radiance records, those that none reached, and what drawing added up.
+  std::vector<Miss> gloss_misses;           ///< places of lobes that no radiance record reaches
+  /// Lobes that read radiance records, lobes that none reached, and the sums of drawing.
   struct {
     std::uint64_t looked_up = 0, missed = 0, pairs = 0, turned_pixels = 0;
   } gloss;
@@ -77,9 +77,9 @@ struct Rendering {
 };
 
 /// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu. `brdfs`: of this
-/// scene's glossy materials, for an environment by harmonics; those that it lacks are projected. `gloss`,
-/// made for gloss_accuracy: what glossy surfaces read (null: all gloss is traced). Throws Error(usage) for
-/// harmonics of a scene without environment.
+/// scene's glossy materials, for an environment by harmonics; materials that it lacks are projected. `gloss`,
+/// made for gloss_accuracy: the records that glossy surfaces read (null: all gloss is traced). Throws
+/// Error(usage) for harmonics of a scene without environment.
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render,
                        std::span<const BrdfTable> brdfs = {}, const GlossCache* gloss = nullptr);
 

@@ -9,7 +9,7 @@
 namespace phos::inline splat {
 
 /// Times, counts and events for --stats; on stderr what is missing, where `misses` and `gloss_misses` (paths
-/// of --misses and --gloss-misses, "" where not given) do not hold it; and what an overlay shows.
+/// of --misses and --gloss-misses, "" where not given) do not hold it; and the meaning of an overlay.
 void report_picture(Tool& tool, const RenderOptions& render, const Rendering& rendering,
                     const PictureGloss& gloss, const std::string& misses, const std::string& gloss_misses);
 

@@ -33,7 +33,7 @@ MachineCheck good(const std::string& name, const std::string& found) {
   return {name, true, false, found, ""};
 }
 
-/// What the program in that file prints; an error of the loader too.
+/// The output of the program in that file, also an error of the loader.
 ChildResult run_program(const std::string& path, const std::string& name,
                         const std::vector<std::string>& arguments) {
   return in_child(
@@ -93,7 +93,7 @@ MachineCheck check_memory() {
           "end other programs, or raise ulimit -v"};
 }
 
-/// Whether a file can be made there; else why not.
+/// Can a file be made there? If not, the reason.
 std::string cannot_write(const std::filesystem::path& folder) {
   std::string path = (folder / "phos-doctor-XXXXXX").string();
   const int fd = ::mkstemp(path.data());
@@ -124,7 +124,7 @@ MachineCheck check_temporary_folder() {
   return check;
 }
 
-/// A program of others that works if it answers `arguments` with a line that begins with `answer`.
+/// A program from elsewhere that works if it answers `arguments` with a line that begins with `answer`.
 struct Helper {
   const char* name;
   std::vector<std::string> arguments;
@@ -154,7 +154,7 @@ MachineCheck check_helper(const Helper& helper) {
   return check;
 }
 
-/// Programs of phos write the same in every locale; those of others may not.
+/// Programs of phos write the same in every locale. Programs from elsewhere may not.
 MachineCheck check_locale() {
   MachineCheck check{"locale", false, false, "", "export LC_ALL=C.UTF-8, or apt-get install locales"};
   std::string set;

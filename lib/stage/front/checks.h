@@ -1,4 +1,4 @@
-// What programs of phos need of a machine, checked one by one.
+// The requirements that programs of phos have of a machine, checked one by one.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ struct MachineCheck {
   std::string name;
   bool ok = false;
   bool required = false;  ///< a default setting of some program fails without it
-  std::string found;      ///< where not ok: the fault, and what it keeps from working
+  std::string found;      ///< where not ok: the fault, and the uses that fail by it
   std::string remedy;     ///< where not ok: a command, or words
 };
 

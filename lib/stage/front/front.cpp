@@ -50,7 +50,7 @@ std::string overview() {
   return s;
 }
 
-/// For --help, --man and options of phos itself.
+/// Parses --help, --man and the options of phos itself.
 void parse_own(int argc, const char* const* argv) {
   std::string names;
   for (const Program& program : all_programs()) names += text(names.empty() ? "" : ", ", short_name(program));
@@ -68,7 +68,7 @@ void parse_own(int argc, const char* const* argv) {
   options.parse(argc, argv);
 }
 
-/// For --help of what has help: a name that is none of `more` nor a program.
+/// Throws Error(usage) for a name that is neither a program nor one of `more`.
 [[noreturn]] void refuse(const std::string& word, const char* what, std::vector<std::string> more) {
   for (const Program& program : all_programs()) more.push_back(short_name(program));
   throw Error(ExitCode::usage, word,

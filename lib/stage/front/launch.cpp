@@ -25,7 +25,7 @@ std::string path_of(const std::string& name) {
   const std::string folders = set == nullptr ? "/usr/local/bin:/usr/bin:/bin" : set;
   for (std::size_t from = 0; from <= folders.size();) {
     const std::size_t to = std::min(folders.find(':', from), folders.size());
-    const std::filesystem::path folder = folders.substr(from, to - from);  // empty: this one
+    const std::filesystem::path folder = folders.substr(from, to - from);  // empty: the current folder
     if (const std::filesystem::path path = folder / name; can_run(path))
       return path.has_parent_path() ? path.string() : "./" + path.string();
     from = to + 1;

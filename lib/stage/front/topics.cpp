@@ -9,7 +9,7 @@
 #include "core/facts/programs.h"
 #include "core/text/markdown.h"
 #include "core/text/wrap.h"
-// All events that programs declare: those whose headers are read here.
+// The events of these headers are all events that programs declare.
 #include "estimate/events.h"
 #include "file/tool.h"
 #include "image/events.h"
@@ -118,7 +118,7 @@ std::string files() {
   return s;
 }
 
-/// Cut out of the help that a program has.
+/// The common options, cut out of a program's help.
 std::string options() {
   Tool tool("phos-X", "", "", 1, Tool::Output::optional);
   tool.declare_common();

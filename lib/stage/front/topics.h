@@ -1,4 +1,4 @@
-// What `phos help` explains besides programs.
+// The topics that `phos help` explains besides programs.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct HelpTopic {
 };
 
 std::span<const HelpTopic> help_topics();
-/// Null: there is none of that name.
+/// The topic of that name; null where there is none.
 const HelpTopic* find_topic(std::string_view name);
 
 /// The table of docs/reference/events.md, in Markdown.

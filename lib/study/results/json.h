@@ -6,7 +6,7 @@
 
 namespace phos::inline study {
 
-/// All of it: the study, every run with its costs, points, effects, and the command lines of each point.
+/// All results: the study, every run with its costs, points, effects, and the command lines of each point.
 Json results_json(const StudyFile& study, const StudyWork& work, const StudyJournal& journal,
                   const StudyResults& results);
 

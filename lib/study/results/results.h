@@ -58,8 +58,8 @@ struct StudyResults {
 
 StudyResults summarise(const StudyFile& study, const StudyWork& work, std::vector<RunResult> runs);
 
-/// Sentences on what the reference cannot tell, and what it would take, and on values that are not finite.
-/// Empty where all is well.
+/// Sentences on differences that the reference cannot show, on the reference that would show them, and on
+/// values that are not finite. Empty where all is well.
 std::vector<std::string> doubts(const StudyResults& results);
 
 }  // namespace phos::inline study

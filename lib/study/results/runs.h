@@ -30,7 +30,7 @@ struct Judgement {
 struct RunResult {
   std::size_t setting = 0, seed = 0;
   std::optional<Judgement> picture, lux;
-  std::string failed;  ///< what a program said; "": nothing did
+  std::string failed;  ///< message of the program that failed; "": none did
 };
 
 /// Reads pictures and tables and measures them. What failed is left out.

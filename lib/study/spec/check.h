@@ -19,9 +19,10 @@ struct SceneLoss {
   bool refused = false;  ///< by --strict
 };
 
-/// Before any work: what is lost of the scenes. Throws Error(bad_input) for a scene that cannot be read or
-/// has no light, or sensors that cannot be read; Error(usage) for a camera that is not there; Error(mismatch)
-/// for a given reference of another size, layer, scene or sensors, or whose two files are one.
+/// Before any work: the parts of the scenes that are left out. Throws Error(bad_input) for a scene that
+/// cannot be read or has no light, or sensors that cannot be read; Error(usage) for a camera that is not
+/// there; Error(mismatch) for a given reference of another size, layer, scene or sensors, or whose two files
+/// are one.
 std::vector<SceneLoss> check_against_scenes(const StudyFile& study);
 
 }  // namespace phos::inline study

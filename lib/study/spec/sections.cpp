@@ -72,7 +72,7 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& words)
   to.insert(to.end(), words.begin(), words.end());
 }
 
-/// A value as a table's cell: what the program reads.
+/// A value as a table's cell, as the program reads it.
 std::string label_of(const std::vector<std::string>& words, const Json& value) {
   if (value.is_bool()) return value.as_bool() ? "true" : "false";
   return words.back() == kEachCamera ? "each" : words.back();

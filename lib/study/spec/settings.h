@@ -1,4 +1,4 @@
-// Every combination of what a study varies.
+// Every combination of the values that a study varies.
 #pragma once
 
 #include <cstddef>

@@ -58,7 +58,7 @@ std::size_t Stages::add(const std::string& section, const std::string& tool, con
 
 std::vector<std::size_t> Stages::chain(std::size_t last) const {
   std::set<std::size_t> needed{last};
-  for (auto i = needed.rbegin(); i != needed.rend(); ++i)  // inputs lie before what reads them
+  for (auto i = needed.rbegin(); i != needed.rend(); ++i)  // inputs lie before their readers
     needed.insert(runs_[*i].inputs.begin(), runs_[*i].inputs.end());
   return {needed.begin(), needed.end()};
 }

@@ -27,7 +27,7 @@ struct StageRun {
   std::string section;
   Command command;                  ///< its output lies in the study's folder
   std::vector<std::size_t> inputs;  ///< stages whose files it reads
-  std::string id;                   ///< what makes it: equal for commands that give equal files
+  std::string id;  ///< of the command that makes it: equal for commands that give equal files
 };
 
 /// The commands of a study, each once. A command's identity is a hash over its program's contents, its

@@ -62,10 +62,10 @@ inline constexpr const char* kEachCamera =
     "\x01"
     "camera";
 
-/// Reads and checks all that can be checked without opening a scene. Throws Error(bad_input) for what is no
-/// TOML or a file that is missing; Error(usage), naming line and key, for an unknown section or option (with
-/// the nearest name), a value that the program would refuse, a list that is empty or repeats itself, a range
-/// that contradicts itself, and a study that asks for nothing.
+/// Reads and checks all that can be checked without opening a scene. Throws Error(bad_input) for a file that
+/// is no TOML or is missing; Error(usage), naming line and key, for an unknown section or option (with the
+/// nearest name), a value that the program would refuse, a list that is empty or repeats itself, a range that
+/// contradicts itself, and a study that asks for nothing.
 StudyFile read_study(const std::string& path, const CommandRunner& runner);
 
 }  // namespace phos::inline study

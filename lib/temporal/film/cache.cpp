@@ -16,7 +16,7 @@ float frames_between(std::int64_t from, std::int64_t to) {
   return static_cast<float>(to - from);
 }
 
-/// The radius at a frame: one that shrinks keeps what interpolation to any other leaves at the least.
+/// The radius at a frame: a radius that shrinks keeps the least that interpolation to any other leaves.
 template <class Record>
 float radius_at(const Record& r, std::int64_t frame) {
   const Life& life = r.life;
@@ -30,7 +30,7 @@ void add(std::vector<float>& numbers, float share, const std::vector<float>& mor
   for (std::size_t i = 0; i < n; ++i) numbers[i] += share * more[i];
 }
 
-/// (b - a) / frames; what b does not have is 0.
+/// (b - a) / frames; numbers that b lacks are 0.
 std::vector<float> change_of(const std::vector<float>& a, const std::vector<float>& b, float frames) {
   std::vector<float> change(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) change[i] = ((i < b.size() ? b[i] : 0.f) - a[i]) / frames;

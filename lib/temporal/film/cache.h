@@ -20,7 +20,7 @@ enum class TemporalGradients {
 };
 const char* name_of(TemporalGradients gradients);
 
-/// When a record is used, where, and what follows it.
+/// When a record is used, where, and its successor.
 struct Life {
   std::int32_t birth = 0, end = 0;  ///< frames: used at birth <= t < end
   std::uint32_t chain = 0;          ///< the records of one place, one after another; numbered from 0
@@ -29,8 +29,8 @@ struct Life {
   glm::quat turn{1, 0, 0, 0};       ///< of the anchor's triangle at birth
 };
 
-/// Change per frame. Vectors are in the axes of the record's birth: what its surface's own turning does to
-/// them is taken out.
+/// Change per frame. Vectors are in the axes of the record's birth: the change by the surface's own
+/// turn is taken out.
 struct IrradianceChange {
   Rgb irradiance{0};
   Vec3 rotation[3]{Vec3(0), Vec3(0), Vec3(0)}, translation[3]{Vec3(0), Vec3(0), Vec3(0)};

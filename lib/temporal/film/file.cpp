@@ -129,13 +129,13 @@ bool all_finite(const RadianceRecord& r) { return is_finite(r); }
 /// nullptr: nothing. What changes is largest or least at the end of a life.
 template <class Record>
 const char* what_is_wrong_with_change(const Record& r) {
-  const NoFloatTraps traps;  // sums of what files hold may overflow
+  const NoFloatTraps traps;  // sums of numbers in files may overflow
   return all_finite(changed(r, r.life.end - 1)) ? nullptr : "a change that is not finite";
 }
 
 // --- both kinds ---
 
-/// What of a file is to be read: all of it, or what is alive at a frame.
+/// The part of a file that is to be read: all records, or the records alive at a frame.
 struct Wanted {
   FilmInfo info;
   std::vector<Life> lives;  ///< all
@@ -191,7 +191,7 @@ RadianceFilm read_radiance(const Container& file, const Wanted& wanted) {
   return film;
 }
 
-/// `film` holds what is alive.
+/// `film` holds the records that are alive.
 template <class Cache, class AnyFilm>
 Cache shown(const AnyFilm& film, const Wanted& wanted, std::int64_t frame, const Scene& scene) {
   Cache cache;

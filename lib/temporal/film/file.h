@@ -9,12 +9,12 @@
 
 namespace phos::inline temporal {
 
-/// The files: those of irradiance and radiance caches (records as they were born, no index), with birth
-/// i32[n], end i32[n] (frames), chain u32[n], rate f32[n]; the change of every column that changes, its name
-/// with _change and its unit per frame, unless gradients are none; and, where surfaces move, anchor u32[n]
-/// (triangle, 2^32 - 1: none), anchor_uv f32[n,2], anchor_turn f32[n,4] (x, y, z, w). The header has a `film`
-/// object: frames, temporal_accuracy, max_life, gradients, fade, the scene's hash at each frame, and for
-/// people the number of chains and the mean life.
+/// The files hold the tensors of irradiance and radiance caches (records as they were born, no index), with
+/// birth i32[n], end i32[n] (frames), chain u32[n], rate f32[n]; the change of every column that changes, its
+/// name with _change and its unit per frame, unless gradients are none; and, where surfaces move, anchor
+/// u32[n] (triangle, 2^32 - 1: none), anchor_uv f32[n,2], anchor_turn f32[n,4] (x, y, z, w). The header has a
+/// `film` object: frames, temporal_accuracy, max_life, gradients, fade, the scene's hash at each frame, and
+/// for people the number of chains and the mean life.
 void write_film(const std::string& path, const Film& film, Provenance provenance);
 void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance);
 /// Is this irradiance or radiance file one of a film?

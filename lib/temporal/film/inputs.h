@@ -1,4 +1,4 @@
-// Caches and films alike, as what they are at the time of a scene.
+// Caches and films alike, as caches at the time of a scene.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ std::int64_t frame_of(const Scene& scene);
 void require_same_scene(const Container& file, const std::string& scene_path, const Scene& scene);
 
 /// Throws Error(mismatch) where a file does not hold the frames of a film: another scene's, too few of them,
-/// or those of one time where light changes.
+/// or frames of one time where light changes.
 void require_same_film(const Container& file, const FilmSurvey& survey);
 
 /// Of a film, the records of the scene's frame; throws Error(mismatch) where it has no such frame.

@@ -25,7 +25,7 @@ float fade_at(std::int64_t frame, std::int64_t begin, std::int64_t end, const Fi
 }  // namespace
 
 const char* what_is_wrong(const Life& life, const Life* before, const FilmInfo& film) {
-  const NoFloatTraps traps;  // files may hold what is not a number
+  const NoFloatTraps traps;  // files may hold numbers that are not finite
   if (!(life.birth < life.end)) return "an end that is not after its birth";
   if (life.birth < film.frames.first || life.end > film.frames.last + 1) return "a life outside of the film";
   if (before && life.chain < before->chain) return "a chain before that of the record before it";

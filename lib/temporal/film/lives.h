@@ -1,4 +1,4 @@
-// When records live and where: what irradiance and radiance films have in common.
+// When records live and where, in irradiance and radiance films.
 #pragma once
 
 #include <functional>

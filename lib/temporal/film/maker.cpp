@@ -15,8 +15,8 @@ namespace {
 /// Frames of a piece, besides its first, whose view is looked at for places.
 constexpr std::int64_t kLooks = 8;
 constexpr std::int64_t kStillLooks = 100;  // of a film without change
-/// A middle estimate that misses what is interpolated by less than this share of the accuracy is not kept: it
-/// would tell of noise.
+/// A middle estimate that differs from the interpolated light by less than this share of the accuracy is not
+/// kept: it would show noise.
 constexpr double kWorthKeeping = 0.125;
 /// docs/methods.md#f3: relative changes count against this share of the scene's mean irradiance at least.
 constexpr double kFloorShare = 1e-3;
@@ -101,8 +101,8 @@ void FilmMaker::block(std::int64_t begin, std::int64_t end, const FrameRange& sh
       if (Key& last = chains_[i].keys.back(); last.frame == end) last.until = end + 1;
 }
 
-/// Keys of chains at a frame, where their surfaces are there then: `there` are those chains, `made` what
-/// their keys are made from.
+/// Keys of chains at a frame, where their surfaces are there then: `there` are these chains, `made` the
+/// estimates of their keys.
 std::vector<Key> FilmMaker::estimate(std::span<const std::size_t> chains, FrameLight& light,
                                      const Estimator& estimator, std::vector<std::size_t>& there,
                                      std::vector<Made>& made) {
@@ -140,7 +140,7 @@ std::vector<Key> FilmMaker::estimate_at(std::int64_t frame, std::span<const std:
 
 void FilmMaker::set_floor() { floor_ = kFloorShare * mean_irradiance(chains_); }
 
-/// Halves what chains have from `begin` on where the light in the middle is not what lies between the ends.
+/// Halves the spans of chains from `begin` on where the light in the middle is not between the ends.
 void FilmMaker::refine(std::span<const std::size_t> chains, std::int64_t begin) {
   if (options_.checks == 0) return;
   std::vector<Segment> segments;
@@ -181,7 +181,7 @@ void FilmMaker::refine(std::span<const std::size_t> chains, std::int64_t begin) 
   }
 }
 
-/// Is the middle as interpolation has it? `share`: of what may be missed, that is missed.
+/// Is the middle as interpolation has it? `share`: the missed light over the light that may be missed.
 bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, double& share) const {
   const double t =
       static_cast<double>(middle.frame - from.frame) / static_cast<double>(to.frame - from.frame);
@@ -206,10 +206,10 @@ bool FilmMaker::is_straight(const Key& from, const Key& middle, const Key& to, d
   const double allowed = options_.temporal_accuracy * std::max(std::sqrt(light2), floor_);
   if (missed2 == 0) return share = 0, true;
   share = allowed > 0 ? std::sqrt(missed2) / allowed : kInfinity;
-  // What noise alone would do (of the three estimates: 3/2 of its variance; twice its deviation) is no
-  // change. What they have in common of it, that of the photons behind them, does nothing; how much that is
-  // of each band of radiance is not known. There noise, most of it in the highest bands, hides all but large
-  // changes: FilmOptions::checks does what this cannot.
+  // A difference that noise alone makes (of the three estimates: 3/2 of its variance; twice its deviation) is
+  // no change. Their common noise, from the photons behind them, makes no difference; its share of each band
+  // of radiance is not known. There noise, most of it in the highest bands, hides all but large changes:
+  // FilmOptions::checks does what this cannot.
   return missed2 <= allowed * allowed + 6 * noise2;
 }
 

@@ -88,14 +88,14 @@ class FilmMaker {
 
   /// All frames.
   void run();
-  /// For a film in which no light changes: what its frames need, at the first.
+  /// For a film in which no light changes: the places that its frames need, at the first frame.
   void still();
   const std::vector<Chain>& chains() const { return chains_; }
   std::vector<Chain> take_chains() { return std::move(chains_); }
   /// Chains are numbered from here on.
   void number_from(std::uint32_t first) { next_number_ = first; }
   std::uint32_t next_number() const { return next_number_; }
-  /// All but what chains tell themselves (chains, records, lives).
+  /// All counts but the numbers of chains, records and lives, which the chains give.
   FilmReport report() const;
 
  private:

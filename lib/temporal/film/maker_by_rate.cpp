@@ -9,7 +9,7 @@
 
 namespace phos::inline temporal {
 
-/// How long a key lives, by what is expected one frame on.
+/// How long a key lives, by the light expected one frame on.
 void FilmMaker::live(Key& key, const Chain& chain, const Made& made, const FrameScene* next,
                      std::int64_t most) const {
   std::int64_t life = std::min(options_.max_life, most);

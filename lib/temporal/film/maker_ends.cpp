@@ -5,7 +5,7 @@
 
 namespace phos::inline temporal {
 
-/// Ends what the last keys of these chains begin by keys at a frame (and begins nothing there).
+/// Ends the spans that the last keys of these chains begin by keys at a frame (and begins no span there).
 void FilmMaker::end_at(std::span<const std::size_t> chains, std::int64_t frame) {
   std::vector<std::size_t> there;
   std::vector<Key> keys = estimate_at(frame, chains, there);

@@ -68,7 +68,7 @@ std::vector<std::size_t> FilmMaker::place_at(std::int64_t frame, std::span<const
 }
 
 /// New chains where the known records leave sites (or, of other placements than views, surfaces) uncovered;
-/// `made` is what each was made from. The new records are added to `known`.
+/// `made` are the estimates of the new records. The new records are added to `known`.
 void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, IrradianceCache& known,
                            std::span<const RecordSite> sites, std::vector<Made>& made) {
   made.clear();
@@ -99,8 +99,8 @@ void FilmMaker::add_chains(FrameLight& light, const Estimator& estimator, Irradi
   }
 }
 
-/// Chains on what has no area at the frame `begin` that the others start from, and is seen at `frame`. They
-/// are to begin where their surface first has one, after `looked`, the frame looked at before.
+/// Chains on surfaces that have no area at the frame `begin`, where other chains start, and are seen at
+/// `frame`. They are to begin where their surface first has one, after `looked`, the frame looked at before.
 FilmMaker::Late FilmMaker::add_late(std::int64_t frame, std::int64_t looked,
                                     std::span<const RecordSite> sites, std::int64_t begin) {
   if (sites.empty()) return {};
@@ -129,8 +129,8 @@ void FilmMaker::estimate_anew(std::size_t first, FrameLight& light) {
   for (std::size_t i = 0; i < keys.size(); ++i) chains_[there[i]].keys.back() = std::move(keys[i]);
 }
 
-/// Places what the view of a frame within ]begin, end[ lacks. Of records that were placed at `begin` the
-/// zones are smaller where something has come near since.
+/// Places the records that the view of a frame within ]begin, end[ lacks. Of records that were placed at
+/// `begin` the zones are smaller where something has come near since.
 void FilmMaker::cover(std::vector<std::size_t>& wanted, std::int64_t begin, std::int64_t end,
                       std::int64_t look) {
   FrameLight& light = lights_.at(look);

@@ -19,7 +19,7 @@ enum class Lives {
 /// How a record is expected to be one frame on.
 enum class LookAhead {
   none,       ///< as it is: lives are max_life
-  reproject,  ///< what its rays saw, moved and lit as it then is (docs/methods.md#f6)
+  reproject,  ///< the hits of its rays, moved and lit as they then are (docs/methods.md#f6)
   trace,      ///< by the same rays, or the same drawing, one frame on
 };
 
@@ -36,7 +36,7 @@ struct FilmOptions {
       100'000;  ///< paths traced at each of those, or at each frame with estimates from photons
 
   /// Films of radiance are checked twice if nothing is given, and a raster looks ahead by LookAhead::trace.
-  /// Throws Error(usage) for what does not go together.
+  /// Throws Error(usage) for options that do not go together.
   void resolve(const Options& given, Estimate estimate, bool of_radiance);
 };
 void declare_options(Options& options, FilmOptions& film);

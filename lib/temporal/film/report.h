@@ -6,7 +6,7 @@
 
 namespace phos::inline temporal {
 
-/// Before the work: frames, cuts, what moves; that nothing changes.
+/// Before the work: frames, cuts, moving parts; or that nothing changes.
 void tell_of_film(Tool& tool, const FilmJob& job);
 /// After it: records, lives, cost; also as figures for --stats.
 void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& report);
