@@ -257,7 +257,7 @@ bool Options::parse(int argc, const char* const* argv) {
                   (empty ? "usage: " + impl_->usage() : phos::text(d.left(), " is missing")) + see);
   for (const OptionDeclaration& d : impl_->declarations)
     if (!d.other_name.empty() && given(d.name) && given(d.other_name))
-      reject_option(d.name, phos::text("says what --", d.other_name, " says; give one of the two"));
+      reject_option(d.name, phos::text("sets the same as --", d.other_name, "; give one of the two"));
   return true;
 }
 
@@ -274,7 +274,7 @@ void Options::adopt(const std::string& name, const Json& value) {
   const bool fits = kind == "flag"                          ? value.is_bool()
                     : kind == "number" || kind == "integer" ? value.is_number()
                                                             : value.is_string();
-  if (!fits) reject_option(name, "is of another kind");
+  if (!fits) reject_option(name, "has a value of another kind; make the file that states it again");
   d->set(value.is_string() ? value.as_string() : value.dump());
   d->was_adopted = true;
 }

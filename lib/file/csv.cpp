@@ -25,7 +25,7 @@ void check_names(const CsvTable& table, std::size_t line) {
   for (const std::string& name : table.columns)
     if (!known.insert(name).second)
       throw Error(ExitCode::bad_input, text(table.where, ":", line),
-                  text("names the column \"", name, "\" twice"));
+                  text("names the column \"", name, "\" twice; rename one of them"));
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ void judge_placement(RecordOptions& records, PlacementOptions& placement, const 
     placement.error = kUsualPlacementError;
   if (!placement.error) return;
   if (!judged)
-    throw Error(
-        ExitCode::usage, "--placement-error",
-        "is of gathered records with a circle for a footprint; give --estimate gather, or leave it out");
+    throw Error(ExitCode::usage, "--placement-error",
+                "needs gathered records with circular footprints; give --estimate gather without "
+                "--footprint, or leave it out");
   if (begun) records.accuracy = 1 / 3.0;
 }
 
@@ -147,8 +147,8 @@ void run(Tool& tool, IrradianceCommand& asked) {
   }
   if (cache.records.empty()) {
     tool.warn(inputs.photons && inputs.photons->size() == 0
-                  ? "there are no photons: the file is empty, which means no light anywhere"
-                  : "no place wants a record (see --place, --paths): the file is empty");
+                  ? "there are no photons, and the file is empty: no light anywhere"
+                  : "no place needs a record (see --place, --paths): the file is empty");
   }
   write_irradiance(tool.output(), cache, provenance());
 }

@@ -15,9 +15,11 @@ std::string options_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text(kMost + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (!in && !in.eof())) throw Error(ExitCode::bad_input, path, "options file cannot be read");
+  if (in.bad() || (!in && !in.eof()))
+    throw Error(ExitCode::bad_input, path, "the options file cannot be read; check the path");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMost) throw Error(ExitCode::bad_input, path, "options file is larger than 1 MiB");
+  if (text.size() > kMost)
+    throw Error(ExitCode::bad_input, path, "the options file is larger than 1 MiB; give one option a line");
   return text;
 }
 

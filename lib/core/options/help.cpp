@@ -26,11 +26,12 @@ std::string help_text(const OptionSheet& sheet) {
       if (!d.is_input && d.section == section) line(d.left(), sheet.detail(d));
   }
   out += "\nOther:\n";
-  line("-h, --help", "this text");
-  line("--version", "version");
-  line("--man", "the manual page, for man -l -");
-  line("--options-json", "every option with its kind, unit, range, choices and default, for other programs");
-  line("@FILE", "reads options from a file: one per line, name=value, or a flag alone; # starts a comment");
+  line("-h, --help", "print this text");
+  line("--version", "print the version");
+  line("--man", "print the manual page; phos-X --man | man -l - shows it");
+  line("--options-json",
+       "print every option with its kind, unit, range, choices and default, for other programs");
+  line("@FILE", "read options from a file: one per line, name=value, or a flag alone; # starts a comment");
   if (!sheet.examples.empty()) out += "\nExamples:\n";
   for (const OptionExample& e : sheet.examples) out += "  " + e.command + "\n      " + wrap(e.what, 6) + "\n";
   out += "\nExit codes:\n";

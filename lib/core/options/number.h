@@ -25,7 +25,9 @@ T parse_number(const std::string& name, const std::string& s, const Range& range
   const char* begin = s.data() + (s.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, s.data() + s.size(), v);
   if (error != std::errc() || end != s.data() + s.size() || !std::isfinite(static_cast<double>(v)))
-    reject_option(name, text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number"));
+    reject_option(name,
+                  text("\"", s, "\" is not ", std::is_integral_v<T> ? "a whole number" : "a number",
+                       "; it must be ", limits_text(range).empty() ? "a finite number" : limits_text(range)));
   const auto wide = static_cast<double>(v);
   if (wide < range.lo || wide > range.hi || (range.lo_open && wide == range.lo))
     reject_option(name, text(s, " is out of range; it must be ", limits_text(range)));

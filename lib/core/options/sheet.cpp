@@ -54,7 +54,7 @@ std::string OptionSheet::detail(const OptionDeclaration& d) const {
   if (d.use == FileUse::grown) {
     std::string list;
     for (const std::string& name : names(Adopted::estimate)) append_item(list, "--" + name);
-    if (!list.empty()) s += "; what is not given of these options is taken from it: " + list;
+    if (!list.empty()) s += "; options that are not given are taken from this file: " + list;
   }
   if (!d.choices.empty()) {
     s += " (";

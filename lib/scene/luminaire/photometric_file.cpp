@@ -119,7 +119,9 @@ PhotometricFile parse_photometry(std::string_view bytes, const std::string& wher
     throw Error(ExitCode::bad_input, where,
                 text("is neither an IES (LM-63) nor a EULUMDAT file of photometry, but ", kLfsPointer));
   if (format == Format::none)
-    throw Error(ExitCode::bad_input, where, "is neither an IES (LM-63) nor a EULUMDAT file of photometry");
+    throw Error(ExitCode::bad_input, where,
+                "is neither an IES (LM-63) nor a EULUMDAT file of photometry; give the .ies or .ldt file of "
+                "the luminaire");
   PhotometricFile file =
       format == Format::ies ? parse_ies(bytes, where, beside) : parse_eulumdat(bytes, where);
   check_lumens(file);
@@ -130,9 +132,9 @@ PhotometricFile read_photometry(const std::string& path) {
   return parse_photometry(read_text(path), path, [&](const std::string& name) {
     const std::optional<std::string> file = file_below(path, name);
     if (!file)
-      throw Error(
-          ExitCode::bad_input, path,
-          text("TILT= names the file \"", name, "\", which does not lie beside it or below; put it there"));
+      throw Error(ExitCode::bad_input, path,
+                  text("TILT= names the file \"", name,
+                       "\", which lies neither beside this file nor in a folder below; put it there"));
     return read_referred(*file);
   });
 }

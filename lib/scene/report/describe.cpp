@@ -230,7 +230,8 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
   if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
   if (lit && !glossy.empty()) out.push_back({"gloss", "glossy: " + names_of(glossy)});
   if (!specular.empty())
-    out.push_back({"specular tracing", "mirrors, or what light passes straight: " + names_of(specular)});
+    out.push_back(
+        {"specular tracing", "mirrors, or materials that light passes straight: " + names_of(specular)});
   if (!scene.animation.empty()) {
     out.push_back({"temporal data", text("animated over ", scene.frames, " frames")});
   }
