@@ -2,6 +2,7 @@
 #include "stage/irradiance.h"
 
 #include "scene/rays.h"
+#include "splat/gl/choice.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   declare_footprint_options(options, asked.records);
   declare_options(options, asked.placement);
   declare_isa(options, asked.isa);
+  declare_gl(options, asked.gl);
   options.file("at", asked.at,
                "CSV of points (x,y,z,nx,ny,nz, in metres) that need records, such as the file of phos-splat "
                "--misses. With --estimate hull or kernel, a point that is off a surface by up to a tenth of "

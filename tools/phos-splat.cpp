@@ -1,6 +1,8 @@
 // phos-splat: renders a scene from its caches.
 #include "stage/splat.h"
 
+#include "splat/gl/choice.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-splat"),
@@ -18,6 +20,7 @@ int main(int argc, char** argv) {
                  "irradiance and radiance caches of the scene, which are joined, and its .brdf file for "
                  "radiance records and --environment-mode hsh (without one, lobes are projected here)");
   declare_options(options, asked.render);
+  declare_gl(options, asked.gl);
   declare_options(options, asked.scene);
   tool.takes_frames(asked.scene.frame);
   tool.fresh_each_frame(asked.render);

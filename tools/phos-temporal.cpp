@@ -1,6 +1,8 @@
 // phos-temporal: places records that live through the frames of an animation.
 #include "stage/temporal.h"
 
+#include "splat/gl/choice.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-temporal"),
@@ -29,6 +31,7 @@ int main(int argc, char** argv) {
   declare_raster_options(options, asked.job.light.records, Recorded::unless_default);
   declare_place_options(options, asked.job.placement);
   declare_isa(options, asked.isa);
+  declare_gl(options, asked.gl);
   tool.takes_strict();
   options.example("phos-temporal room.glb --frames 0:199 -o room.irradiance",
                   "200 frames of the view of the first camera");

@@ -11,6 +11,7 @@
 #include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "scene/inside_solid.h"
+#include "splat/gl/choice.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -91,6 +92,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("irradiance", asked.add_to);
   if (!placement.part.empty()) tool.set_variant("part " + placement.part);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   const Scene scene = load_scene(files.scene, asked.scene);

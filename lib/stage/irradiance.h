@@ -8,6 +8,7 @@
 #include "file/tool.h"
 #include "place/placement_options.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 
 namespace phos::stage {
 
@@ -26,6 +27,7 @@ struct IrradianceCommand {
   PlacementOptions placement;
   std::string at, add_to;  ///< files
   std::string isa;
+  GlBy gl = GlBy::osmesa;
   bool allow_mismatch = false;
 };
 

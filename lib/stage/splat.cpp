@@ -13,6 +13,7 @@
 #include "scene/rays.h"
 #include "scene/report/unsampled.h"
 #include "splat/caches.h"
+#include "splat/gl/choice.h"
 #include "splat/picture/gloss.h"
 #include "splat/picture/memory.h"
 #include "splat/picture/noise_target.h"
@@ -67,6 +68,7 @@ void run(Tool& tool, SplatCommand& asked) {
     throw Error(ExitCode::usage, asked.misses.empty() ? "--gloss-misses" : "--misses",
                 "a picture that is not made anew has no misses; leave out --reuse");
   require_one_choice(tool.options(), render);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   std::vector<Container>& files = asked.opened;

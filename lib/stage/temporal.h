@@ -7,6 +7,7 @@
 #include "file/tool.h"
 #include "radiance/gloss_tables.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 #include "temporal/make_film.h"
 
 namespace phos::stage {
@@ -20,6 +21,7 @@ struct TemporalCommand {
   TemporalCommand() { job.light.records.estimate = Estimate::gather, job.placement.place = Place::view; }
   std::vector<std::string> inputs;
   std::string frames, isa;
+  GlBy gl = GlBy::osmesa;
   SceneOptions scene;
   FilmJob job;
   RecordKind kind = RecordKind::irradiance;

@@ -19,7 +19,7 @@ class RayScene;
 
 namespace phos::inline splat {
 
-/// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
+/// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels
 /// each way (raster_plane.h); the place that a pixel shows is lit like the place where a gathered ray lands.
 /// Without noise but for the lamps' samples: stderr_lx does not contain the light between pixels. The near
 /// plane lies at the rounding of positions, so that walls which touch the record are drawn as far as they are

@@ -114,7 +114,7 @@ void declare_options(Options& options, RenderOptions& r) {
                  kPositive);
   options.choice<SplatBy>(
       "splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
-      "renderer of the records: gl: OpenGL (OSMesa); cpu: the processor. Both give the same picture to 1e-4");
+      "renderer of the records: gl: OpenGL (--gl); cpu: the processor. Both give the same picture to 1e-4");
   options.choice<LeakTest>("leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
                            "ray: a record lights a point only if the two see each other (records are looked "
                            "up, with a ray for each, instead of drawn); none: no test");
