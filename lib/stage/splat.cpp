@@ -13,6 +13,7 @@
 #include "scene/rays.h"
 #include "scene/report/unsampled.h"
 #include "splat/caches.h"
+#include "splat/gl/choice.h"
 #include "splat/picture/gloss.h"
 #include "splat/picture/memory.h"
 #include "splat/picture/noise_target.h"
@@ -32,7 +33,7 @@ void tell_of_files(const Tool& tool, const std::vector<Container>& files, const 
   if (render.gloss == GlossBy::cached && !radiance)
     throw Error(ExitCode::usage, "--gloss cached",
                 "reads radiance records, and none are given; make them with phos-radiance");
-  if (radiance && !glossy) tool.say("nothing here is glossy: radiance records are not used");
+  if (radiance && !glossy) tool.say("the scene has no gloss: radiance records are not used");
   if (brdf && !(radiance && glossy) && render.environment == EnvironmentBy::traced)
     tool.say("the .brdf file is not used: it serves radiance records, and --environment-mode hsh");
 }
@@ -67,6 +68,7 @@ void run(Tool& tool, SplatCommand& asked) {
     throw Error(ExitCode::usage, asked.misses.empty() ? "--gloss-misses" : "--misses",
                 "a picture that is not made anew has no misses; leave out --reuse");
   require_one_choice(tool.options(), render);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   std::vector<Container>& files = asked.opened;
@@ -101,7 +103,7 @@ void run(Tool& tool, SplatCommand& asked) {
     const auto timer = tool.time("gloss tables");
     return gloss_of_picture(rays, caches, render, asked.allow_mismatch, tool.counters());
   }();
-  if (gloss.projected) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+  if (gloss.projected) tool.say("lobes were projected here; phos-brdf stores them, and has options for them");
   report_noise(
       tool, render,
       choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));
