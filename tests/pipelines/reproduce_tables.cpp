@@ -68,7 +68,7 @@ TEST_F(Reproduce, EveryTableAtToySize) {
   // The bases do not depend on the size: 25 functions of HSH hold 0.998 of Phong cos^5 times cosine, of SH
   // 0.936.
   const CsvTable bases = table(path("out/hsh-bases.csv"));
-  EXPECT_EQ(ours(bases, "Phong cos^5 times cosine: HSH and SH").substr(0, 5), "0.998");
+  EXPECT_EQ(ours(bases, "Phong cos^5 times cosine, 25 functions: HSH and SH").substr(0, 5), "0.998");
   EXPECT_GT(std::stod(ours(table(path("out/views.csv")), "records of the centre view")), 50);
   // Half of a disc is beyond a border; the hull is not.
   const CsvTable border = table(path("out/thesis-6.9.csv"));
