@@ -11,6 +11,7 @@
 #include "direct/lamp_sequence.h"
 #include "estimate/events.h"
 #include "radiance/tree.h"
+#include "record/far_records.h"
 #include "record/tree.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"

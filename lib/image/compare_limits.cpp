@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline image {
 namespace {
@@ -51,7 +52,7 @@ constexpr Limit kTable[] = {
      [](const FlickerMetrics& m) { return m.relative_converged_flicker.value_or(m.relative_flicker); }},
 };
 
-void add(std::string& all, const std::string& what) { all += (all.empty() ? "" : "; ") + what; }
+void add(std::string& all, const std::string& what) { append_item(all, what, "; "); }
 
 void judge(std::string& all, const std::string& layer, const Limit& limit, double v, double bound) {
   if (limit.at_least ? v >= bound : v <= bound) return;

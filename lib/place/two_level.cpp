@@ -4,9 +4,18 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "estimate/caustic_light.h"
 #include "estimate/density.h"
+#include "estimate/gather_source.h"
+#include "estimate/record_options.h"
+#include "photon/caustic_map.h"
+#include "photon/photon_map.h"
 #include "place/placement.h"
+#include "radiance/gloss_cache.h"
+#include "record/far_records.h"
+#include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline place {
 namespace {
@@ -27,6 +36,13 @@ double area_m2(const IrradianceRecord& r) {
 
 /// Of a record's variance at most so much is taken for common: where nothing was left, there were no photons.
 constexpr double kMostCommon = 0.999;
+
+/// Coarse records are of photons, however the fine ones are made (coarse_options()): no table of estimators
+/// is asked, which would choose by the options and wants lamps, of which this level knows none.
+std::unique_ptr<Estimator> of_photons(const PhotonMap& photons, const RayScene& rays,
+                                      const RecordOptions& coarse, std::uint64_t seed) {
+  return std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
+}
 
 /// Where rays land; null: records hold it.
 std::unique_ptr<CausticLight> caustic_light(const RayScene& rays,
@@ -108,7 +124,7 @@ double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
                          std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
-  photons_ = std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
+  photons_ = of_photons(photons, rays, coarse, seed);
   noise_ = photon_noise(photons, false);
   tell_common_ = !photons.family.empty();
   zone_photons_ = 2 * static_cast<double>(coarse.min_photons);  // min_photons to 4 times as many
@@ -128,7 +144,7 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
   coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
   if (earlier.quantity == Quantity::all) coarse.paths = Quantity::all;
   coarse.images_apart = true;
-  if (photons) photons_ = std::make_unique<DensityEstimator>(*photons, rays, coarse, seed);
+  if (photons) photons_ = of_photons(*photons, rays, coarse, seed);
   read(rays, earlier);
   caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);

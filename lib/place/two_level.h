@@ -2,16 +2,35 @@
 // gloss there.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 
-#include "estimate/gather.h"
-#include "estimate/record_options.h"
-#include "photon/photon_map.h"
 #include "photon/photon_noise.h"
-#include "radiance/gloss_cache.h"
-#include "record/irradiance_cache.h"
-#include "record/tree.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class RayScene;
+}
+namespace phos::inline photon {
+class PhotonMap;
+struct CausticPhotons;
+}  // namespace phos::inline photon
+namespace phos::inline record {
+class FarRecords;
+class RecordTree;
+struct IrradianceCache;
+struct IrradianceRecord;
+}  // namespace phos::inline record
+namespace phos::inline radiance {
+class GlossCache;
+}
+namespace phos::inline estimate {
+class CausticLight;
+class Estimator;
+struct GatherSource;
+struct RecordOptions;
+}  // namespace phos::inline estimate
 
 namespace phos::inline place {
 

@@ -6,10 +6,12 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "core/text/quantity.h"
 #include "radiance/brdf/projection.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/models.h"
+#include "scene/rays.h"
 
 namespace phos::inline radiance {
 namespace {

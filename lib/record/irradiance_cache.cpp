@@ -5,9 +5,11 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "file/shards.h"
+#include "photon/caustic_map.h"
 #include "record/check.h"
 #include "record/footprint_columns.h"
 #include "record/index.h"
+#include "scene/rays.h"
 #include "scene/receiver.h"
 
 namespace phos::inline record {

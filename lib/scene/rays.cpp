@@ -10,6 +10,7 @@
 #include "core/float_traps.h"
 #include "core/interrupt.h"
 #include "core/last_words.h"
+#include "core/options.h"
 #include "core/parallel.h"
 #include "scene/material/filled_glass.h"
 #include "scene/material/models.h"

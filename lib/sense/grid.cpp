@@ -324,7 +324,7 @@ Sensors mesh_grid(const Scene& scene, const GridOptions& grid) {
   if (!found) {
     std::string names;
     for (std::size_t i = 0; i < scene.instance.size() && i < 8; ++i)
-      names += (i > 0 ? ", " : "") + scene.instance[i].node;
+      names.append(i > 0 ? ", " : "").append(scene.instance[i].node);
     throw Error(ExitCode::usage, "--mesh",
                 text("the scene has no surface of node \"", grid.mesh, "\"; it has ", names,
                      scene.instance.size() > 8 ? ", ..." : ""));

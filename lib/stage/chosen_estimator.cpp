@@ -1,6 +1,7 @@
 #include "stage/chosen_estimator.h"
 
 #include "core/error.h"
+#include "radiance/gloss_cache.h"
 #include "splat/gl/hemisphere_raster.h"
 
 namespace phos::stage {

@@ -4,6 +4,7 @@
 
 #include "estimate/record_ways.h"
 #include "file/adoption.h"
+#include "photon/caustic_map.h"
 #include "place/modes.h"
 #include "place/parts.h"
 #include "place/points_on_surfaces.h"

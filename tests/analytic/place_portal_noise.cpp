@@ -5,6 +5,7 @@
 #include "photon/photon_noise.h"
 #include "photon/trace.h"
 #include "place/two_level.h"
+#include "record/irradiance_cache.h"
 #include "scene/opening/find_portals.h"
 #include "support/daylight.h"
 

@@ -8,6 +8,7 @@
 
 #include "file/kinds/tables.h"
 #include "file/kinds/tensor_io.h"
+#include "photon/caustic_map.h"
 #include "photon/photon_map.h"
 #include "radiance/brdf/file.h"
 #include "radiance/brdf/table.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline image {
 
@@ -91,7 +92,7 @@ Plot plot_of(const CsvTable& table, const CsvPlotOptions& o) {
   plot.x = {o.x_label.empty() ? o.x : o.x_label, scale(o.log_x), o.x_min, o.x_max};
   plot.y = {o.y_label, scale(o.log_y), o.y_min, o.y_max};
   if (o.y_label.empty())
-    for (const std::string& y : o.y) plot.y.label += (plot.y.label.empty() ? "" : ", ") + y;
+    for (const std::string& y : o.y) append_item(plot.y.label, y);
   plot.width = static_cast<int>(o.width), plot.height = static_cast<int>(o.height);
 
   for (const std::size_t row : rows_of(table, o.where)) {

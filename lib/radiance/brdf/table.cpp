@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/options.h"
 #include "hsh/basis.h"
 #include "hsh/limits.h"
 #include "radiance/lobe_dot.h"

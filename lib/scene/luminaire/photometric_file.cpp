@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
 #include "scene/gltf/uri.h"
@@ -48,7 +49,7 @@ Format format_of(std::string_view bytes) {
 void check_lumens(PhotometricFile& file) {
   const double lm = file.photometry->flux_lm();
   if (!(lm > 0)) {
-    file.warnings.push_back("all intensities are 0: the luminaire gives no light");
+    file.warnings.emplace_back("all intensities are 0: the luminaire gives no light");
     return;
   }
   // EULUMDAT states the share, and its reader has compared it.
@@ -83,8 +84,8 @@ double TiltTable::factor(double tilt_deg) const {
 
 std::string PhotometricFile::title(const std::string& absent) const {
   std::string out = maker;
-  for (const std::string& part : {luminaire, catalogue})
-    if (!part.empty() && out.find(part) == std::string::npos) out += (out.empty() ? "" : ", ") + part;
+  for (const std::string* part : {&luminaire, &catalogue})
+    if (!part->empty() && out.find(*part) == std::string::npos) append_item(out, *part);
   return out.empty() ? absent : out;
 }
 

@@ -4,7 +4,18 @@
 #include <cstdint>
 #include <memory>
 
-#include "estimate/gather.h"
+#include "estimate/estimator.h"
+#include "estimate/gather_source.h"
+
+
+namespace phos::inline estimate {
+struct Hemisphere;
+struct RecordOptions;
+}  // namespace phos::inline estimate
+namespace phos::inline scene {
+class Luminaires;
+class RayScene;
+}  // namespace phos::inline scene
 
 namespace phos::inline splat {
 
