@@ -39,7 +39,8 @@ class GatherEstimator : public HemisphereEstimator {
   std::vector<SeenPass> last_seen(const Worker& worker) const override;
   Made record_from(const RecordSite& site, std::span<const Hemisphere> passes, Worker& worker) const override;
 
-  /// One stratified hemisphere of about `rays` rays, traced and lit, of which make() makes a record.
+  /// Traces and lights one stratified hemisphere of about `rays` rays; make() makes a record from such
+  /// hemispheres.
   void sample(const RecordSite& site, std::int64_t rays, std::uint32_t pass, Hemisphere& h, Worker& worker,
               Measure measure = Measure::projected) const;
   /// What the worker's last sample() of a pass found; `h` is the hemisphere that it filled.

@@ -10,7 +10,7 @@ namespace {
 
 /// 1 - mean of P_l(cos) of the angle between two points of a cell of ring `ring`, for each band: the part of
 /// a harmonic's square that varies within the cell, since the addition theorem makes P_l of the sum over a
-/// band. On the sphere of which HSH are harmonics, cells are of equal area too.
+/// band. The map from the hemisphere to the sphere leaves the cells equal in area.
 std::vector<double> variation_in_cell(int ring, int rings, int slices, int order) {
   constexpr int kPoints = 6;
   std::vector<double> node, weight, variation(static_cast<std::size_t>(order));

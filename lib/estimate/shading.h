@@ -77,8 +77,8 @@ class Shading {
   /// answer (FarRecords); weight 0: there are none.
   Interpolated cached(const SurfacePoint& point, ShadingLog& log) const;
 
-  /// Caustic light at a point, of which the records hold none: irradiance, and the data that log.caustics
-  /// needs for its gloss. 0 where they hold it. An error far below `other_lx`, the rest of the irradiance
+  /// Caustic light at a point, where the records hold no caustic light: irradiance, and the data that
+  /// log.caustics needs for its gloss. 0 where the records hold it. An error far below `other_lx`, the rest of the irradiance
   /// there, is no matter.
   LocalDensity caustic(const SurfacePoint& point, ShadingLog& log, float other_lx = 0) const;
   bool has_caustics() const { return caustics_ != nullptr; }

@@ -51,7 +51,7 @@ struct OptionSheet {
   OptionDeclaration* find(const std::string& name);
   const OptionDeclaration* find(const std::string& name) const;
   std::vector<std::string> names(Adopted adopted) const;
-  /// The headings, without that of the inputs.
+  /// The headings of all sections but the inputs' own.
   std::vector<std::string> sections() const;
   /// "phos-splat [options] SCENE -o FILE"
   std::string usage() const;

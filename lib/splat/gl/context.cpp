@@ -20,23 +20,18 @@ void look_up(GlFunction<Pointer>& function, GlBy by, const GlNative& native, con
   function.set(reinterpret_cast<Pointer>(found));
 }
 
-}  // namespace
-
-GlContext::GlContext(GlBy by) : by_(by) {
+std::unique_ptr<GlNative> make_native(GlBy by) {
   // Read by Mesa's driver when it starts, once per process.
   setenv("LP_NUM_THREADS", std::to_string(std::min(thread_count(), 16)).c_str(), 0);
   const NoFloatTraps traps;
-  native_ = gl_kind(by).make();
-  make_current();
-  try {
-    start();
-  } catch (...) {
-    release();
-    throw;
-  }
+  return gl_kind(by).make();
 }
 
-void GlContext::start() {
+}  // namespace
+
+GlContext::GlContext(GlBy by) : GlContext(by, make_native(by)) {
+  const NoFloatTraps traps;
+  make_current();
 #define PHOS_GL_LOOK_UP(name) look_up(gl_.name, by_, *native_, "gl" #name);
   PHOS_GL_FUNCTIONS(PHOS_GL_LOOK_UP)
 #undef PHOS_GL_LOOK_UP
@@ -55,6 +50,8 @@ void GlContext::start() {
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
+
+GlContext::GlContext(GlBy by, std::unique_ptr<GlNative> native) : by_(by), native_(std::move(native)) {}
 
 GlContext::~GlContext() {
   const NoFloatTraps traps;

@@ -14,33 +14,34 @@
 namespace phos::inline splat {
 
 // Every function that is called. They are looked up at run time: the library exports the older ones only.
-#define PHOS_GL_FUNCTIONS(X)                                                                                 \
-  X(AttachShader)                                                                                            \
-  X(BindBufferBase)                                                                                          \
-  X(BindFramebuffer)                                                                                         \
-  X(BindTextureUnit)                                                                                         \
-  X(BindVertexArray)                                                                                         \
-  X(BlendFunc)                                                                                               \
-  X(CheckNamedFramebufferStatus)                                                                             \
-  X(ClearNamedFramebufferfv)                                                                                 \
-  X(ClearNamedFramebufferuiv)                                                                                \
-  X(ClipControl)                                                                                             \
-  X(ColorMask)                                                                                               \
-  X(CompileShader) X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateShader) X(CreateTextures) \
-      X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)          \
-          X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)         \
-              X(DrawArraysInstanced) X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(Finish)          \
-                  X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog)        \
-                      X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram)    \
-                          X(NamedBufferData) X(NamedFramebufferDrawBuffers) X(NamedFramebufferTexture)       \
-                              X(NamedFramebufferTextureLayer) X(PixelStorei) X(ProgramUniform1f)             \
-                                  X(ProgramUniform1i) X(ProgramUniform1ui) X(ProgramUniform2f)               \
-                                      X(ProgramUniform3f) X(ProgramUniform4f) X(ProgramUniformMatrix3fv)     \
-                                          X(ShaderSource) X(TextureParameteri) X(TextureStorage2D)           \
-                                              X(TextureStorage3D) X(TextureSubImage2D) X(UseProgram)         \
-                                                  X(VertexArrayAttribBinding) X(VertexArrayAttribFormat)     \
-                                                      X(VertexArrayBindingDivisor)                           \
-                                                          X(VertexArrayElementBuffer)                        \
+#define PHOS_GL_FUNCTIONS(X)                                                                              \
+  X(AttachShader)                                                                                         \
+  X(BindBufferBase)                                                                                       \
+  X(BindFramebuffer)                                                                                      \
+  X(BindTextureUnit)                                                                                      \
+  X(BindVertexArray)                                                                                      \
+  X(BlendFunc)                                                                                            \
+  X(CheckNamedFramebufferStatus)                                                                          \
+  X(ClearNamedFramebufferfv)                                                                              \
+  X(ClearNamedFramebufferuiv)                                                                             \
+  X(ClipControl)                                                                                          \
+  X(ColorMask)                                                                                            \
+  X(CompileShader)                                                                                        \
+  X(CreateBuffers) X(CreateFramebuffers) X(CreateProgram) X(CreateShader) X(CreateTextures)               \
+      X(CreateVertexArrays) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)       \
+          X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)      \
+              X(DrawArraysInstanced) X(DrawElements) X(Enable) X(EnableVertexArrayAttrib) X(Finish)       \
+                  X(GetError) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog)     \
+                      X(GetShaderiv) X(GetString) X(GetTextureImage) X(GetUniformLocation) X(LinkProgram) \
+                          X(NamedBufferData) X(NamedFramebufferDrawBuffers) X(NamedFramebufferTexture)    \
+                              X(NamedFramebufferTextureLayer) X(PixelStorei) X(ProgramUniform1f)          \
+                                  X(ProgramUniform1i) X(ProgramUniform1ui) X(ProgramUniform2f)            \
+                                      X(ProgramUniform3f) X(ProgramUniform4f) X(ProgramUniformMatrix3fv)  \
+                                          X(ShaderSource) X(TextureParameteri) X(TextureStorage2D)        \
+                                              X(TextureStorage3D) X(TextureSubImage2D) X(UseProgram)      \
+                                                  X(VertexArrayAttribBinding) X(VertexArrayAttribFormat)  \
+                                                      X(VertexArrayBindingDivisor)                        \
+                                                          X(VertexArrayElementBuffer)                     \
                                                               X(VertexArrayVertexBuffer) X(Viewport)
 
 /// A function of OpenGL. Called without traps: the driver and the shaders that it compiles divide by zero.
@@ -84,8 +85,8 @@ class GlContext {
   void check(const char* doing) const;
 
  private:
-  void start();
-  void release() const;  // if it is current
+  GlContext(GlBy by, std::unique_ptr<GlNative> native);  // not current yet
+  void release() const;                                  // if it is current
 
   GlBy by_;
   std::unique_ptr<GlNative> native_;
