@@ -11,6 +11,7 @@
 #include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "scene/inside_solid.h"
+#include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
@@ -114,6 +115,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   judge_placement(records, placement, tool.options());
   cache.accuracy = records.accuracy;
   const RayScene rays(scene, {asked.isa});
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
   if (placement.place == Place::view)
     if (const auto inside = camera_inside_solid(rays, find_camera(scene, placement.camera)))
       tool.warn(*inside);

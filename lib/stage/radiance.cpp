@@ -11,6 +11,7 @@
 #include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
+#include "scene/nested_glass.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -72,6 +73,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   PlacementSource source{inputs.photons ? &*inputs.photons : nullptr, !asked.at.empty(), points, tool.seed()};
   resolve(placement, scene, source, radiance.records.accuracy);
   const RayScene rays(scene, {asked.isa});
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
   const TypicalDistance typical = typical_distance(rays, placement, source);
   tool.stat("typical_distance_m", typical.least_m);
   radiance.records.resolve(typical);

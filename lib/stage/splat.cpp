@@ -10,6 +10,7 @@
 #include "radiance/brdf/projection.h"
 #include "scene/inside_solid.h"
 #include "scene/motion/film.h"
+#include "scene/nested_glass.h"
 #include "scene/rays.h"
 #include "scene/report/unsampled.h"
 #include "splat/caches.h"
@@ -96,6 +97,7 @@ void run(Tool& tool, SplatCommand& asked) {
     const auto timer = tool.time("build rays");
     return RayScene(scene, {render.isa});
   }();
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
   if (const auto inside = camera_inside_solid(rays, find_camera(scene, render.camera))) tool.warn(*inside);
   if (render.direct == DirectBy::shadow_map && rays.has_panes())
     tool.say("light comes through panes, which shadow maps do not show: shadow rays stand in for them");

@@ -4,6 +4,7 @@
 #include "place/typical_distance.h"
 #include "radiance/brdf/file.h"
 #include "radiance/gloss_report.h"
+#include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "stage/inputs.h"
@@ -74,6 +75,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   resolve_film_places(job.placement, first->scene,
                       (job.of_radiance ? job.light.radiance.records : records).accuracy);
   const TypicalDistance typical = typical_distance(first->rays, job.placement, {});
+  if (const auto nested = nested_glass(first->rays)) tool.warn(*nested);
   records.resolve(typical);
   job.light.radiance.records.resolve(typical);
   job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();

@@ -174,7 +174,16 @@ TEST(Glass, WithinGlassIsTold) {
   std::string said;
   under_lamp_lx(nested, &said);
   expect_found(said, line);
-  expect_found(run_tool({"photons", nested, "--photons", "10", "-o", folder + "/o.photons"}).err, line);
+  const std::string photons = folder + "/o.photons", cache = folder + "/o.irradiance";
+  expect_found(run_tool({"photons", nested, "--photons", "1000", "-o", photons}).err, line);
+  expect_found(run_tool({"irradiance", nested, photons, "-o", cache}).err, line);
+  expect_found(
+      run_tool({"splat", nested, cache, "--splat", "cpu", "--width", "8", "-o", folder + "/o.exr"}).err,
+      line);
+  expect_found(run_tool({"temporal", nested, "--frames", "0:1", "--rays", "16", "--photons", "1000",
+                         "--width", "8", "-o", folder + "/film.irradiance"})
+                   .err,
+               line);
   // Beside each other, touching: none lies within the other.
   const std::string beside =
       scene_of({{{-0.2f, 0.5f, 0}, {0.2f, 0.1f, 0.2f}}, {{0.2f, 0.5f, 0}, {0.2f, 0.1f, 0.2f}}},
