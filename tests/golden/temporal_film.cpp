@@ -23,7 +23,7 @@ class GoldenFilm : public GoldenCornell {
 
 /// Without how many records and events there are: at a few places the processor's rounding decides.
 std::string without_counts(const std::string& said) {
-  static const std::regex shape(" ([FIU]32  )[0-9]+"), count("^(  .*[^ ]  +)[0-9]+$");
+  static const std::regex shape(" ([FIU][0-9]+  )[0-9]+"), count("^(  .*[^ ]  +)[0-9]+$");
   std::string section, all;
   for (const std::string& line : lines_of(said)) {
     if (line.find(' ') != 0) section = line;

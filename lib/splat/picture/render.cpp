@@ -21,6 +21,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/picture/edge_shader.h"
 #include "splat/picture/edges.h"
+#include "splat/picture/overlay_legend.h"
 #include "splat/picture/pixel_shader.h"
 
 namespace phos::inline splat {
@@ -99,11 +100,13 @@ void declare_options(Options& options, RenderOptions& r) {
   options.choice<Overlay>("overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
                           "draw the visible records into the beauty: a dot at each, and the outline of the "
                           "zone it lights; other layers stay as they are");
+  Names<OverlayColour> colours;
+  for (const OverlayColourRow& row : kOverlayColours) colours.emplace_back(row.name, row.colour);
   options.choice<OverlayColour>(
-      "overlay-colour", r.overlay_colour,
-      {{"radius", OverlayColour::radius}, {"stderr", OverlayColour::stderr_}},
+      "overlay-colour", r.overlay_colour, colours,
       "what the records' colours tell: radius, or standard error over irradiance (logarithmic, blue is "
-      "least)");
+      "least); or, of a film, the frames that each lives (logarithmic, red is one frame, green the longest "
+      "life)");
   options.section("Light from the cache");
   options.number("accuracy", r.accuracy, "A",
                  "how far a record reaches: error allowed between records (smaller: fewer, closer records "
@@ -406,12 +409,14 @@ class Painter {
 }  // namespace
 
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-                       std::span<const BrdfTable> brdfs, const GlossCache* gloss) {
+                       std::span<const BrdfTable> brdfs, const GlossCache* gloss, const RecordLives& lives) {
   Rendering result;
   Painter(rays, cache, options, brdfs, gloss, result).make();
-  if (options.overlay == Overlay::records)
+  if (options.overlay == Overlay::records) {
     result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
-                                find_camera(rays.scene(), options.camera), options.overlay_colour);
+                                find_camera(rays.scene(), options.camera), options.overlay_colour, lives);
+    draw_legend(result.image, result.drawn, options.overlay_colour);
+  }
   return result;
 }
 
