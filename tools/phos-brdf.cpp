@@ -3,13 +3,13 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool(program("phos-brdf"),
-            "For each glossy material of the scene, and each direction of view, finds the lowest order of "
-            "harmonics that holds its cosine-weighted lobe, and the coefficients. Directions for which no "
-            "order up to --max-order does are marked to be traced. Lambert parts, mirrors and smooth glass "
-            "need no table; a scene without gloss gives an empty file. The file feeds phos-radiance and "
-            "phos-splat.",
-            stage::kBrdfAlgorithm);
+  Tool tool(
+      program("phos-brdf"),
+      "Finds, for each glossy material of the scene and each direction of view, the lowest order of "
+      "harmonics that holds the cosine-weighted lobe, and the coefficients. Directions for which no order up "
+      "to --max-order is enough are marked to be traced. Lambert parts, mirrors and smooth glass need no "
+      "table; a scene without gloss gives an empty file. The file feeds phos-radiance and phos-splat.",
+      stage::kBrdfAlgorithm);
   stage::BrdfCommand asked;
   Options& options = tool.options();
   options.input("SCENE", asked.scene_path, "glTF (.glb, .gltf) or OBJ scene");
@@ -17,11 +17,11 @@ int main(int argc, char** argv) {
   declare_options(options, asked.scene);
   options.section("Output");
   options.file("bases", asked.bases,
-               "write here how much of each lobe's energy so many functions hold, of hemispherical harmonics "
-               "and of the bases they compete with (CSV)",
+               "write the share of each lobe's energy that given numbers of functions hold, for "
+               "hemispherical harmonics and for rival bases, to this CSV",
                FileUse::written);
   tool.takes_strict();
-  options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that keep 99 % of the energy");
+  options.example("phos-brdf room.glb -o room.brdf", "the lowest orders that hold 99 % of the energy");
   options.example("phos-brdf room.glb --error 0.01 --max-order 15 -o room.brdf", "sharper, at more cost");
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -5,18 +5,14 @@ namespace {
 
 constexpr const char* kDescription =
     "Both images are OpenEXR or Radiance .hdr, of one size. Differences are image - reference, over all "
-    "components of all pixels of a layer. relative measures are divided by the mean magnitude of the "
-    "reference; rel.mse is mean d2 / (reference2 + e2) and rel.err is mean |d| / (|reference| + e), with e = "
-    "1 "
-    "% of that magnitude. PU.psnr (dB) and PU.ssim compare luminance as the eye does: in the PU21 encoding "
-    "of "
-    "absolute cd/m2 (Mantiuk and Azimi 2021). Above 45 dB or 0.995 a difference is hard to see. A pixel that "
-    "is not finite fails the comparison. Results go to stdout; the exit code is 1 if any compared layer "
-    "breaks "
-    "any limit. With --flicker both are sequences, and luminance is compared: flicker is what changes from "
-    "frame to frame in the difference, the root mean square of d - (the mean of d one frame before and "
-    "after), "
-    "times sqrt(2/3), so that noise of standard deviation s counts as s and an even drift as 0.";
+    "components of all pixels of a layer. Relative measures are divided by the mean magnitude of the "
+    "reference; rel.mse is mean d2 / (reference2 + e2) and rel.err is mean |d| / (|reference| + e), with d "
+    "the difference and e = 1 % of the mean magnitude. PU.psnr (dB) and PU.ssim compare luminance as the eye "
+    "does: in the PU21 encoding of absolute cd/m2 (Mantiuk and Azimi 2021). Above 45 dB or 0.995 a "
+    "difference is hard to see. A pixel that is not finite fails the comparison. Results go to stdout; the "
+    "exit code is 1 if any compared layer breaks any limit. With --flicker both inputs are sequences, and "
+    "luminance is compared: flicker is the root mean square, times sqrt(2/3), of d - (the mean of d one "
+    "frame before and after), so that noise of standard deviation s counts as s and an even drift as 0.";
 
 }  // namespace
 
@@ -25,15 +21,15 @@ int main(int argc, char** argv) {
   Tool tool(program("phos-compare"), kDescription, stage::kCompareAlgorithm, Tool::Output::none);
   Options& o = tool.options();
   stage::CompareCommand c;
-  o.input("IMAGE", c.image, "the image to be judged; with --flicker, a folder or a name with %04d");
-  o.input("REFERENCE", c.reference, "the image that is taken for right, or the sequence");
+  o.input("IMAGE", c.image, "image to be judged; with --flicker, a folder or a name with %04d");
+  o.input("REFERENCE", c.reference, "reference image; with --flicker, a folder or a name with %04d");
   o.section("What is compared");
   o.list("layer", c.options.layers, "LAYER",
-         "layers to compare (beauty, indirect, illuminance, Z, ...); else all common ones");
+         "layers to compare (beauty, indirect, illuminance, Z, ...) (default: all common layers)");
   o.file("second-reference", c.second,
-         "the reference made with another seed: gives the rmse without the noise of the two");
+         "the same reference made with another seed: gives the rmse without the noise of the two references");
   o.flag("ignore-emission", c.options.ignore_emission,
-         "leave out pixels whose layer emission is not black in any of the images");
+         "leave out pixels that show emission (layer emission not black) in any of the images");
   o.flag("flicker", c.flicker, "compare sequences: error over all frames, and flicker");
   declare_frames(o, c.frames);
   o.section("Results");
@@ -43,9 +39,10 @@ int main(int argc, char** argv) {
          "layers); with --flicker, the flicker of each pixel",
          FileUse::written);
   o.number("difference-range", c.range, "X",
-           "what full blue and full red stand for; 0: the 99th percentile (of flicker: the top of the scale)",
+           "difference that full blue and full red stand for; 0: the 99th percentile (for flicker: the top "
+           "of the scale)",
            kNotNegative);
-  o.file("per-frame", c.per_frame, "with --flicker, write error and flicker of each frame there (CSV)",
+  o.file("per-frame", c.per_frame, "with --flicker: write error and flicker of each frame to this CSV",
          FileUse::written);
   o.section("Limits: exit code 1 beyond");
   c.limits.declare(o);

@@ -5,10 +5,9 @@ int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-photons"),
             "Emits photons from every light of the scene, follows them from surface to surface (Russian "
-            "roulette, no limit "
-            "on bounces) and stores one at each surface they reach. The file holds the photons and a kd-tree "
-            "over them, and "
-            "feeds phos-irradiance. The same command gives the same bytes on any number of threads.",
+            "roulette, no limit on bounces) and stores a photon on each surface that they reach. The file "
+            "holds the photons and a kd-tree over them, and feeds phos-irradiance. The same command gives "
+            "the same bytes on any number of threads.",
             stage::kPhotonsAlgorithm);
   stage::PhotonsCommand asked;
   tool.options().input("SCENE", asked.scene_path, "glTF (.glb, .gltf) or OBJ scene");

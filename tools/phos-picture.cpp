@@ -6,20 +6,18 @@ namespace {
 
 constexpr const char* kDescription =
     "Reads OpenEXR or Radiance .hdr and writes a PNG (sRGB), or Radiance .hdr where OUTPUT ends in .hdr, or "
-    "the numbers of --layer, pixel by pixel, where it ends in .csv. By default the light is tone mapped: the "
-    "log-average luminance becomes a middle grey, the brightest half "
-    "per cent becomes white, colours keep their hue. --false-colour shows luminance (cd/m2) or illuminance "
-    "(lx) as colours, with a legend. Pixels that are not finite are magenta, and counted in a warning. "
-    "--contours draws lines of equal illuminance, or of another layer, with labels, over the picture. From "
-    "a table (comma-separated values with a line of names) it draws lines, --y over --x, as SVG or PNG, or "
-    "with --contours and --spacing lines of equal illuminance on a plane of sensors, seen from above. With "
-    "--frames "
-    "every frame of a sequence is shown with one exposure, that of the first which is not black, as pictures "
-    "or, "
-    "where ffmpeg is installed, as a video (.mp4, .mkv, .webm). With --goniometric it draws the luminous "
-    "intensities of a luminaire, from IES LM-63 (.ies) or EULUMDAT (.ldt), as a polar plot with its lumens, "
-    "maximum, and beam and field angles (within which half and a tenth of the plane's maximum are reached). "
-    "With --discs it draws the tables of glossy reflection of a .brdf file.";
+    "the numbers of --layer, pixel by pixel, where OUTPUT ends in .csv. By default the light is tone mapped: "
+    "the log-average luminance becomes a middle grey, the brightest half per cent becomes white, colours "
+    "keep their hue. --false-colour shows luminance (cd/m2) or illuminance (lx) as colours, with a legend. "
+    "Pixels that are not finite are magenta, and counted in a warning. --contours draws lines of equal "
+    "illuminance, or of another layer, with labels, over the picture. A table (comma-separated values with a "
+    "line of names) becomes a plot in SVG or PNG: lines of --y over --x, or with --contours and --spacing "
+    "lines of equal illuminance on a plane of sensors, seen from above. With --frames every frame of a "
+    "sequence is shown with the exposure of the first frame that is not black, as pictures or, where ffmpeg "
+    "is installed, as a video (.mp4, .mkv, .webm). With --goniometric the luminous intensities of a "
+    "luminaire, from IES LM-63 (.ies) or EULUMDAT (.ldt), become a polar plot with lumens, maximum, and beam "
+    "and field angles (within which half and a tenth of the plane's maximum are reached). "
+    "With --discs the tables of glossy reflection of a .brdf file become discs of colours.";
 
 }  // namespace
 
@@ -38,13 +36,13 @@ int main(int argc, char** argv) {
   options.section("Sequences");
   declare_frames(options, asked.sequence.frames);
   options.number("fps", asked.sequence.frames_per_s, "N",
-                 "frames a second of a video; else as the images say, else 24", kPositive);
+                 "frames per second of a video (default: the rate that the images state, else 24)",
+                 kPositive);
   declare_options(options, asked.plot);
   options.section("Luminaires");
-  options.flag(
-      "goniometric", asked.goniometric,
-      "INPUT is a luminaire's photometry (.ies, .ldt): draw its polar plot, planes C0-C180 and C90-C270, in "
-      "candela; OUTPUT ends in .png or .svg");
+  options.flag("goniometric", asked.goniometric,
+               "draw the polar plot of INPUT, a luminaire's photometry (.ies, .ldt): planes C0-C180 and "
+               "C90-C270, in candela; OUTPUT ends in .png or .svg");
   declare_options(options, asked.discs);
   options.example("phos-picture room.exr -o room.png", "as a camera would see it");
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
@@ -59,7 +57,7 @@ int main(int argc, char** argv) {
   options.example(
       "phos-picture errors.csv --x seconds --y rmse --series method --log-x --log-y -o errors.svg",
       "a line for each method");
-  options.example("phos-picture --goniometric lamp.ies -o lamp.png", "what a luminaire does");
+  options.example("phos-picture --goniometric lamp.ies -o lamp.png", "the polar plot of a luminaire");
   options.example("phos-picture --discs error room.brdf -o errors.png",
                   "how well harmonics hold each glossy material, from all directions of view");
 

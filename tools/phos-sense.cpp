@@ -4,52 +4,50 @@
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(program("phos-sense"),
-            "Direct light comes from shadow rays, indirect light from irradiance and radiance caches; where "
-            "these have no "
-            "record (a workplane in free air) records are made by rays that read the caches. Writes CSV: "
-            "id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx, to -o or stdout. With --bands all these "
-            "are of "
-            "the light in the triplet's bands, and band_K_of_N_lx follow, for phos-bands to join.",
+            "Direct light comes from shadow rays, indirect light from irradiance and radiance caches. Where "
+            "the caches have no record, as on a workplane in free air, a record is made by rays that read "
+            "the caches. Writes CSV to -o or stdout: id,x,y,z,nx,ny,nz,E_lx,stderr_lx,direct_lx,indirect_lx. "
+            "With --bands these columns count the light in the triplet's bands, and columns band_K_of_N_lx "
+            "follow, which phos-bands joins.",
             stage::kSenseAlgorithm, Tool::Output::optional);
   tool.takes_strict();
   tool.output_has_no_key();
   stage::SenseCommand asked;
   Options& options = tool.options();
   options.inputs("SCENE [CACHE]", asked.inputs,
-                 "scene (.glb, .gltf, .obj), irradiance and radiance caches of it");
+                 "scene (.glb, .gltf, .obj), and its irradiance and radiance caches");
   declare_options(options, asked.scene);
   tool.takes_frames(asked.scene.frame);
   options.section("Sensors");
-  options.file(
-      "points", asked.points,
-      "sensors: CSV with the columns x,y,z,nx,ny,nz and perhaps id, or six numbers a line; - is stdin");
+  options.file("points", asked.points,
+               "sensors: CSV with the columns x,y,z,nx,ny,nz in metres, and id where wanted, or six numbers "
+               "a line; - is stdin");
   declare_options(options, asked.grid);
   options.section("Light");
   declare_options(options, asked.sense);
-  options.flag("exact", asked.exact, "path tracing at each sensor instead of caches");
-  options.integer("samples", asked.exactly.samples, "N", "paths for each sensor with --exact, at most",
-                  {2, 1e12});
-  options.number(
-      "error", asked.exactly.relative_error, "SHARE",
-      "standard error to reach, relative to the illuminance: of direct light, by as many shadow rays as that "
-      "takes, at most 4096 to each lamp (default: 0.01); with --exact of all light, where paths end before "
-      "--samples (default: all of them)",
-      kPositive);
-  declare_method(
-      options, asked.method,
-      "with --exact: path: from the sensor alone, which does not find what comes from small lamps by "
-      "mirrors and glass; bidirectional: from sensor and lamps; auto: bidirectional where the scene "
-      "has mirrors, smooth glass or sharp gloss");
+  options.flag("exact", asked.exact, "trace paths at each sensor instead of reading caches");
+  options.integer("samples", asked.exactly.samples, "N",
+                  "with --exact: largest number of paths for each sensor", {2, 1e12});
+  options.number("error", asked.exactly.relative_error, "SHARE",
+                 "standard error to reach, as a share of the illuminance: direct light takes as many shadow "
+                 "rays as needed, at most 4096 to each lamp (default: 0.01); with --exact, a sensor takes no "
+                 "more paths once its illuminance reaches it (default: all --samples are taken)",
+                 kPositive);
+  declare_method(options, asked.method,
+                 "with --exact: path: paths from the sensor alone, which miss light that comes from small "
+                 "lamps by mirrors and glass; bidirectional: paths from sensor and lamps; auto: "
+                 "bidirectional where the scene has mirrors, smooth glass or sharp gloss, else path");
   declare_isa(options, asked.isa);
   options.flag(
       "daylight-factor", asked.factors,
-      "two more columns: E_lx and its standard error in percent of the illuminance in the open under "
-      "the same sky (--sky overcast, by the norm; no sun, no lamps)",
+      "add two columns: the daylight factor, which is E_lx in percent of the illuminance in the open under "
+      "the same sky, and its standard error. Give --sky overcast; sun and lamps are refused",
       Recorded::if_given);
-  options.file("summary", asked.summary, "also write mean, least, greatest and uniformity there, as JSON",
+  options.file("summary", asked.summary,
+               "also write mean, least and greatest illuminance and uniformity to this file, as JSON",
                FileUse::written);
   options.flag("allow-mismatch", asked.allow_mismatch,
-               "use caches of another scene or another version of it");
+               "accept caches of another scene, or of another version of the scene");
   options.example("phos-sense room.glb room.irradiance --grid 0.5 --height 0.8 --margin 0.5 -o desk.csv",
                   "a workplane");
   options.example("phos-sense room.glb room.irradiance --points sensors.csv", "given points, to stdout");

@@ -181,8 +181,10 @@ double DensityEstimator::share_of_bend(double bend, double noise, const ZoneEsti
 /// away as far as it exceeds its own noise, so that even light stays as it is, the curvature up to kMostBend
 /// of the mean, and unless the photons lie otherwise; the part that may be left is in the error. A kernel,
 /// for comparison, keeps the bend, and its error contains it.
-void DensityEstimator::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
-                                      Scratch& s, IrradianceRecord& record) const {
+/// Returns the factor on the variance that comes from photons of one path; where paths are known, the
+/// record's error contains it already.
+double DensityEstimator::move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
+                                        Scratch& s, IrradianceRecord& record) const {
   const ZonePhotons& photons = s.gathered.zone;
   const Vec3 step = place.frame.to_world(Vec3(-zone.centroid_m, 0));
   const auto change = [&](std::size_t i) {
@@ -193,8 +195,9 @@ void DensityEstimator::move_to_centre(const ZonePlace& place, const ZoneEstimate
   const float flat_m2 = static_cast<float>(zone.area_m2 / (8 * std::numbers::pi)) *
                             (kernel ? kernel_spread(options_.kernel) : 1) -
                         glm::dot(zone.centroid_m, zone.centroid_m) / 4;
-  DVec3 bend(0), bend2(0), move(0), move2(0);
-  double bend_noise = 0, move_noise = 0;
+  s.paths.set(s.gathered.family);
+  PathSquares bend_squares(s.paths), move_squares(s.paths), squares(s.paths);
+  DVec3 bend(0), move(0);
   s.bend.assign(photons.size(), 0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
@@ -203,33 +206,41 @@ void DensityEstimator::move_to_centre(const ZonePlace& place, const ZoneEstimate
         flat_m2 * curvature_term(photons.direction[i], photons.source_normal[i], photons.inverse_distance[i],
                                  place.frame.z, place.frame.to_world(Vec3(kBendStep * to_centroid, 0)));
     const DVec3 bent = DVec3(photons.flux_lm[i]) * static_cast<double>(s.bend[i]);
-    bend += bent, bend2 += bent * bent, bend_noise += grey(bent) * grey(bent);
+    bend += bent, bend_squares.add(i, bent);
     const DVec3 moved = DVec3(photons.flux_lm[i]) * change(i);
-    move += moved, move2 += moved * moved, move_noise += grey(moved) * grey(moved);
+    move += moved, move_squares.add(i, moved);
   }
+  const DVec3 bend2 = bend_squares.squares(), move2 = move_squares.squares();
+  const auto spread = [&] {
+    return s.paths.known() ? squares.spread() : noise_.spread(static_cast<double>(photons.size()));
+  };
   if (kernel) {
     s.bend.assign(photons.size(), 0);
+    for (std::size_t i = 0; i < photons.size(); ++i)
+      if (s.density.used[i]) squares.add(i, DVec3(photons.flux_lm[i]));
+    const DVec3 alone(zone.stderr_lx);
     const DVec3 left = glm::max(bend * bend - bend2, DVec3(0)) / (zone.area_m2 * zone.area_m2);
-    record.stderr_lx = Rgb(glm::sqrt(DVec3(zone.stderr_lx) * DVec3(zone.stderr_lx) + left));
-    return;
+    record.stderr_lx = Rgb(glm::sqrt(alone * alone * squares.spread() + left));
+    return spread();
   }
-  const double bend_share = share_of_bend(grey(bend), bend_noise, zone, zone_radius_m, s),
-               move_share = beyond_noise(grey(move), move_noise);
+  const double bend_share = share_of_bend(grey(bend), bend_squares.grey_squares(), zone, zone_radius_m, s),
+               move_share = beyond_noise(grey(move), move_squares.grey_squares());
   s.moved_m = -static_cast<float>(move_share) * zone.centroid_m;
-  DVec3 sum(0), squares(0);
+  DVec3 sum(0);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     if (!s.density.used[i]) continue;
     s.bend[i] *= static_cast<float>(bend_share);
     const DVec3 f =
         DVec3(photons.flux_lm[i]) * ((1 + move_share * change(i)) * (1 - static_cast<double>(s.bend[i])));
-    sum += f, squares += f * f;
+    sum += f, squares.add(i, f);
   }
   const DVec3 moved = sum / zone.area_m2, geometric = moved * zone.area_error;
   const DVec3 left = (1 - bend_share) * (1 - bend_share) * glm::max(bend * bend - bend2, DVec3(0)) +
                      (1 - move_share) * (1 - move_share) * glm::max(move * move - move2, DVec3(0));
-  const DVec3 variance = (squares + left) / (zone.area_m2 * zone.area_m2) + geometric * geometric;
+  const DVec3 variance = (squares.squares() + left) / (zone.area_m2 * zone.area_m2) + geometric * geometric;
   record.irradiance = Rgb(glm::clamp(moved, DVec3(0), 2.0 * DVec3(zone.irradiance)));
   record.stderr_lx = Rgb(glm::sqrt(variance));
+  return spread();
 }
 
 /// Analytic gradients, and those that see dark occluders where the photons' places can tell
@@ -261,10 +272,10 @@ void DensityEstimator::fill(const ZonePlace& place, const ZoneEstimate& zone, fl
     return;
   }
   record.irradiance = zone.irradiance, record.stderr_lx = zone.stderr_lx;
-  move_to_centre(place, zone, zone_radius_m, s, record);
-  record.stderr_lx *= path_error(photons.size());
+  const double spread = move_to_centre(place, zone, zone_radius_m, s, record);
+  if (!s.paths.known()) record.stderr_lx *= static_cast<float>(std::sqrt(spread));
   if (!s.others) record.stderr_lx = glm::max(record.stderr_lx, one_photon_lx);
-  record.shared = shared_of(noise_.spread(static_cast<double>(photons.size())));
+  record.shared = shared_of(spread);
   const ComparedGradients known = compared(place, zone, zone_radius_m, s);
   // Counted, but no reason for a smaller radius: photons few enough to need one seldom tell (a thousandth of
   // the records of a Cornell box or Sponza), and errors there were the same with it.

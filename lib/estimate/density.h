@@ -8,6 +8,7 @@
 #include "estimate/estimator.h"
 #include "estimate/record_options.h"
 #include "estimate/zone/gradients.h"
+#include "estimate/zone/path_squares.h"
 #include "estimate/zone/photon_zone.h"
 #include "estimate/zone/surroundings.h"
 #include "photon/density.h"
@@ -44,6 +45,7 @@ class DensityEstimator : public Estimator {
     ZoneEstimate zone;        ///< of the last record; of its photons, density.used counted
     Vec2 moved_m{0};          ///< of the last record: how far its light was moved along its gradient
     std::vector<float> bend;  ///< of the last record: the part taken from each flux for curvature
+    ZonePaths paths;          ///< of the last record: of its photons
   };
   std::unique_ptr<Worker> make_worker() const override { return std::make_unique<Scratch>(); }
   Made make(const RecordSite& site, Worker& worker) const override;
@@ -53,10 +55,6 @@ class DensityEstimator : public Estimator {
   /// Does this photon count?
   bool wanted(std::uint32_t row) const { return is_wanted(photons_, row, Counted(options_)); }
   const RecordOptions& options() const { return options_; }
-  /// How much larger the standard error of a zone is than its photons tell alone: several are of one path.
-  float path_error(std::size_t photons) const {
-    return static_cast<float>(std::sqrt(noise_.spread(static_cast<double>(photons))));
-  }
 
  private:
   /// Where a record's photons are.
@@ -74,8 +72,8 @@ class DensityEstimator : public Estimator {
   ZoneEstimate by_kernel(const Zone& zone, Scratch& scratch) const;
   void count_own(const RecordSite& at, const ZonePlace& place, float zone_radius_m, float reach_m,
                  ZoneEstimate& zone, Scratch& scratch) const;
-  void move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m, Scratch& scratch,
-                      IrradianceRecord& record) const;
+  double move_to_centre(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,
+                        Scratch& scratch, IrradianceRecord& record) const;
   static double share_of_bend(double bend, double noise, const ZoneEstimate& zone, float zone_radius_m,
                               const Scratch& scratch);
   ComparedGradients compared(const ZonePlace& place, const ZoneEstimate& zone, float zone_radius_m,

@@ -16,12 +16,6 @@ constexpr std::int64_t kFirstPass = 64;  // rays; later passes have as many as a
 constexpr int kRingBits = 11;
 constexpr std::uint32_t kMostPasses = 1u << (16 - kRingBits);
 
-/// Times usual. From 1 on, the same error of Sibenik cost a tenth more records, and Cornell boxes, where much
-/// is as bright, had more for nothing; from 4 on half of the gain was lost.
-constexpr double kBright = 2;
-/// Below it pictures gained next to nothing (Sibenik, staircase2), and records cost.
-constexpr float kLeastShare = 0.25f;
-
 /// 16 random bits as a place in a cell, in (0, 1); 1/2 on the mean.
 float in_cell(std::uint32_t bits) { return (static_cast<float>(bits) + 0.5f) * 0x1p-16f; }
 
@@ -154,14 +148,6 @@ std::size_t GatherEstimator::Impl::sample_all(const GatherEstimator& self, const
       return pass + 1;
     }
   }
-}
-
-float GatherSource::least_share(const RecordSite& site) const {
-  if (!indirect || !(usual_lx > 0)) return 1;
-  float weight = 0;
-  const auto lux = static_cast<double>(luminance(indirect->irradiance(site.position, site.normal, weight)));
-  if (!(weight > 0) || !(lux > kBright * usual_lx)) return 1;
-  return std::max(kLeastShare, static_cast<float>(std::sqrt(kBright * usual_lx / lux)));
 }
 
 GatherEstimator::GatherEstimator(const RayScene& rays, const Luminaires& lights, const GatherSource& source,

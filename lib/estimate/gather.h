@@ -6,18 +6,20 @@
 #include <span>
 #include <vector>
 
-#include "direct/lamp_sampler.h"
-#include "estimate/caustic_light.h"
 #include "estimate/estimator.h"
+#include "estimate/gather_source.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "estimate/hemisphere/hemisphere_estimator.h"
-#include "estimate/hit_light.h"
-#include "estimate/record_options.h"
-#include "estimate/shading.h"
-#include "scene/lamp/luminaires.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class Luminaires;
+class RayScene;
+}  // namespace phos::inline scene
 
 namespace phos::inline estimate {
+
+struct RecordOptions;
+struct SeenPass;
 
 /// Stratified cosine-weighted rays. With options.error, passes of growing number until the record's own
 /// standard error is at most error x its value, or all options.rays are spent (counted). With paths = all,

@@ -11,6 +11,7 @@
 #include "direct/lamp_sequence.h"
 #include "estimate/events.h"
 #include "radiance/tree.h"
+#include "record/far_records.h"
 #include "record/tree.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
@@ -68,6 +69,8 @@ class ReadNoise {
 
   /// What was read along one ray.
   void add(const HitLight::Worker::Read& read, float projected_sr, float cosine) {
+    told_ += static_cast<double>(projected_sr * read.told);
+    told_error_ += static_cast<double>(projected_sr * read.told_error);
     const auto lux = static_cast<double>(read.lux), d = static_cast<double>(read.distance_m);
     const auto projected = static_cast<double>(projected_sr), c = static_cast<double>(cosine);
     const double spread = c * (d * d * lux + half_zone_);
@@ -77,11 +80,15 @@ class ReadNoise {
         photon_lm_ * lux * static_cast<double>(read.cosine) * projected / spread * DVec3(read.noise);
     variance_ += c * c * white, white_ += white;
   }
-  SourceNoise all() const { return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common_}; }
+  SourceNoise all() const {
+    const double common = told_ > 0 ? told_error_ * told_error_ / (told_ * told_) : common_;
+    return {irradiance_, variance_, white_ / (2 * std::numbers::pi), common};
+  }
 
  private:
   double photon_lm_, half_zone_;  // m2 lx
   double common_;
+  double told_ = 0, told_error_ = 0;  // of the rays that tell it
   DVec3 irradiance_{0}, variance_{0}, white_{0};
 };
 
@@ -147,6 +154,7 @@ struct HitLight::Impl {
   static LocalDensity caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker);
   bool counts_lamps_in_mirrors(std::uint32_t followed) const;
   bool is_near(const SurfacePoint& point, const Rgb& lux) const;
+  double common_error(const SurfacePoint& point) const;
   Rgb indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
                std::uint32_t followed, Worker& worker) const;
   Rgb from_diffuse(const SurfacePoint& point, const Vec3& wo, const LampSequence& lamp_points,
@@ -215,6 +223,16 @@ bool HitLight::Impl::is_near(const SurfacePoint& point, const Rgb& lux) const {
   return follow_near && kPi * distance_m * distance_m * static_cast<double>(luminance(lux)) < zone_lm;
 }
 
+/// Relative error that the light read at a place has in common with what is read elsewhere.
+double HitLight::Impl::common_error(const SurfacePoint& point) const {
+  Interpolated sums;
+  if (source.indirect) source.indirect->add(point.position, point.smooth_normal, sums);
+  const auto lux = static_cast<double>(luminance(sums.irradiance));
+  if (!(lux > 0)) return std::sqrt(std::max(source.common, 0.0));
+  return std::sqrt(common_part(sums.sums.shared / sums.weight)) *
+         static_cast<double>(luminance(sums.stderr_lx)) / lux;
+}
+
 /// Indirect light that a diffuse lobe f sends on to wo: as it is read, or, near by, by one more ray.
 Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rgb& f, const RayName& ray,
                              std::uint32_t followed, Worker& worker) const {
@@ -225,6 +243,11 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
   if (followed == kMostFollowed || cut || !is_near(point, lux)) {
     lux += apart;
     worker.read.radiance += f * lux, worker.read.noise += f * f * lux;
+    if (source.tell_common && ray.ray % kOfWhichOneTells == 0) {
+      const float light = luminance(f * lux);
+      worker.read.told += light;
+      worker.read.told_error += light * static_cast<float>(common_error(point));
+    }
     worker.read.lux = luminance(lux);
     worker.read.distance_m = point.distance_m;
     worker.read.cosine = std::fabs(glm::dot(point.geometric_normal, wo));

@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "direct/direct_light.h"
+#include "estimate/gather.h"
+#include "estimate/hemisphere/seen_pass.h"
 #include "estimate/next_surface.h"
 
 namespace phos::inline estimate {

@@ -4,10 +4,18 @@
 #include <cstdint>
 #include <memory>
 
-#include "estimate/gather.h"
+#include "estimate/gather_source.h"
+#include "estimate/hemisphere/hemisphere_estimator.h"
 #include "estimate/radiance_record.h"
 
+namespace phos::inline scene {
+class Luminaires;
+class RayScene;
+}  // namespace phos::inline scene
+
 namespace phos::inline estimate {
+
+struct SeenPass;
 
 /// One stratified hemisphere of rays per record, uniform over solid angle, each lit where it lands as
 /// GatherEstimator does. Const, usable from any thread, each with a worker of its own; holds references.

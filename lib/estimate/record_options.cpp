@@ -55,7 +55,7 @@ void RecordOptions::resolve(TypicalDistance typical) {
   if (*min_radius_m > *max_radius_m) {
     throw Error(
         ExitCode::usage, "--min-radius",
-        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller one"));
+        text(*min_radius_m, " m is more than --max-radius ", *max_radius_m, " m; give a smaller value"));
   }
   source_max_radius_m = std::min(*max_radius_m, std::max(most / 4, *min_radius_m));
   if (gather_bounces == 0) {
@@ -64,7 +64,7 @@ void RecordOptions::resolve(TypicalDistance typical) {
   }
   if (footprint != Footprint::circle && estimate != Estimate::gather)
     throw Error(ExitCode::usage, "--footprint",
-                text(name_in(kFootprints, footprint), " follows from gathered rays; give --estimate gather"));
+                text(name_in(kFootprints, footprint), " needs gathered rays; give --estimate gather"));
   if (footprint == Footprint::circle_min) radius = RadiusRule::least;
   if (footprint == Footprint::circle_harmonic) radius = RadiusRule::harmonic;
   using G = GradientMode;
@@ -79,127 +79,141 @@ void RecordOptions::resolve(TypicalDistance typical) {
   std::string names;
   for (const G g : allowed) names += text(names.empty() ? "" : ", ", name_of(g));
   throw Error(ExitCode::usage, "--gradients",
-              text(name_of(gradients), " cannot be had from --estimate ", name_in(kEstimates, estimate),
-                   "; it gives ", names));
+              text(name_of(gradients), " is not available with --estimate ", name_in(kEstimates, estimate),
+                   "; give one of ", names));
 }
 
 void declare_reach_options(Options& options, RecordOptions& r) {
   options.number("accuracy", r.accuracy, "A",
-                 "error allowed in interpolation: a record serves points within A times its radius",
+                 "error allowed in interpolation: a record serves points within A times its radius; smaller: "
+                 "more records",
                  {1e-3, 1, false}, Adopted::estimate);
   options.number("min-radius", r.min_radius_m, "METRES",
-                 "smallest radius (default: a 25th of the typical distance, which is the median, over lit or "
-                 "seen places, of the harmonic mean distance to what surrounds a place)",
+                 "smallest radius of a record (default: a 25th of the typical distance, which is the median, "
+                 "over lit or seen places, of the harmonic mean distance to the surroundings)",
                  kPositive, Adopted::estimate);
   options.number(
       "max-radius", r.max_radius_m, "METRES",
-      "largest radius (default: the typical distance, or half of it with --footprint adaptive); the "
-      "coarse records that rays read are limited to a quarter of the typical distance",
+      "largest radius of a record (default: the typical distance, or half the typical distance with "
+      "--footprint adaptive); coarse records that rays read have at most a quarter of the typical distance",
       kPositive, Adopted::estimate);
   options.choice<LeakTest>("leak-test", r.leak_test, kLeakTests,
-                           "ray: a record serves a point only if the two can see each other",
+                           "ray: a record serves a point only if the two see each other, so that no light "
+                           "leaks through thin walls; none: no test",
                            Adopted::estimate);
 }
 
 void declare_photon_options(Options& options, RecordOptions& r) {
   options.integer("near-photons", r.near_photons, "N",
-                  "photons of the first query, for the distance to surroundings", {8, 4096},
-                  Adopted::estimate);
+                  "number of photons in the first query, which tells the distance to the surroundings",
+                  {8, 4096}, Adopted::estimate);
   options.integer("min-photons", r.min_photons, "N",
-                  "photons that a zone should hold at least, as far as the surroundings allow; records are "
-                  "no closer to each other than half such a zone",
+                  "least number of photons in the zone of a record, as far as the surroundings allow; no two "
+                  "records are closer to each other than half such a zone",
                   {1, 1e6}, Adopted::estimate);
-  options.integer("max-photons", r.max_photons, "N", "photons that a zone should hold at most", {16, 1e7},
-                  Adopted::estimate);
+  options.integer("max-photons", r.max_photons, "N", "largest number of photons in the zone of a record",
+                  {16, 1e7}, Adopted::estimate);
   options.integer("distance-rays", r.distance_rays, "N",
-                  "rays that look for dark surroundings; 0: photons alone", {0, 4096}, Adopted::estimate);
-  options.integer("probes", r.probes, "N", "short rays that look for the surface where a zone is in doubt",
-                  {16, 65536}, Adopted::estimate);
+                  "number of rays that look for dark surroundings, which hold no photons; 0: photons alone "
+                  "tell the distance",
+                  {0, 4096}, Adopted::estimate);
+  options.integer(
+      "probes", r.probes, "N",
+      "number of short rays that look for the surface where a zone is in doubt, as at borders and in corners",
+      {16, 65536}, Adopted::estimate);
 }
 
 void declare_gather_options(Options& options, RecordOptions& r) {
-  options.integer("rays", r.rays, "N",
-                  "rays of a hemisphere, at most: those of whole rings (12, 27, 52, 80, ...)", {12, 1048576},
-                  Adopted::estimate);
-  options.integer("gather-bounces", r.gather_bounces, "N",
-                  "reflections between lamp and record: 1 = surfaces lit by lamps alone; -1: all", {-1, 1},
-                  Adopted::estimate);
+  options.integer(
+      "rays", r.rays, "N",
+      "number of rays over the hemisphere of a record, rounded down to whole rings (12, 27, 52, 80, ...)",
+      {12, 1048576}, Adopted::estimate);
+  options.integer(
+      "gather-bounces", r.gather_bounces, "N",
+      "reflections between lamp and record: 1: surfaces lit by lamps alone; -1: all; 0 is refused", {-1, 1},
+      Adopted::estimate);
   options.choice<GatherFrom>(
       "gather-from", r.gather_from, kSources,
-      "indirect light where rays land: a coarse cache made from the photons first, or the "
-      "photons there (ten times the work); a cache among the inputs is read instead; where rays land nearer "
-      "than half a zone's radius, another ray is followed from there, unless lamps without area meet mirrors "
-      "or glass",
+      "source of the indirect light where rays land: cache: a coarse cache, made from the photons first; "
+      "photons: the photons there (ten times the work). A cache among the inputs is read instead. A ray that "
+      "lands nearer than half a zone's radius is followed by another from there, unless lamps without area "
+      "meet mirrors or glass",
       Adopted::estimate);
-  options.number("source-accuracy", r.source_accuracy, "A", "accuracy of the coarse cache", {1e-3, 1, false},
-                 Adopted::estimate);
+  options.number("source-accuracy", r.source_accuracy, "A", "--accuracy of the coarse cache",
+                 {1e-3, 1, false}, Adopted::estimate);
   options.integer("source-photons", r.source_photons, "N",
-                  "photons that a zone of the coarse cache should hold at least", {16, 1e6},
+                  "least number of photons in the zone of a record of the coarse cache", {16, 1e6},
                   Adopted::estimate);
-  options.choice<RadiusRule>(
-      "radius", r.radius, kRadii,
-      "radius from the harmonic mean distance of surroundings, from the shorter of this and the "
-      "harmonic mean distance that the light comes from, or from the least distance",
-      Adopted::estimate);
+  options.choice<RadiusRule>("radius", r.radius, kRadii,
+                             "distance that gives the radius of a record: harmonic: the harmonic mean "
+                             "distance to the surroundings; light: the same, or the harmonic mean distance "
+                             "to the origin of the light where that is shorter; least: the least distance",
+                             Adopted::estimate);
 }
 
 void declare_options(Options& options, RecordOptions& r) {
   options.section("Records");
   options.choice<Estimate>(
       "estimate", r.estimate, kEstimates,
-      "how irradiance is estimated: photons over their convex hull, photons under a kernel, "
-      "rays over the hemisphere lit where they land, or the scene drawn on a plane above",
+      "method: hull: photons over their convex hull; kernel: photons under a kernel; gather: rays over the "
+      "hemisphere, lit where they land; raster: the scene drawn on a plane above the record",
       Adopted::estimate);
   declare_reach_options(options, r);
-  options.choice<Quantity>("paths", r.paths, kQuantities,
-                           "light that counts: indirect leaves out what comes straight from a lamp",
-                           Adopted::estimate);
+  options.choice<Quantity>(
+      "paths", r.paths, kQuantities,
+      "light that the records hold: indirect: no light straight from a lamp; all: that light too",
+      Adopted::estimate);
   options.choice<GradientMode>(
       "gradients", r.gradients, kGradients,
-      "photons: analytic (auto), hemisphere, positional, blend, none; gather: hybrid "
-      "(auto), analytic, ward-heckbert, krivanek, none; raster: analytic (auto), none",
+      "method for the change of light about a record: with --estimate hull or kernel analytic (auto), "
+      "hemisphere, positional, blend, none; with gather hybrid (auto), analytic, ward-heckbert, krivanek, "
+      "none; with raster analytic (auto), none",
       Adopted::estimate);
   options.section("Estimates from photons");
-  options.choice<Kernel>("kernel", r.kernel, kKernels, "of --estimate kernel", Adopted::estimate);
-  options.integer("hemisphere-rings", r.hemisphere_rings, "N", "rings of the discretised hemisphere", {1, 64},
+  options.choice<Kernel>("kernel", r.kernel, kKernels, "kernel of --estimate kernel", Adopted::estimate);
+  options.integer("hemisphere-rings", r.hemisphere_rings, "N",
+                  "with --gradients hemisphere: rings of the discretised hemisphere", {1, 64},
                   Adopted::estimate);
   declare_photon_options(options, r);
   options.section("Estimates from rays");
   declare_gather_options(options, r);
-  options.number("error", r.error, "E",
-                 "relative standard error at which a record has rays enough (default: all --rays are spent)",
-                 kPositive, Adopted::estimate);
-  options.integer("light-samples", r.light_samples, "N", "with --paths all: shadow rays to each area light",
-                  {1, 65536}, Adopted::estimate);
+  options.number(
+      "error", r.error, "E",
+      "relative standard error at which a record takes no more rays (default: every record takes all --rays)",
+      kPositive, Adopted::estimate);
+  options.integer("light-samples", r.light_samples, "N",
+                  "with --paths all: shadow rays from a record to each area light", {1, 65536},
+                  Adopted::estimate);
 }
 
 void declare_footprint_options(Options& options, RecordOptions& r) {
   options.section("Zones of records");
   options.choice<Footprint>(
       "footprint", r.footprint, kFootprints,
-      "what a record serves: a disc; with --estimate gather also a disc by the least distance, one by the "
-      "harmonic mean that shrinks where records about it say otherwise, or eight axes of their own lengths "
-      "with the change of light along each (half the records, each at more cost; drawn on the CPU)",
+      "zone that a record serves: circle: a disc. With --estimate gather also circle-min: a disc by the "
+      "least distance; circle-harmonic: a disc by the harmonic mean distance, which shrinks where "
+      "neighbouring records disagree; adaptive: eight axes, each with its length and its change of light "
+      "(half the records, each at more cost; drawn on the CPU)",
       {Recorded::unless_default, Adopted::estimate});
-  options.number(
-      "rho", r.rho, "R",
-      "of adaptive footprints: relative error of light along an axis, which is halved until it is met; at "
-      "most 0.05 where direct light is cached, or shadows are missed",
-      {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
+  options.number("rho", r.rho, "R",
+                 "with --footprint adaptive: relative error of light along an axis, which is halved until "
+                 "the error is met; give at most 0.05 where direct light is cached, or shadows are missed",
+                 {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
   options.choice<Quantity>(
       "direct", r.paths, {{"traced", Quantity::indirect}, {"cached", Quantity::all}},
-      "light straight from the lamps: traced where it is seen, or cached in the records (the "
-      "same as --paths all); pays for many or large lamps, with --footprint adaptive",
+      "light straight from the lamps: traced: by shadow rays from each seen point; cached: in the records, "
+      "the same as --paths all (pays for many or large lamps, with --footprint adaptive)",
       Recorded::no);
   options.another_name("direct", "paths");
 }
 
 void declare_raster_options(Options& options, RecordOptions& r, const InFiles& in_files) {
-  options.integer("raster-side", r.raster_side, "PIXELS", "side of the plane of --estimate raster", {8, 1024},
+  options.integer("raster-side", r.raster_side, "PIXELS",
+                  "with --estimate raster: side of the plane on which the scene is drawn", {8, 1024},
                   in_files);
   options.choice<RasterBorder>("raster-border", r.raster_border, kBorders,
-                               "what stands for directions beyond the plane: nothing, the plane's own mean "
-                               "(coverage), or its border pixels (stretch)",
+                               "with --estimate raster: light of directions beyond the plane: none: no "
+                               "light; coverage: the mean of the plane; stretch: its border pixels",
                                in_files);
 }
 

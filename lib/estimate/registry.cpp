@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "estimate/density.h"
+#include "estimate/gather.h"
 #include "estimate/radiance_density.h"
 #include "estimate/radiance_gather.h"
 

@@ -5,14 +5,20 @@
 #include <memory>
 
 #include "estimate/estimator.h"
-#include "estimate/gather.h"
-#include "estimate/radiance_record.h"
+#include "estimate/gather_source.h"
 #include "estimate/record_options.h"
-#include "photon/photon_map.h"
-#include "scene/lamp/luminaires.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class Luminaires;
+class RayScene;
+}  // namespace phos::inline scene
+namespace phos::inline photon {
+class PhotonMap;
+}
 
 namespace phos::inline estimate {
+
+enum class RadianceGradient;
 
 /// What estimators are made from. Photons and source are asked for only by the rows that need them.
 struct EstimatorParts {

@@ -52,10 +52,12 @@ std::map<std::string, std::string> strings_by_name(const Metadata& metadata, con
                 text("damaged: no \"", entry, "\" in its metadata; rerun the command that made it"));
   const Json json = parse_json(found->second, where);
   if (!json.is_object())
-    throw Error(ExitCode::bad_input, where, text("damaged: \"", entry, "\" is no object"));
+    throw Error(ExitCode::bad_input, where,
+                text("damaged: \"", entry, "\" is not an object; rerun the command that made it"));
   for (const auto& [name, value] : json.as_object()) {
     if (!value.is_string())
-      throw Error(ExitCode::bad_input, where, text("damaged: \"", entry, "\" holds no strings"));
+      throw Error(ExitCode::bad_input, where,
+                  text("damaged: \"", entry, "\" holds no strings; rerun the command that made it"));
     out[name] = value.as_string();
   }
   return out;
@@ -108,8 +110,8 @@ Container::Impl::Impl(const std::string& p, std::optional<FileKind> kind) : path
   check_version(provenance, path);
   if (kind && provenance.kind != *kind)
     throw Error(ExitCode::bad_input, path,
-                text("is a ", name_of(provenance.kind), " file, not ", name_of(*kind), "; give what phos-",
-                     name_of(*kind), " writes"));
+                text("holds ", name_of(provenance.kind), ", not ", name_of(*kind),
+                     "; give the output of phos-", name_of(*kind)));
   tensors = read_layout_tensors(header, file.bytes(), path);
   checksums = strings_by_name(header.metadata, kChecksums, path);
   const std::map<std::string, std::string> units = strings_by_name(header.metadata, kUnits, path);

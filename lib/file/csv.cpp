@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "file/lfs_pointer.h"
 
 namespace phos::inline file {
@@ -24,7 +25,7 @@ void check_names(const CsvTable& table, std::size_t line) {
   for (const std::string& name : table.columns)
     if (!known.insert(name).second)
       throw Error(ExitCode::bad_input, text(table.where, ":", line),
-                  text("names the column \"", name, "\" twice"));
+                  text("names the column \"", name, "\" twice; rename one of them"));
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ std::size_t CsvTable::column(const std::string& name, const std::string& option)
 
 std::string CsvTable::names() const {
   std::string all;
-  for (const std::string& c : columns) all += (all.empty() ? "" : ", ") + c;
+  for (const std::string& c : columns) append_item(all, c);
   return all;
 }
 

@@ -13,8 +13,9 @@ namespace phos::inline file {
 namespace {
 
 [[noreturn]] void refuse(const std::string& frames) {
-  throw Error(ExitCode::usage, "--frames",
-              text("\"", frames, "\" is no range of frames; give first and last as 0:47, or one as 12"));
+  throw Error(
+      ExitCode::usage, "--frames",
+      text("\"", frames, "\" is no range of frames; give first and last frame as 0:47, or one as 12"));
 }
 
 std::int64_t whole(std::string_view digits, const std::string& frames) {
@@ -58,16 +59,21 @@ std::set<std::string> patterns_in(const std::filesystem::path& folder) {
 }  // namespace
 
 void declare_frames(Options& options, std::string& frames, Recorded recorded) {
-  options.text("frames", frames, "A:B", "frames of the animation, first and last included, or one", recorded);
+  options.text("frames", frames, "A:B", "frames A to B of the animation, both included, or one frame",
+               recorded);
 }
 
 FrameRange parse_frames(const std::string& frames) {
   const std::size_t colon = frames.find(':');
   const std::string_view all = frames;
+  if (frames.empty())
+    throw Error(ExitCode::usage, "--frames", "is missing; give first and last frame as 0:47, or one as 12");
   FrameRange range;
   range.first = whole(all.substr(0, colon), frames);
   range.last = colon == std::string::npos ? range.first : whole(all.substr(colon + 1), frames);
-  if (range.first < 0) throw Error(ExitCode::usage, "--frames", text(frames, ": the first frame is 0"));
+  if (range.first < 0)
+    throw Error(ExitCode::usage, "--frames",
+                text(frames, " begins before frame 0; frames are counted from 0"));
   if (range.last < range.first)
     throw Error(ExitCode::usage, "--frames",
                 text(frames, " ends before it begins; give ", range.last, ":", range.first));
@@ -80,7 +86,8 @@ FrameRange parse_frames(const std::string& frames) {
 FramePattern::FramePattern(const std::string& pattern, const std::string& where) {
   const auto fail = [&](const std::string& why) {
     throw Error(ExitCode::usage, where,
-                text("\"", pattern, "\" ", why, "; the frame's number is one %d or %04d, a percent sign %%"));
+                text("\"", pattern, "\" ", why,
+                     "; write the frame's number as one %d or %04d, and a percent sign as %%"));
   };
   std::string* out = &before_;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -96,7 +103,7 @@ FramePattern::FramePattern(const std::string& pattern, const std::string& where)
     const std::string width = pattern.substr(i + 1, d == std::string::npos ? d : d - i - 1);
     if (d == std::string::npos || pattern[d] != 'd' || width.size() > 3 ||
         (!width.empty() && (width[0] != '0' || width.size() == 1)))
-      fail("has a % that is no number of a frame");
+      fail("has a % that is not the number of a frame");
     if (numbered_) fail("has two numbers");
     numbered_ = true;
     digits_ = width.empty() ? 0 : std::stoi(width);

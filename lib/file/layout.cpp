@@ -45,6 +45,10 @@ std::string guess(std::span<const std::byte> file) {
   return printable ? " (it is text)" : "";
 }
 
+std::string not_ours(std::span<const std::byte> file) {
+  return "is not a phos file" + guess(file) + "; give a file that a phos program wrote";
+}
+
 std::uint64_t as_extent(const Json& v, const std::string& where, const std::string& tensor,
                         const char* field) {
   if (!v.is_integer() || v.as_integer() < 0)
@@ -104,11 +108,11 @@ LayoutHeader read_layout_header(std::span<const std::byte> file, const std::stri
     const bool cut = file.size() < kPrefixBytes || little_endian64(file) <= kMaxHeaderBytes;
     bad(where, cut ? text("is not a phos file, or truncated to ", file.size(),
                           " bytes; rerun the command that makes it")
-                   : "is not a phos file" + guess(file));
+                   : not_ours(file));
   }
   const std::uint64_t length = little_endian64(file);
   if (length > kMaxHeaderBytes || length == 0 || file[kPrefixBytes] != std::byte{'{'})
-    bad(where, "is not a phos file" + guess(file));
+    bad(where, not_ours(file));
   if (length > file.size() - kPrefixBytes)
     bad(where, text("truncated: its header takes ", kPrefixBytes + length, " bytes, the file has ",
                     file.size(), "; rerun the command that made it"));

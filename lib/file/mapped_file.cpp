@@ -76,7 +76,7 @@ MappedFile::MappedFile(const std::string& path) {
   struct stat info {};
   if (file.fd < 0 || ::fstat(file.fd, &info) != 0) fail(path, errno);
   if (S_ISDIR(info.st_mode))
-    throw Error(ExitCode::bad_input, path, "cannot read: it is a folder, not a file");
+    throw Error(ExitCode::bad_input, path, "cannot read: it is a folder, not a file; name a file");
   const auto size = static_cast<std::size_t>(info.st_size);
   if (S_ISREG(info.st_mode) && size > 0) {
     void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);

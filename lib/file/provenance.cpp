@@ -72,12 +72,15 @@ void read_format(const std::string& format, const std::string& where, Provenance
     read = error == std::errc() && last == end && p.version > 0;
   }
   if (!read)
-    throw Error(ExitCode::bad_input, where, "is not a phos file (its metadata have no \"format\" of phos)");
+    throw Error(ExitCode::bad_input, where,
+                "is not a phos file (its metadata have no \"format\" of phos); give a file that a phos "
+                "program wrote");
   const std::string name = format.substr(prefix.size(), slash - prefix.size());
   const std::optional<FileKind> kind = kind_named(name);
   if (!kind)
     throw Error(ExitCode::bad_input, where,
-                text("is of the kind \"", name, "\", which this version of phos does not know"));
+                text("is of the kind \"", name,
+                     "\", which this version of phos does not know; use the version that made it"));
   p.kind = *kind;
 }
 
@@ -127,8 +130,7 @@ std::string another_scene(const Json& then, const Json& now, const std::string& 
   if (!differ(then, now, "geometry") || !differ(then, now, "materials")) return "";
   const Json::Object *nodes_then = nodes_of(then), *nodes_now = nodes_of(now);
   if (!nodes_then || !nodes_now)
-    return differ(then, now, "lights") ? text("geometry, materials and lights differ from ", now_path)
-                                       : "";
+    return differ(then, now, "lights") ? text("geometry, materials and lights differ from ", now_path) : "";
   const auto stayed =
       static_cast<std::size_t>(std::count_if(nodes_then->begin(), nodes_then->end(), [&](const auto& node) {
         const auto found = nodes_now->find(node.first);
@@ -165,7 +167,7 @@ std::string scene_change(const Json& then, const Json& now) {
     return "it had an environment or a sky; give the same --environment, --sky, --sun";
   if (sky_then == nullptr && sky_now != nullptr) return "it had no --environment, --sky or --sun";
   if (sky_then != nullptr && !(*sky_then == *sky_now))
-    return "another --environment, --sky or --sun, or its rotation or scale, or another option of theirs";
+    return "another --environment, --sky or --sun, or another rotation, scale or option of these";
   const Json *lamps_then = then.find("luminaires"), *lamps_now = now.find("luminaires");
   if (lamps_then != nullptr && lamps_now == nullptr)
     return "it had measured luminaires; give the same --luminaire";
@@ -224,9 +226,11 @@ Provenance from_metadata(const Metadata& m, const std::string& where) {
         p.counters.add(event, static_cast<std::uint64_t>(n.as_integer()));
       }
   } catch (const Error& e) {
-    throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());
+    throw Error(ExitCode::bad_input, where,
+                text("damaged metadata: ", e.what(), "; rerun the command that made it"));
   } catch (const std::runtime_error& e) {
-    throw Error(ExitCode::bad_input, where, std::string("damaged metadata: ") + e.what());
+    throw Error(ExitCode::bad_input, where,
+                text("damaged metadata: ", e.what(), "; rerun the command that made it"));
   }
   return p;
 }

@@ -74,7 +74,7 @@ void require_each_once(const std::vector<Shard>& shards, const ShardKind& kind) 
   if (absent > 0)
     throw Error(ExitCode::mismatch, "",
                 text("missing ", kind.word(), absent > 1 ? "s " : " ", missing,
-                     absent > kNamed ? ", ..." : "", " of the run"));
+                     absent > kNamed ? ", ..." : "", " of the run; give all of them"));
 }
 
 }  // namespace

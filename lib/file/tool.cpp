@@ -62,21 +62,21 @@ Tool::Tool(const Program& program, const std::string& description, int algorithm
 void Tool::declare_common() {
   options_.section("Common options");
   if (wants_output_ != Output::none)
-    options_.file("output,o", output_, "where the result goes; it appears whole or not at all",
+    options_.file("output,o", output_, "file for the result; it appears whole or not at all",
                   FileUse::written, wants_output_ == Output::required);
-  options_.integer("threads", threads_, "N",
-                   "threads to use; 0 is all cores (the result does not depend on it)",
+  options_.integer("threads", threads_, "N", "number of threads; 0: all cores. Results do not depend on it",
                    {0, kMostThreads.as<double>(), false}, Recorded::no);
   options_.integer("seed", seed_, "N", "seed of the random numbers", kNotNegative);
   options_.file("stats", stats_path_, "write times, counts and memory to this file (JSON)", FileUse::written);
-  options_.choice<ProgressMode>("progress", progress_,
-                                {{"auto", ProgressMode::automatic},
-                                 {"always", ProgressMode::always},
-                                 {"never", ProgressMode::never},
-                                 {"json", ProgressMode::json}},
-                                "progress on standard error", Recorded::no);
-  options_.flag("quiet", quiet_, "no messages but warnings and errors", Recorded::no);
-  options_.flag("verbose", verbose_, "more messages", Recorded::no);
+  options_.choice<ProgressMode>(
+      "progress", progress_,
+      {{"auto", ProgressMode::automatic},
+       {"always", ProgressMode::always},
+       {"never", ProgressMode::never},
+       {"json", ProgressMode::json}},
+      "progress on standard error; auto: on a terminal alone; json: one object a line", Recorded::no);
+  options_.flag("quiet", quiet_, "print nothing but warnings and errors", Recorded::no);
+  options_.flag("verbose", verbose_, "print more messages", Recorded::no);
   if (!strict_help_.empty()) options_.flag("strict", strict_, strict_help_, Recorded::no);
   if (wants_output_ == Output::none || !keyed_) return;
   options_.flag("reuse", reuse_, "do nothing if the output already holds exactly this result", Recorded::no);
@@ -91,7 +91,7 @@ void Tool::begin() {
   install_interrupt_handler();
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
   if (wants_output_ == Output::required && output_.empty())
-    throw Error(ExitCode::usage, "--output", "is empty; name the file that the result goes to");
+    throw Error(ExitCode::usage, "--output", "is empty; name a file for the result");
   require_frames_of_pattern();
   refuse_shared_files();
   if (!stats_path_.empty()) require_writable(stats_path_);
@@ -249,10 +249,10 @@ void Tool::say(const std::string& line) const {
 void Tool::warn(const std::string& line) const { tell("warning: ", line); }
 
 void Tool::takes_strict(const std::string& help) {
-  strict_help_ = !help.empty() ? help
-                               : "end without output: with code 3 where something of the scene is lost or "
-                                 "replaced, with code 5 where light is known to be left out, or the stated "
-                                 "error is not to be trusted";
+  strict_help_ = !help.empty()
+                     ? help
+                     : "end without output: with code 3 if something in the scene is lost or replaced, with "
+                       "code 5 if light is known to be left out or the stated error cannot be trusted";
 }
 
 void Tool::doubt(const std::string& line) const {

@@ -24,10 +24,10 @@ void add_seconds(std::map<std::string, double>& all, const Json& stats) {
 
 void Tool::takes_frames(std::optional<double>& frame) {
   frame_ = &frame;
-  options_.text("frames", frames_, "A:B",
-                "one file for each of these frames, first and last included; their number stands in the "
-                "output's name as %04d",
-                Recorded::no);
+  options_.text(
+      "frames", frames_, "A:B",
+      "frames A to B of the animation, one file each; the name of the output holds the frame number as %04d",
+      Recorded::no);
 }
 
 void Tool::require_frames_of_pattern() const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline image {
 namespace {
@@ -19,38 +20,39 @@ struct Limit {
 constexpr Limit kTable[] = {
     {"max-rmse", "X", "root mean square difference, in the layer's unit",
      [](const LayerMetrics& m) { return m.rmse; }, [](const FlickerMetrics& m) { return m.rmse; }},
-    {"max-relative-rmse", "X", "rmse / mean magnitude of the reference",
+    {"max-relative-rmse", "X", "root mean square difference / mean magnitude of the reference",
      [](const LayerMetrics& m) { return m.relative_rmse; },
      [](const FlickerMetrics& m) { return m.relative_rmse; }},
-    {"max-relative-mse", "X", "mean of squared relative differences",
+    {"max-relative-mse", "X", "mean squared relative difference (rel.mse)",
      [](const LayerMetrics& m) { return m.relative_mse; }},
-    {"max-relative-error", "X", "mean relative error",
+    {"max-relative-error", "X", "mean relative error (rel.err)",
      [](const LayerMetrics& m) { return m.mean_relative_error; }},
-    {"max-bias", "X", "size of the mean difference / mean magnitude of the reference",
+    {"max-bias", "X", "absolute value of the mean difference / mean magnitude of the reference",
      [](const LayerMetrics& m) { return std::fabs(m.relative_bias); },
      [](const FlickerMetrics& m) { return std::fabs(m.relative_bias); }},
-    {"max-absolute-bias", "X", "size of the mean difference, in the layer's unit",
+    {"max-absolute-bias", "X", "absolute value of the mean difference, in the layer's unit",
      [](const LayerMetrics& m) { return std::fabs(m.bias); },
      [](const FlickerMetrics& m) { return std::fabs(m.bias); }},
-    {"max-p99", "X", "99th percentile of differences, in the layer's unit",
+    {"max-p99", "X", "99th percentile of the absolute differences, in the layer's unit",
      [](const LayerMetrics& m) { return m.p99; }},
-    {"max-difference", "X", "largest difference, in the layer's unit",
+    {"max-difference", "X", "largest absolute difference, in the layer's unit",
      [](const LayerMetrics& m) { return m.max; }},
-    {"min-pu-psnr", "DB", "PU21 PSNR of layers in cd/m2",
+    {"min-pu-psnr", "DB", "least PU21 PSNR of layers in cd/m2",
      [](const LayerMetrics& m) { return m.visual ? m.visual->psnr_db : INFINITY; }, nullptr, true},
-    {"min-pu-ssim", "X", "PU21 SSIM of layers in cd/m2",
+    {"min-pu-ssim", "X", "least PU21 SSIM of layers in cd/m2",
      [](const LayerMetrics& m) { return m.visual ? m.visual->ssim : 1.0; }, nullptr, true},
     {"max-outliers", "X",
-     "share of pixels whose luminance is off by 20 % and by 5 standard errors of both (layer stderr)",
+     "share of pixels whose luminance is off by more than 20 % and by more than 5 standard errors of both "
+     "images (layer stderr)",
      [](const LayerMetrics& m) { return m.outliers.value_or(0); }},
     {"max-flicker", "X",
-     "flicker / mean magnitude of the reference, with --flicker; without the references' "
-     "noise where there is a second one",
+     "with --flicker: flicker / mean magnitude of the reference, without the noise of the references where a "
+     "second one is given",
      nullptr,
      [](const FlickerMetrics& m) { return m.relative_converged_flicker.value_or(m.relative_flicker); }},
 };
 
-void add(std::string& all, const std::string& what) { all += (all.empty() ? "" : "; ") + what; }
+void add(std::string& all, const std::string& what) { append_item(all, what, "; "); }
 
 void judge(std::string& all, const std::string& layer, const Limit& limit, double v, double bound) {
   if (limit.at_least ? v >= bound : v <= bound) return;
@@ -74,7 +76,7 @@ void CompareLimits::require_measured(bool sequence) const {
       throw Error(ExitCode::usage, option,
                   "is not measured of sequences; leave it out, or compare frames one by one");
     if (!sequence && !kTable[i].measure)
-      throw Error(ExitCode::usage, option, "is of sequences; give --flicker and --frames too");
+      throw Error(ExitCode::usage, option, "needs sequences; give --flicker and --frames too");
   }
 }
 

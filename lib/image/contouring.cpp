@@ -52,10 +52,12 @@ bool has_cell(const GridField& f) {
 void declare_options(Options& o, ContourOptions& c) {
   o.section("Lines of equal value");
   o.text("contours", c.of, "NAME",
-         "draw lines with labels: of this layer over an image, such as illuminance; or of this column of a "
-         "table of sensors on a horizontal grid, such as E_lx, seen from above");
-  o.list("levels", c.levels, "X", "values of the lines; else round numbers");
-  o.number("spacing", c.spacing_m, "METRES", "distance between neighbours on the grid of a table", kPositive);
+         "draw lines of equal value with labels: of the layer NAME of an image, such as illuminance; or of "
+         "the column NAME of a table of sensors on a horizontal grid, such as E_lx, seen from above");
+  o.list("levels", c.levels, "X",
+         "values of the lines, in the unit of the layer or column (default: round numbers)");
+  o.number("spacing", c.spacing_m, "METRES",
+           "required with --contours of a table: distance between neighbours on the grid", kPositive);
 }
 
 std::string given_contour_option(const Options& options) {
@@ -65,8 +67,8 @@ std::string given_contour_option(const Options& options) {
 void check_usage(const ContourOptions& c, bool table) {
   const auto refuse = [](const char* option, const char* why) { throw Error(ExitCode::usage, option, why); };
   if (c.of.empty()) {
-    if (!c.levels.empty()) refuse("--levels", "is of lines of equal value; say of what: --contours NAME");
-    if (c.spacing_m) refuse("--spacing", "is of lines of equal value; say of what: --contours NAME");
+    if (!c.levels.empty()) refuse("--levels", "needs lines of equal value; give --contours NAME too");
+    if (c.spacing_m) refuse("--spacing", "needs lines of equal value; give --contours NAME too");
     return;
   }
   numbers_of(c.levels);

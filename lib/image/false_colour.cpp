@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "image/canvas.h"
 #include "image/metrics.h"
 #include "image/plot/style.h"
@@ -223,7 +224,7 @@ std::vector<float> layer_values(const Image& image, const std::string& layer) {
     throw Error(ExitCode::bad_input, "",
                 text("layer \"", layer, "\" is no single quantity; choose another with --layer"));
   std::string there;
-  for (const std::string& l : all_layers(image)) there += (there.empty() ? "" : ", ") + layer_label(l);
+  for (const std::string& l : all_layers(image)) append_item(there, layer_label(l));
   throw Error(ExitCode::bad_input, "",
               text("there is no layer \"", layer_label(layer), "\"; there are: ", there));
 }

@@ -46,7 +46,9 @@ void FlickerMeter::choose_layers(const Image& image, const Image& reference, con
     layer.hh.resize(reference.pixels()), layer.n.resize(reference.pixels());
     if (second) layer.hh_second.resize(reference.pixels()), layer.n_second.resize(reference.pixels());
   }
-  if (layers_.empty()) throw Error(ExitCode::mismatch, "", "no layer is a single quantity or a colour");
+  if (layers_.empty())
+    throw Error(ExitCode::mismatch, "",
+                "no layer is a single quantity or a colour; compare images with such a layer");
 }
 
 void FlickerMeter::require_layers(const Image& image, const char* which) const {

@@ -40,27 +40,31 @@ bool has_directions(const Image& image, const std::string& layer) {
 void declare_options(Options& o, LayerPictureOptions& p) {
   o.text("layer", p.layer, "LAYER", "layer to show (beauty, indirect, illuminance, normal, ...)");
   o.section("Tone mapping");
-  o.number("exposure", p.tone.exposure_ev, "EV", "stops brighter than automatic", {-60, 60});
-  o.number("white", p.tone.white_cd_m2, "CD/M2", "luminance that becomes white; else the 99.5th percentile",
-           kPositive);
-  o.number("key", p.tone.key_cd_m2, "CD/M2", "luminance that becomes a middle grey; else the log average",
-           kPositive);
+  o.number("exposure", p.tone.exposure_ev, "EV",
+           "stops brighter than the automatic exposure; below 0: darker", {-60, 60});
+  o.number("white", p.tone.white_cd_m2, "CD/M2",
+           "luminance that becomes white (default: the 99.5th percentile)", kPositive);
+  o.number("key", p.tone.key_cd_m2, "CD/M2",
+           "luminance that becomes a middle grey (default: the log average)", kPositive);
   o.choice<ToneOperator>("operator", p.tone.curve,
                          {{"reinhard", ToneOperator::reinhard},
                           {"filmic", ToneOperator::filmic},
                           {"linear", ToneOperator::linear}},
-                         "tone curve, on luminance");
+                         "tone curve, applied to luminance");
   o.section("False colour");
-  o.flag("false-colour", p.false_colour, "show amounts as colours, with a legend");
+  o.flag("false-colour", p.false_colour, "show values as colours, with a legend");
   o.choice<ScaleChoice>(
       "scale", p.scale,
       {{"auto", ScaleChoice::automatic}, {"linear", ScaleChoice::linear}, {"log", ScaleChoice::logarithmic}},
       "scale of the legend; auto: log for cd/m2, linear for the rest");
-  o.number("min", p.min, "X", "amount at the low end, in the layer's unit; else automatic");
-  o.number("max", p.max, "X", "amount at the high end; else the 98th percentile, rounded up");
-  o.choice<Palette>("palette", p.palette,
-                    {{"viridis", Palette::viridis}, {"turbo", Palette::turbo}, {"grey", Palette::grey}},
-                    "colours: even in lightness, most colours, or none");
+  o.number("min", p.min, "X", "value at the low end of the legend, in the layer's unit (default: automatic)");
+  o.number(
+      "max", p.max, "X",
+      "value at the high end of the legend, in the layer's unit (default: the 98th percentile, rounded up)");
+  o.choice<Palette>(
+      "palette", p.palette,
+      {{"viridis", Palette::viridis}, {"turbo", Palette::turbo}, {"grey", Palette::grey}},
+      "colours of the legend: viridis: even in lightness; turbo: most colours; grey: no colours");
 }
 
 std::string given_picture_option(const Options& options) {

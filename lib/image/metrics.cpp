@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline image {
 
@@ -18,7 +19,7 @@ std::span<const float> values_of(const Image& image, const std::string& layer, c
 
 std::string list(const std::vector<std::string>& layers) {
   std::string s;
-  for (const std::string& l : layers) s += (s.empty() ? "" : ", ") + layer_label(l);
+  for (const std::string& l : layers) append_item(s, layer_label(l));
   return s.empty() ? "none" : s;
 }
 

@@ -1,6 +1,7 @@
 #include "image/show.h"
 
 #include "core/interrupt.h"
+#include "core/text/append_item.h"
 #include "file/atomic_file.h"
 #include "file/frames.h"
 #include "image/events.h"
@@ -42,7 +43,7 @@ bool expose(const Tool& tool, const Image& image, std::int64_t frame, LayerPictu
   if (!p.contours.of.empty() && p.contours.levels.empty()) {
     p.contours = fixed_levels(image, p.contours);
     std::string levels;
-    for (const std::string& level : p.contours.levels) levels += (levels.empty() ? "" : ",") + level;
+    for (const std::string& level : p.contours.levels) append_item(levels, level, ",");
     if (levels.empty()) return false;
     tool.say(text("all frames have the lines of frame ", frame, ": --levels ", levels));
   }
@@ -55,7 +56,7 @@ void draw_contours(Tool& tool, const Image& image, const std::string& input, con
   picture = std::move(drawn.picture);
   if (drawn.unlabelled.empty()) return;
   std::string levels;
-  for (const double level : drawn.unlabelled) levels += (levels.empty() ? "" : ", ") + shortest(level);
+  for (const double level : drawn.unlabelled) append_item(levels, shortest(level));
   tool.warn(text(input, ": lines of ", levels, " have no room for a label"));
 }
 

@@ -60,7 +60,7 @@ Emitter::Emitter(const Scene& scene, double minimum_share, std::uint64_t paths, 
   if (luminaires_.size() == 0)
     throw Error(ExitCode::bad_input, scene.path,
                 text("no light: the scene has no lamp and no emissive material; ", how_to_add_to(scene),
-                     "; phos-scene shows what it has"));
+                     "; phos-scene lists the lights of a scene"));
   share_ = luminaires_.power_shares(minimum_share, portals_ ? portals_->flux_lm() : -1);
   Rgb total(0);
   double shares = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "photon/photon_map.h"
+#include "scene/material/total_reflections.h"
 #include "scene/mirror/planes.h"
 #include "scene/rays.h"
 
@@ -14,7 +15,7 @@ namespace phos::inline photon {
 /// Sums over paths.
 struct PathSums {
   FluxSum emitted, stored, escaped, absorbed;
-  std::uint64_t escaped_paths = 0, non_finite = 0, too_long = 0;
+  std::uint64_t escaped_paths = 0, non_finite = 0, too_long = 0, kept_in_glass = 0;
 };
 
 /// What one chunk of paths gives.
@@ -49,13 +50,14 @@ struct Flight {
   bool mirrored = false;
   std::int32_t chain = MirrorPlanes::kNone;
   bool in_glass = false;  // in solid glass
-  Vec3 stretch_from{0};   // where the ray began, or the pane that it has passed last
+  TotalReflections total_reflections;
+  Vec3 stretch_from{0};  // where the ray began, or the pane that it has passed last
   enum class Keep : std::uint8_t { all, others, caustics } keep = Keep::all;  // photons that are stored
   // Light that is not aimed at portals: light that is scattered through them goes by its children
   // (PortalSplit). A child is one up to the portal.
   enum class Astray : std::uint8_t { no, parent, child } astray = Astray::no;
   float portal_m = kInfinity;  // along the ray, of one astray
-  std::uint64_t number = 0;    // of the path
+  std::uint64_t number = 0;    // of the path; of an aimed one, ~number
   std::uint32_t turn = 0;      // of the path among the paths of its part
   bool aimed_class = false;    // the first event was on a surface at which paths are aimed
   std::uint32_t aimed_at = 0;  // triangle

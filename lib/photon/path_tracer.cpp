@@ -14,10 +14,6 @@ namespace {
 
 constexpr auto kMaxBounces =
     kMostPhotonEvents.as<std::uint32_t>();  // the last that a random stream can number
-// Light that total reflection keeps in glass that absorbs nothing may stay for ever: from so many events on
-// it plays Russian roulette.
-constexpr std::uint32_t kLongInGlass = 16384;
-constexpr float kLongSurvival = 0.98f;
 
 // Without the not-a-number rules of fmax, which cost a call.
 float largest(const Rgb& c) { return std::max(c.x, std::max(c.y, c.z)); }
@@ -99,6 +95,7 @@ bool PathTracer::start_aimed(std::uint64_t number, RandomStream& random, Flight&
   flight.source_normal = start.photon.source_normal, flight.from_infinity = start.photon.from_infinity;
   flight.mirrored = !mirrors_.empty() && is_of_image(emitter_.light(number), start.photon.ray.direction);
   flight.keep = Flight::Keep::caustics, flight.aimed_at = start.triangle;
+  flight.number = ~number;  // apart from those of paths that are not aimed
   return carries_light(flight);
 }
 
@@ -151,6 +148,7 @@ PathTracer::After PathTracer::land(const SurfacePoint& point, const Bsdf& bsdf, 
   } else if (bsdf.takes_light()) {
     if (flight.tells()) {
       store(part.photons, flight, point);
+      if (split_) part.photons.family.push_back(static_cast<std::uint32_t>(flight.number));
       own.stored += flight.units;
     }
   } else {
@@ -189,9 +187,12 @@ PathTracer::After PathTracer::scatter(const Bsdf& bsdf, const SurfacePoint& poin
     ++sums(flight, part).non_finite;
     return After::ended;
   }
-  float survival = std::min(1.0f, largest(flux) / largest(flight.flux_lm));
-  if (flight.in_glass && flight.events > kLongInGlass) survival = std::min(survival, kLongSurvival);
-  if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) return After::ended;
+  const float in_glass = flight.total_reflections.survival(bsdf.total_reflection(wo));
+  const float survival = std::min(in_glass, largest(flux) / largest(flight.flux_lm));
+  if (!(survival > 0) || (survival < 1 && random.uniform() >= survival)) {
+    sums(flight, part).kept_in_glass += in_glass < 1;
+    return After::ended;
+  }
   flight.flux_lm = (1 / survival) * flux;
   if (sample.straight) return After::passed;
   if (aim_ && flight.bounce == 0) {
@@ -241,6 +242,7 @@ void PathTracer::send_through_portals(const Bsdf& bsdf, const SurfacePoint& poin
                               : -point.geometric_normal;
     child.from_infinity = child.specular_only = child.mirrored = child.in_glass = false;
     child.chain = MirrorPlanes::kNone;
+    child.total_reflections = {};
     ++child.bounce;
     child.astray = Flight::Astray::child;
     child.portal_m = split_->first_crossing_m(point.position, children[i].direction);

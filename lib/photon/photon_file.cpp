@@ -67,8 +67,8 @@ void PhotonTotals::settle() {
 }
 
 PhotonColumns columns_of(const Photons& p) {
-  return {p.position, p.flux,   p.direction,          p.normal, p.source_normal, p.distance,
-          p.path,     p.bounce, columns_of(p.flights)};
+  return {p.position, p.flux, p.direction, p.normal, p.source_normal,
+          p.distance, p.path, p.bounce,    p.family, columns_of(p.flights)};
 }
 
 FlightColumns columns_of(const Flights& f) { return {f.from, f.flux, f.direction, f.length}; }
@@ -89,6 +89,7 @@ PhotonColumns columns_of(const Container& container) {
           file.values<float>("distance"),
           file.values<std::uint8_t>("path"),
           file.values<std::uint8_t>("bounce"),
+          file.has("family") ? file.values<std::uint32_t>("family") : std::span<const std::uint32_t>(),
           flights_of(file, kFlightPrefix)};
 }
 
@@ -101,6 +102,7 @@ void add_columns(TensorWriter& writer, const PhotonColumns& c) {
   writer.add<float>("distance", c.distance);
   writer.add<std::uint8_t>("path", c.path);
   writer.add<std::uint8_t>("bounce", c.bounce);
+  if (!c.family.empty()) writer.add<std::uint32_t>("family", c.family);
   add_columns(writer, c.flights, kFlightPrefix);
 }
 
@@ -188,6 +190,7 @@ Json bounds_to_json(std::span<const Vec3> position) {
 
 void append(Photons& to, const Photons& from) {
   for_columns([](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); }, to, from);
+  to.family.insert(to.family.end(), from.family.begin(), from.family.end());
   append(to.flights, columns_of(from.flights));
 }
 

@@ -16,6 +16,7 @@ struct PhotonColumns {
   std::span<const std::uint32_t> direction, normal, source_normal;
   std::span<const float> distance;
   std::span<const std::uint8_t> path, bounce;
+  std::span<const std::uint32_t> family;  // empty where paths do not part
   FlightColumns flights;
 };
 FlightColumns columns_of(const Flights& flights);

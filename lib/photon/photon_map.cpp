@@ -32,6 +32,7 @@ void permute(std::span<T> column, std::span<const std::uint32_t> order, std::spa
 void permute(Photons& p, std::span<const std::uint32_t> order) {
   Column<std::byte> memory(sizeof(Vec3) * order.size());
   for_columns([&](auto& column) { permute(std::span(column), order, memory); }, p);
+  if (!p.family.empty()) permute(std::span(p.family), order, memory);
 }
 
 void require_equal_lengths(const Photons& p) {
@@ -39,8 +40,8 @@ void require_equal_lengths(const Photons& p) {
   const Flights& f = p.flights;
   PHOS_CHECK(p.flux.size() == n && p.direction.size() == n && p.normal.size() == n &&
                  p.distance.size() == n && p.source_normal.size() == n && p.path.size() == n &&
-                 p.bounce.size() == n && f.flux.size() == f.size() && f.direction.size() == f.size() &&
-                 f.length.size() == f.size(),
+                 p.bounce.size() == n && (p.family.empty() || p.family.size() == n) &&
+                 f.flux.size() == f.size() && f.direction.size() == f.size() && f.length.size() == f.size(),
              "columns of unequal length, position has ", n);
 }
 
@@ -72,7 +73,7 @@ PhotonMap PhotonMap::build(Photons photons, const PhotonTotals& totals) {
   const PhotonColumns c = columns_of(impl.photons);
   map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
-  map.flights = c.flights;
+  map.flights = c.flights, map.family = c.family;
   map.totals = totals;
   return map;
 }
@@ -90,7 +91,7 @@ PhotonMap PhotonMap::open(const std::string& path) {
   const std::span<const std::uint8_t> tree = TensorReader(file).values<std::uint8_t>("kdtree");
   map.position = c.position, map.flux = c.flux, map.direction = c.direction, map.normal = c.normal;
   map.source_normal = c.source_normal, map.distance = c.distance, map.path = c.path, map.bounce = c.bounce;
-  map.flights = c.flights;
+  map.flights = c.flights, map.family = c.family;
   map.totals = totals_of(file, c.position.size());
   file.require_sound();
   impl.tree = KdTree::load(map.position, std::as_bytes(tree), path);
@@ -120,8 +121,8 @@ void PhotonMap::write(const std::string& path, Provenance provenance) const {
   provenance.extra["bounds_m"] = bounds_to_json(position);
   const std::vector<std::byte> tree = impl_->tree.save();
   TensorWriter writer(FileKind::photons);
-  add_columns(writer,
-              {position, flux, direction, normal, source_normal, distance, this->path, bounce, flights});
+  add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce, family,
+                       flights});
   writer.add<std::uint8_t>("kdtree", {reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()});
   writer.write(path, provenance);
 }

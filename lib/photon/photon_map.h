@@ -49,11 +49,15 @@ struct Photons {
                       ///< flight direction where there is none (point, spot, directional)
   Column<std::uint8_t> path;    ///< PhotonPath
   Column<std::uint8_t> bounce;  ///< reflections and transmissions since the light (255: or more)
-  Flights flights{};            ///< in path order; none without mirrors and glass
+  /// Number of its path, the lowest 32 bits: photons of one path are not independent. Empty where paths do
+  /// not part (PortalSplit): what they have in common follows from `bounce` there.
+  Column<std::uint32_t> family;
+  Flights flights{};  ///< in path order; none without mirrors and glass
   std::size_t size() const { return position.size(); }
 };
 
-/// Calls act(column...) with the same column of every argument, for each column of photons in turn.
+/// Calls act(column...) with the same column of every argument, for each column that all photons have in
+/// turn.
 template <class Act, class... P>
 void for_columns(const Act& act, P&... photons) {
   act(photons.position...), act(photons.flux...), act(photons.direction...), act(photons.normal...);
@@ -126,6 +130,7 @@ class PhotonMap {
   std::span<const std::uint8_t> path, bounce;
   FlightColumns flights;
   PhotonTotals totals;
+  std::span<const std::uint32_t> family;  ///< as Photons::family
 
   /// Does caustic light reach anything here?
   bool has_caustics() const;

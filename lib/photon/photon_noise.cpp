@@ -41,6 +41,31 @@ class Orders {
   std::array<std::uint64_t, 2 * kLargest + 1> count_{};
 };
 
+/// What paths carry, of photons counted one by one.
+struct Carried {
+  std::uint32_t family;
+  float lm;
+  auto operator<=>(const Carried&) const = default;
+};
+
+/// PhotonNoise::pairs of a map with families. `counts(i)`: is photon i among them?
+template <class Counts>
+double pairs_of_families(const PhotonMap& photons, const Counts& counts) {
+  Column<Carried> carried;
+  for (std::size_t i = 0; i < photons.size(); ++i)
+    if (counts(i)) carried.push_back({photons.family[i], luminance(photons.flux[i])});
+  parallel_sort(carried, kChunk);  // photons that are alike in both are the same to the sums
+  double all = 0, pairs = 0, path = 0, squares = 0;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const auto lm = static_cast<double>(carried[i].lm);
+    path += lm, squares += lm * lm;
+    if (i + 1 < carried.size() && carried[i + 1].family == carried[i].family) continue;
+    all += path, pairs += path * path - squares;
+    path = squares = 0;
+  }
+  return all > 0 ? std::max(0.0, pairs) / (all * all) : 0;
+}
+
 struct Sums {
   double photons = 0, flux = 0, squares = 0, before = 0;
   double last = 0, beyond = 0;  // photons of one bounce less than can be counted, and of more
@@ -89,6 +114,10 @@ PhotonNoise photon_noise(const PhotonMap& photons, bool with_direct) {
   // Beyond, paths go on as they did at the last bounce that was counted.
   const double uncounted = all.last > 0 ? all.beyond * all.beyond / all.last : 0;
   noise.pairs = 2 * (all.before + uncounted) / (all.photons * all.photons);
+  if (!photons.family.empty())
+    noise.pairs = pairs_of_families(photons, [&](std::size_t i) {
+      return counts(i) && static_cast<double>(luminance(photons.flux[i])) <= most_lm;
+    });
   if (photons.totals.emitted > 0)
     noise.common = noise.pairs - 1 / static_cast<double>(photons.totals.emitted);
   return noise;

@@ -22,6 +22,8 @@ void require_same_totals(const std::vector<PhotonShard>& shards) {
   for (const PhotonShard& b : shards) {
     if (a.totals.emitted != b.totals.emitted || a.totals.flux_exponent != b.totals.flux_exponent)
       refuse_other_run(a.shard, b.shard, kKind, "other totals");
+    if (a.totals.stored > 0 && b.totals.stored > 0 && a.columns.family.empty() != b.columns.family.empty())
+      refuse_other_run(a.shard, b.shard, kKind, "other columns");
     if (b.totals.first_path != path)
       throw Error(ExitCode::mismatch, b.shard.file.path(),
                   text("starts at path ", b.totals.first_path, ", where ", path,
@@ -78,6 +80,7 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
     s.shard.file.require_sound();
     const PhotonColumns& c = s.columns;
     for_columns([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, p, c);
+    p.family.insert(p.family.end(), c.family.begin(), c.family.end());
     append(p.flights, c.flights);
     add_totals(merged.totals, s.totals);
     merged.provenance.counters.merge(s.shard.file.provenance().counters);

@@ -33,6 +33,7 @@ void join(const PathPart& part, PhotonTotals& totals, Counters& counters, std::v
     if (times > 0) counters.count(event, times);
   };
   count(kEscapedEvent, part.sums.escaped_paths);
+  count(kKeptInGlassEvent, part.sums.kept_in_glass + part.aimed.kept_in_glass);
   count(kNonFiniteEvent, part.sums.non_finite + part.aimed.non_finite), count(kTooLongEvent, part.too_long());
   if (log) log->insert(log->end(), part.rays.begin(), part.rays.end());
 }
@@ -69,6 +70,13 @@ void join_photons(std::span<PathPart> parts, Photons& all, std::size_t expected_
         column.resize(first.back());
       },
       all);
+  // Where paths part, all photons have it; such paths are not traced in batches (PathTracer::steps_alike()).
+  const bool families = std::any_of(parts.begin(), parts.end(),
+                                    [](const PathPart& part) { return !part.photons.family.empty(); });
+  if (families) {
+    if (first.back() > all.family.capacity()) all.family.reserve(std::max(first.back(), expected_rows));
+    all.family.resize(first.back());
+  }
   parallel_for(parts.size(), 1, [&](std::size_t i) {
     const std::vector<std::uint32_t> place = places(parts[i].turn, parts[i].turns);
     for_columns(
@@ -79,6 +87,10 @@ void join_photons(std::span<PathPart> parts, Photons& all, std::size_t expected_
           own.clear();
         },
         all, parts[i].photons);
+    Column<std::uint32_t>& family = parts[i].photons.family;
+    std::copy(family.begin(), family.end(),
+              all.family.begin() + static_cast<std::ptrdiff_t>(families ? first[i] : 0));
+    family.clear();
   });
   for (PathPart& part : parts) {
     append(all.flights, columns_of(in_order(part)));
@@ -96,22 +108,19 @@ std::size_t expected_rows(std::size_t rows, std::uint64_t done, std::uint64_t pa
 
 void declare_options(Options& options, PhotonOptions& p) {
   options.section("Photons");
-  options.integer(
-      "photons", p.paths, "N",
-      "paths emitted from the lights; each stores a photon on every surface it reaches that is not purely "
-      "mirror or glass (both numbers are printed)",
-      {0, 0x1p40});
-  options.integer(
-      "caustic-photons", p.caustic_paths, "N",
-      "where there are mirrors or glass: paths aimed from the lamps at these, which find all light "
-      "that reaches surfaces by way of them alone; -1: as many as --photons; 0: none, such light "
-      "is what other paths find",
-      {-1, 0x1p40}, Recorded::unless_default);
-  options.number(
-      "minimum-share", p.minimum_share, "SHARE",
-      "least number of paths of a light, in parts of an equal share, so that small lamps are not starved; "
-      "0 is by power alone, 1 is equal shares",
-      {0, 1});
+  options.integer("photons", p.paths, "N",
+                  "number of paths emitted from the lights; each path stores a photon on every surface it "
+                  "reaches that is not purely mirror or glass (both numbers are printed); 0: an empty file",
+                  {0, 0x1p40});
+  options.integer("caustic-photons", p.caustic_paths, "N",
+                  "number of paths aimed from the lamps at mirrors and glass, in scenes that have them; "
+                  "these paths find all light that reaches surfaces by way of mirrors and glass alone. -1: "
+                  "as many as --photons; 0: none, and --photons find this light by chance",
+                  {-1, 0x1p40}, Recorded::unless_default);
+  options.number("minimum-share", p.minimum_share, "SHARE",
+                 "least number of paths of a light, as a share of the equal share, so that small lamps are "
+                 "not starved; 0: paths by power alone; 1: equal shares",
+                 {0, 1});
   declare_isa(options, p.isa);
   options.text("shard", p.shard, "I/N",
                "trace only part I of N of the paths; phos-merge joins the parts exactly", Recorded::no);

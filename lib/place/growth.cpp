@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "place/events.h"
 #include "radiance/cache.h"
+#include "scene/rays.h"
 
 namespace phos::inline place {
 namespace {

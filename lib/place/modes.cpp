@@ -30,27 +30,26 @@ void resolve(PlacementOptions& p, const Scene& scene, const PlacementSource& sou
   }
   const bool at_points = p.place == Place::given || p.place == Place::every;
   if (p.place == Place::photons && !source.photons)
-    refuse("--place", "photons needs photons among the inputs; give the output of phos-photons too");
+    refuse("--place", "photons needs a photon map among the inputs; give the output of phos-photons too");
   if (at_points && !source.points_given)
     refuse("--place", "given and every need points; give them with --at FILE");
   if (!at_points && source.points_given)
     refuse("--at", "is not read by this --place; use --place given or every, or leave --at out");
-  if (!p.part.empty() && p.place != Place::every) refuse("--part", "goes with --place every alone; add that");
+  if (!p.part.empty() && p.place != Place::every) refuse("--part", "needs --place every; add that option");
   parse_share("--part", p.part);
   if (p.error && p.place != Place::surface)
-    refuse("--placement-error", "goes with --place surface alone; add that");
+    refuse("--placement-error", "needs --place surface; add that option");
   if (p.place != Place::view) {
     const bool least = p.min_radius_pixels.value_or(0) > 0;
     if (least || p.max_radius_pixels > 0)
-      refuse(
-          least ? "--min-radius-pixels" : "--max-radius-pixels",
-          "goes with --place view alone, which knows pixels; give metres by --min-radius and --max-radius");
+      refuse(least ? "--min-radius-pixels" : "--max-radius-pixels",
+             "needs --place view, which has pixels; give metres by --min-radius and --max-radius instead");
     return;
   }
   const double most = p.max_radius_pixels > 0 ? p.max_radius_pixels : std::numeric_limits<double>::infinity();
   if (!p.min_radius_pixels) p.min_radius_pixels = std::min(1 / accuracy, most);
   if (*p.min_radius_pixels > most)
-    refuse("--min-radius-pixels", "is more than --max-radius-pixels; give a smaller one");
+    refuse("--min-radius-pixels", "is above --max-radius-pixels; give a smaller value");
   resolve_size(find_camera(scene, p.camera), kPictureSide, p.width, p.height);
 }
 

@@ -42,7 +42,7 @@ class RunEntry {
   }
   [[noreturn]] void refuse(const char* name) const {
     throw Error(ExitCode::bad_input, file_.path(),
-                text("its header does not rightly say \"", name, "\" of the whole run; make the part again"));
+                text("its header has no valid \"", name, "\" of the whole run; make the part again"));
   }
 
  private:
@@ -176,7 +176,7 @@ MergedParts read_parts(const std::vector<std::string>& paths) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (least_m[i] > columns.radius_m(i))
         throw Error(ExitCode::bad_input, file.path(),
-                    text("record ", i, " has a least radius beyond its own; make the part again"));
+                    text("record ", i, " has a least radius above its radius; make the part again"));
       rules.add({columns[i], least_m[i]}, [](std::size_t, float) {});
     }
     p.counters.merge(RunEntry(file).counters("counters"));

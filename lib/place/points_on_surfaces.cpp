@@ -60,13 +60,13 @@ std::vector<SurfaceSample> require_surfaces(Tool& tool, const RayScene& rays,
   tool.stat("points_in_air", found.in_air);
   if (found.in_air == 0) return std::move(found.points);
   const std::string why =
-      text("no surface below within ", shortest(within_m), " m, which ", records, " need");
+      text("no surface lies within ", shortest(within_m), " m below, as ", records, " need");
   if (found.points.empty())
     throw Error(ExitCode::bad_input, path,
-                text("none of its ", points.size(), " points has a record: there is ", why,
-                     "; put them on surfaces, or ", instead));
-  tool.warn(text(path, ": ", found.in_air, " of ", points.size(), " points are left out: there is ", why,
-                 "; put them on surfaces, or ", instead));
+                text("none of its ", points.size(), " points has a record: ", why,
+                     "; put the points on surfaces, or ", instead));
+  tool.warn(text(path, ": ", found.in_air, " of ", points.size(), " points are left out: ", why,
+                 "; put the points on surfaces, or ", instead));
   return std::move(found.points);
 }
 

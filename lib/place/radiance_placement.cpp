@@ -22,15 +22,14 @@ void declare_options(Options& options, RadianceOptions& r) {
   options.section("Records");
   options.choice<Estimate>(
       "estimate", r.records.estimate, kEstimates,
-      "how radiance is estimated: rays over the hemisphere lit where they land, or photons over their convex "
-      "hull",
+      "method: gather: rays over the hemisphere, lit where they land; hull: photons over their convex hull",
       Adopted::estimate);
   declare_reach_options(options, r.records);
   options.choice<RadianceGradient>(
       "gradients", r.gradients, kGradients,
-      "how the light's change with the place is found: from each ray, with the "
-      "edges of what hides it (hybrid; photons show none) or without (analytic), "
-      "or by moved rays",
+      "method for the change of light about a record: hybrid: from each ray, with the edges of occluders "
+      "(with photons, without these edges); analytic: from each ray, without edges; numeric: by moved rays; "
+      "none: no change",
       Adopted::estimate);
   options.section("Estimates from photons");
   declare_photon_options(options, r.records);
@@ -66,8 +65,8 @@ void require_same_orders(const RadianceCache& earlier, const GlossTables& tables
     std::string all;
     for (const int order : wanted) all += text(all.empty() ? "" : ", ", order);
     throw Error(ExitCode::mismatch, path,
-                text("holds records of order ", r.order(), ", and materials want ",
-                     all.empty() ? "none" : "those of order " + all,
+                text("holds records of order ", r.order(), ", and materials need ",
+                     all.empty() ? "none" : "order " + all,
                      "; give the .brdf file and --gloss that it was made with, or make a new file without "
                      "--add-to"));
   }

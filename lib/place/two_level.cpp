@@ -1,11 +1,21 @@
 #include "place/two_level.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
+#include "estimate/caustic_light.h"
 #include "estimate/density.h"
+#include "estimate/gather_source.h"
+#include "estimate/record_options.h"
+#include "photon/caustic_map.h"
+#include "photon/photon_map.h"
 #include "place/placement.h"
+#include "radiance/gloss_cache.h"
+#include "record/far_records.h"
+#include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline place {
 namespace {
@@ -22,6 +32,16 @@ double area_m2(const IrradianceRecord& r) {
   const auto radius_m = static_cast<double>(r.radius_m);
   const double share = r.footprint ? static_cast<double>(r.footprint->share_of_disc()) : 1;
   return std::numbers::pi * radius_m * radius_m * share;
+}
+
+/// Of a record's variance at most so much is taken for common: where nothing was left, there were no photons.
+constexpr double kMostCommon = 0.999;
+
+/// Coarse records are of photons, however the fine ones are made (coarse_options()): no table of estimators
+/// is asked, which would choose by the options and wants lamps, of which this level knows none.
+std::unique_ptr<Estimator> of_photons(const PhotonMap& photons, const RayScene& rays,
+                                      const RecordOptions& coarse, std::uint64_t seed) {
+  return std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
 }
 
 /// Where rays land; null: records hold it.
@@ -56,18 +76,21 @@ RecordOptions coarse_options(const RecordOptions& fine) {
 EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, double accuracy) {
   struct OfRecord {
     double noise = 0, light = 0, error = 0;
+    double part = 0;  // of its variance, in common
+    double area = 0;
     double photon_lm() const { return noise / light; }
+    auto operator<=>(const OfRecord&) const = default;
   };
   std::vector<OfRecord> noisy;
-  double light_of_exact = 0, squares_of_exact = 0;
+  double light_of_exact = 0, squares_of_exact = 0, flux = 0;
   for (const IrradianceRecord& r : records) {
     const auto error = static_cast<double>(luminance(r.stderr_lx)),
                lux = static_cast<double>(luminance(r.irradiance));
     const double noise = accuracy * accuracy * area_m2(r) * error * error;
     if (noise > 0 && lux > 0)
-      noisy.push_back({noise, lux, error});
+      noisy.push_back({noise, lux, error, std::min(common_part(r.shared), kMostCommon), area_m2(r)});
     else
-      light_of_exact += lux, squares_of_exact += lux * lux;
+      light_of_exact += lux, squares_of_exact += lux * lux, flux += lux * area_m2(r);
   }
   if (noisy.empty()) return {};
   const auto middle = noisy.begin() + static_cast<std::ptrdiff_t>(noisy.size() / 2);
@@ -76,14 +99,18 @@ EquivalentPhotons equivalent_photons(std::span<const IrradianceRecord> records, 
   const double most_lm = kUsual * middle->photon_lm();
   // Sums run in one order everywhere: nth_element() leaves another in each library.
   std::sort(noisy.begin(), noisy.end(), [](const OfRecord& a, const OfRecord& b) {
-    return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a.light < b.light;
+    return a.photon_lm() != b.photon_lm() ? a.photon_lm() < b.photon_lm() : a < b;
   });
-  double noise = 0, light = light_of_exact, squares = squares_of_exact, errors = 0;
+  double noise = 0, light = light_of_exact, squares = squares_of_exact, errors = 0, alone = 0, common = 0;
   for (const OfRecord& r : noisy) {
     if (r.photon_lm() > most_lm) break;
     noise += r.noise, light += r.light, squares += r.light * r.light, errors += r.error * r.error;
+    alone += (1 - r.part) * r.noise;
+    flux += r.light * r.area, common += std::sqrt(r.part) * r.error * r.area;
   }
-  return {noise / light, squares / errors};
+  // As wide as zones are: what records have in common makes their photons seem fewer, not their zones wider.
+  const double share = alone / noise;
+  return {share * noise / light, squares / errors / share, common * common / (flux * flux)};
 }
 
 double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
@@ -97,8 +124,9 @@ double mean_irradiance_lx(std::span<const IrradianceRecord> records) {
 CoarseLevel::CoarseLevel(const RayScene& rays, const PhotonMap& photons, const RecordOptions& resolved,
                          std::uint64_t seed) {
   const RecordOptions coarse = coarse_options(resolved);
-  photons_ = std::make_unique<DensityEstimator>(photons, rays, coarse, seed);
+  photons_ = of_photons(photons, rays, coarse, seed);
   noise_ = photon_noise(photons, false);
+  tell_common_ = !photons.family.empty();
   zone_photons_ = 2 * static_cast<double>(coarse.min_photons);  // min_photons to 4 times as many
   if (resolved.gather_from == GatherFrom::photons) return;
   IrradianceCache cache;
@@ -116,12 +144,14 @@ CoarseLevel::CoarseLevel(const RayScene& rays, const IrradianceCache& earlier, c
   coarse.caustics_apart = earlier.caustics != nullptr;  // as of the records beside it
   if (earlier.quantity == Quantity::all) coarse.paths = Quantity::all;
   coarse.images_apart = true;
-  if (photons) photons_ = std::make_unique<DensityEstimator>(*photons, rays, coarse, seed);
+  if (photons) photons_ = of_photons(*photons, rays, coarse, seed);
   read(rays, earlier);
   caustics_ = caustic_light(rays, earlier.caustics);
   const EquivalentPhotons equivalent = equivalent_photons(earlier.records, earlier.accuracy);
   noise_.photon_lm = equivalent.photon_lm, zone_photons_ = equivalent.of_a_zone;
+  noise_.common = equivalent.common;
   if (photons) noise_.common = photon_noise(*photons, earlier.quantity == Quantity::all).common;
+  tell_common_ = photons ? !photons->family.empty() : equivalent.common > 0;
   holds_direct_ = earlier.quantity == Quantity::all;
   lacks_images_ = !holds_direct_;
 }
@@ -155,6 +185,7 @@ GatherSource CoarseLevel::source() const {
           .photon_lm = noise_.photon_lm,
           .zone_photons = zone_photons_,
           .common = noise_.common,
+          .tell_common = tell_common_,
           .usual_lx = usual_lx_};
 }
 std::size_t CoarseLevel::records() const { return tree_ ? tree_->size() : 0; }

@@ -2,26 +2,48 @@
 // gloss there.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 
-#include "estimate/gather.h"
-#include "estimate/record_options.h"
-#include "photon/photon_map.h"
 #include "photon/photon_noise.h"
-#include "radiance/gloss_cache.h"
-#include "record/irradiance_cache.h"
-#include "record/tree.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class RayScene;
+}
+namespace phos::inline photon {
+class PhotonMap;
+struct CausticPhotons;
+}  // namespace phos::inline photon
+namespace phos::inline record {
+class FarRecords;
+class RecordTree;
+struct IrradianceCache;
+struct IrradianceRecord;
+}  // namespace phos::inline record
+namespace phos::inline radiance {
+class GlossCache;
+}
+namespace phos::inline estimate {
+class CausticLight;
+class Estimator;
+struct GatherSource;
+struct RecordOptions;
+}  // namespace phos::inline estimate
 
 namespace phos::inline place {
 
 /// How coarse records are made from photons, where finer ones are made as `fine` says.
 RecordOptions coarse_options(const RecordOptions& fine);
-/// Photons whose map would have the noise of some records.
+/// Photons whose map would have the noise of some records. Of a record's variance, s^2 is what its photons
+/// tell one by one, and t^2 what it has in common with all others, beyond what zones share that overlap
+/// (kSharedByZones): that of paths (PhotonNoise).
 struct EquivalentPhotons {
-  double photon_lm =
-      0;  ///< luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach
+  /// Luminance of each, lm: sum of s^2 A / sum of E, A the area within a record's reach.
+  double photon_lm = 0;
   double of_a_zone = 0;  ///< sum of E^2 / sum of s^2
+  double common = 0;     ///< (sum of t A / sum of E A)^2, as GatherSource::common
 };
 /// Zero of records that are exact. Records of far noisier photons than usual do not count: with portals, they
 /// lie out of doors.
@@ -62,6 +84,7 @@ class CoarseLevel {
   std::unique_ptr<Estimator> photons_;
   std::unique_ptr<GlossCache> gloss_;
   std::unique_ptr<CausticLight> caustics_, gloss_caustics_;
+  bool tell_common_ = false;
   bool holds_direct_ = false, lacks_images_ = false;
   PhotonNoise noise_;
   double zone_photons_ = 0, usual_lx_ = 0;

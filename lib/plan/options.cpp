@@ -16,64 +16,67 @@ namespace phos::inline plan {
 void declare_options(Options& options, PlanOptions& p) {
   using Of = PlanOptions::Of;
   options.section("Goal");
-  options.text("error", p.error, "E", "error at most: 5% or 0.05");
-  options.number("seconds", p.seconds, "S", "time of the pipeline at most, without the pilot; 0: no bound",
+  options.text("error", p.error, "E", "largest error: 5% or 0.05");
+  options.number("seconds", p.seconds, "S", "largest time of the pipeline, without the pilot; 0: no bound",
                  kNotNegative);
   options.choice<Of>("quantity", p.quantity, {{"image", Of::image}, {"lux", Of::lux}, {"both", Of::both}},
-                     "what is wanted: a picture, lux at sensors, or both");
-  options.text("camera", p.camera, "NAME", "camera of the scene; the first one if not given");
-  options.integer("width", p.width, "PIXELS", "width; 0: from the height and the camera's aspect",
+                     "wanted result: a picture, lux at sensors, or both");
+  options.text("camera", p.camera, "NAME", "camera of the scene (default: the first one)");
+  options.integer("width", p.width, "PIXELS",
+                  "width of the picture; 0: from the height and the camera's aspect",
                   {0, kMostPictureSide.as<double>()});
-  options.integer("height", p.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
+  options.integer("height", p.height, "PIXELS",
+                  "height of the picture; 0: from the width; both 0: 1000 on the longer side",
                   {0, kMostPictureSide.as<double>()});
   options.section("Sensors");
   options.file("sensors", p.points,
-               "CSV with the columns x,y,z,nx,ny,nz and perhaps id, or six numbers a line");
-  options.number("grid", p.grid.spacing_m, "METRES", "or a grid of this spacing, on a mesh or a workplane",
+               "CSV with the columns x,y,z,nx,ny,nz in metres, and id where wanted, or six numbers a line");
+  options.number("grid", p.grid.spacing_m, "METRES",
+                 "instead of --sensors: distance between the points of a grid on a mesh or a workplane",
                  kPositive);
-  options.text("mesh", p.grid.mesh, "NAME", "with --grid: the node whose surfaces carry it");
+  options.text("mesh", p.grid.mesh, "NAME", "with --grid: node whose surfaces carry the grid");
   options.number("workplane", p.grid.height_m, "METRES",
-                 "with --grid: height of a horizontal plane over the floor", kNotNegative);
-  options.number("margin", p.grid.margin_m, "METRES", "with --grid: least distance to walls and edges",
-                 kNotNegative);
+                 "with --grid: height of a workplane that carries the grid, above the floor", kNotNegative);
+  options.number("margin", p.grid.margin_m, "METRES",
+                 "with --grid: least distance of the points to walls and edges", kNotNegative);
   options.choice<Axis>("up", p.grid.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
-                       "which way is up, for a workplane");
+                       "axis that points up, for a workplane; y in glTF");
   options.section("Plan");
   options.choice<PlanDirect>(
       "direct", p.direct,
       {{"auto", PlanDirect::automatic}, {"cached", PlanDirect::cached}, {"traced", PlanDirect::traced}},
-      text("light straight from the lamps: in the records, or by shadow rays; auto tries both for a picture "
-           "with ",
+      text("light straight from the lamps: cached: in the records; traced: by shadow rays; auto: tries both "
+           "for a picture with ",
            calibration::kManyLamps,
-           " lamps of an extent or more (the environment is one), takes "
-           "twice the pilot, and keeps the records where they promise a third of the time or of the error"));
+           " lamps of an extent or more (the environment is one), takes twice the pilot, and keeps the "
+           "records where they promise a third of the time or of the error"));
   options.choice<PlanRecords>(
       "estimate", p.records,
       {{"auto", PlanRecords::automatic}, {"gather", PlanRecords::gather}, {"hull", PlanRecords::hull}},
-      "records by rays that read a coarse cache, or of the photons about them; auto: of photons where lamps "
-      "light surfaces by mirrors, curved glass or sharp gloss so that rays would not find it");
-  options.number(
-      "pilot-seconds", p.pilot_s, "S",
-      "time for the pilot, about: half of it goes into references, and what they cannot tell is not known. "
-      "Without --run, a pilot that takes more than three times as long, and 20 s, is given up, and the plan "
-      "has the settings that are usual for the error. 0: no pilot, those settings at once",
-      kNotNegative);
-  options.flag("sh", p.script, "print a shell script (this is usual)");
+      "method for the records: gather: rays that read a coarse cache; hull: the photons about a record; "
+      "auto: hull where lamps light surfaces by mirrors, curved glass or sharp gloss so that rays would miss "
+      "that light, else gather");
+  options.number("pilot-seconds", p.pilot_s, "S",
+                 "time of the pilot, about: half of this time goes into references, whose noise limits the "
+                 "errors that the pilot can measure. Without --run, a pilot that takes more than three times "
+                 "as long, and 20 s, is given up, and the plan has the settings that are usual for the "
+                 "error. 0: no pilot, and the usual settings at once",
+                 kNotNegative);
+  options.flag("sh", p.script, "print a shell script (default, unless --json is given)");
   options.flag("json", p.json, "print JSON");
-  options.file("output,o", p.output, "where the plan goes (else stdout); with --run, the folder of all files",
+  options.file("output,o", p.output,
+               "file of the plan (default: standard output); with --run, folder of all files",
                FileUse::written);
   options.section("Run");
-  options.flag(
-      "run", p.run,
-      "carry the plan out in the folder of -o, measure it, and correct it until the error is met or the "
-      "time is spent; exit code 1 if it is not met");
-  options.number(
-      "reference-seconds", p.reference_s, "S",
-      "with --run: the two references that it is measured by may take so long, and better ones, where "
-      "they cannot tell whether the error is met, three times as long; 0: as long as the pipeline, or "
-      "60 if that is more",
-      kNotNegative);
-  options.integer("rounds", p.rounds, "N", "with --run: times that the pipeline is run, at most", {1, 100});
+  options.flag("run", p.run,
+               "carry the plan out in the folder of -o, measure its error, and correct the settings until "
+               "the error is met or the time is spent; exit code 1 if the error is not met");
+  options.number("reference-seconds", p.reference_s, "S",
+                 "with --run: time of the two references that measure the error; where they cannot tell "
+                 "whether the error is met, better ones take three times as long; 0: the time of the "
+                 "pipeline, or 60 if that is more",
+                 kNotNegative);
+  options.integer("rounds", p.rounds, "N", "with --run: largest number of runs of the pipeline", {1, 100});
 }
 
 double read_error(const std::string& word) {
@@ -84,7 +87,7 @@ double read_error(const std::string& word) {
   if (percent) ++end, value /= 100;
   if (end == word.c_str() || *end != '\0' || !(std::isgreater(value, 0) && value <= 1))
     throw Error(ExitCode::usage, "--error",
-                "'" + word + "' is no error; give a share between 0 and 100 %: 5% or 0.05");
+                "\"" + word + "\" is not an error; give a share between 0 and 100 %, like 5% or 0.05");
   return value;
 }
 
@@ -93,7 +96,7 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   if (options.given("error")) goal.error = read_error(p.error);
   if (p.seconds > 0) goal.seconds = p.seconds;
   if (!goal.error && !goal.seconds)
-    throw Error(ExitCode::usage, "", "nothing is asked for; give --error 5% or --seconds 60");
+    throw Error(ExitCode::usage, "", "no goal is given; give --error 5% or --seconds 60");
   if (p.json && p.script) throw Error(ExitCode::usage, "--json", "and --sh exclude each other; give one");
   if (p.run && p.output.empty())
     throw Error(ExitCode::usage, "--run", "needs a folder for its files: -o folder");
@@ -102,11 +105,12 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
     throw Error(ExitCode::usage, "--run",
                 "writes plan.sh and plan.json into its folder; leave out --sh and --json");
   if (p.run && !(p.pilot_s > 0))
-    throw Error(ExitCode::usage, "--pilot-seconds",
-                "0 leaves nothing to correct a run by; leave out --run, or give some seconds");
+    throw Error(
+        ExitCode::usage, "--pilot-seconds",
+        "0 makes no pilot, by which --run corrects the settings; leave out --run, or give some seconds");
   for (const char* name : {"reference-seconds", "rounds"})
     if (!p.run && options.given(name))
-      throw Error(ExitCode::usage, text("--", name), "belongs to --run; leave it out");
+      throw Error(ExitCode::usage, text("--", name), "needs --run; give --run, or leave it out");
   return goal;
 }
 
@@ -140,7 +144,7 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
                   "belongs to a picture; leave it out, or give --quantity both");
   for (const char* name : {"sensors", "grid", "mesh", "workplane", "margin", "up"})
     if (!task.lux && options.given(name))
-      throw Error(ExitCode::usage, text("--", name), "sets out sensors; give --quantity lux or both too");
+      throw Error(ExitCode::usage, text("--", name), "places sensors; give --quantity lux or both too");
   task.camera = p.camera, task.width = p.width, task.height = p.height;
   if (!task.lux) return task;
   if (p.points.empty() && !grid.spacing_m)

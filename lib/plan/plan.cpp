@@ -215,9 +215,9 @@ Plan make_plan(const PlanTask& task, const Pilot& pilot, const PlanGoal& goal) {
           ExitCode::usage, "--error",
           text(percent(*goal.error), " is out of reach of photons and records here: the least is about ",
                percent(least.error()), " (", percent(least.error_low()), " to ", percent(least.error_high()),
-               "), after ", duration(least.seconds.value), "; ask for more",
+               "), after ", duration(least.seconds.value), "; give a larger error",
                pilot.doubts.empty() ? ", or use phos-reference --error"
-                                    : "; nor are the references to be trusted: " + pilot.doubts.front()));
+                                    : "; the references cannot be trusted either: " + pilot.doubts.front()));
     }
     plan.chosen = *found;
     if (wide)

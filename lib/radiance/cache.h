@@ -9,9 +9,7 @@
 
 #include "core/vector.h"
 #include "file/container.h"
-#include "radiance/brdf/table.h"
 #include "record/irradiance_cache.h"
-#include "scene/rays.h"
 
 namespace phos::inline radiance {
 

@@ -2,6 +2,7 @@
 
 #include "hsh/basis.h"
 #include "radiance/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline radiance {
 namespace {

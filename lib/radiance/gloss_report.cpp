@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "core/text/quantity.h"
 
 namespace phos::inline radiance {
@@ -56,7 +57,7 @@ std::string gloss_text(const Json& report) {
 void add_gloss(Json& description, const Json& report) {
   std::string recorded, traced;
   for (const Json& choice : report.as_array()) {
-    const auto add = [&](std::string& names) { names += (names.empty() ? "" : ", ") + title(choice); };
+    const auto add = [&](std::string& names) { append_item(names, title(choice)); };
     if (choice.find("order")->as_integer() > 0) add(recorded);
     if (choice.find("traced_share")->as_number() > 0) add(traced);
   }

@@ -6,10 +6,12 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "core/text/quantity.h"
 #include "radiance/brdf/projection.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/models.h"
+#include "scene/rays.h"
 
 namespace phos::inline radiance {
 namespace {
@@ -63,8 +65,9 @@ GlossChoice choice_of(const BrdfTable& table) {
 void declare_options(Options& options, GlossBy& by) {
   options.choice<GlossBy>(
       "gloss", by, {{"traced", GlossBy::traced}, {"cached", GlossBy::cached}, {"auto", GlossBy::automatic}},
-      "what glossy surfaces reflect: by rays; from radiance records, even where that blurs; or from records "
-      "wherever harmonics hold a lobe, by rays elsewhere");
+      "method for reflections on glossy surfaces: traced: rays; cached: radiance records, even where they "
+      "blur the reflection; auto: radiance records wherever harmonics hold the material's lobe, rays "
+      "elsewhere");
 }
 
 GlossTables::GlossTables(const Scene& scene, std::span<const BrdfTable> tables, GlossBy by,

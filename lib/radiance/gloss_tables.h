@@ -7,11 +7,17 @@
 #include <vector>
 
 #include "core/counters.h"
-#include "core/options.h"
 #include "hsh/rotation.h"
 #include "radiance/brdf/table.h"
-#include "scene/rays.h"
-#include "scene/scene.h"
+
+namespace phos {
+class Options;
+}
+
+namespace phos::inline scene {
+struct Scene;
+struct SurfacePoint;
+}  // namespace phos::inline scene
 
 namespace phos::inline radiance {
 

@@ -8,6 +8,7 @@
 #include "radiance/cache.h"
 #include "radiance/lobe_dot.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline radiance {
 namespace {

@@ -9,7 +9,10 @@
 #include "core/vector.h"
 #include "radiance/cache.h"
 #include "record/tree.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class RayScene;
+}
 
 namespace phos::inline radiance {
 

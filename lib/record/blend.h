@@ -19,6 +19,12 @@ inline constexpr double kCarriedNoise = 1.5;
 /// own light exactly, and for records from photons, whose gradients have noise too that averages out.
 inline constexpr double kCommonDisagreement = 0.28, kCommonOfPhotons = 0.11;
 
+/// The part of a record's variance that all records have in common, by its shared part: of s^2 (1 + x), paths
+/// of photons (PhotonNoise) make x s^2, and zones that overlap share kSharedByZones s^2 besides.
+inline double common_part(float shared) {
+  return std::max(0.0, 1 - static_cast<double>(1 - shared) / static_cast<double>(1 - kSharedByZones));
+}
+
 /// Sums over the records valid at a place, of weight w, besides the sums of w and of w E.
 struct BlendSums {
   float weight2 = 0;  ///< of w^2

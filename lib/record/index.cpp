@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 
 namespace phos::inline record {
 

@@ -5,9 +5,11 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "file/shards.h"
+#include "photon/caustic_map.h"
 #include "record/check.h"
 #include "record/footprint_columns.h"
 #include "record/index.h"
+#include "scene/rays.h"
 #include "scene/receiver.h"
 
 namespace phos::inline record {
@@ -93,11 +95,11 @@ void require_form(FileForm form, const Container& file) {
                      " of a run; join all its parts first: phos-merge PART... -o ALL.irradiance"));
   if (found == FileForm::film)
     throw Error(ExitCode::bad_input, file.path(),
-                "is of a film, with records for different frames; give a cache of one scene "
-                "(phos-irradiance, phos-radiance), or use the film where it is read, as by phos-splat");
+                "is a film, with records for different frames; give a cache of one frame (phos-irradiance, "
+                "phos-radiance), or give the film to a program that reads films, such as phos-splat");
   throw Error(ExitCode::bad_input, file.path(),
-              form == FileForm::part ? "is no part of a run; give files made with --part k/n"
-                                     : "is of no film; give the output of phos-temporal");
+              form == FileForm::part ? "is not a part of a run; give files made with --part k/n"
+                                     : "is not a film; give the output of phos-temporal");
 }
 
 namespace {
@@ -112,7 +114,7 @@ void require_same_caustics(bool apart, bool other_apart, const std::string& wher
   throw Error(ExitCode::mismatch, where,
               text("holds light of mirrors and glass ", apart ? "as photons" : "in its records",
                    ", and another cache ", other_apart ? "as photons" : "in its records",
-                   "; make all of them anew with this version, all from photons"));
+                   "; make all caches anew with this version of phos, all from photons"));
 }
 
 void add_caustics(const std::shared_ptr<const CausticPhotons>& caustics, TensorWriter& file,
@@ -132,9 +134,8 @@ std::shared_ptr<const CausticPhotons> caustics_of(const Container& file) {
     const bool sound =
         one && one->is_array() && one->as_array().size() == 3 && one->as_array()[c].is_number();
     if (!sound)
-      throw Error(
-          ExitCode::bad_input, file.path(),
-          text("its header does not rightly say \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
+      throw Error(ExitCode::bad_input, file.path(),
+                  text("its header has no valid \"", kPhoton, "\" of \"", kCausticLight, "\"; make it anew"));
     photons->photon_lm[static_cast<int>(c)] = static_cast<float>(one->as_array()[c].as_number());
   }
   return photons;

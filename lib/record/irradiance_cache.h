@@ -10,12 +10,17 @@
 
 #include "core/vector.h"
 #include "file/kinds/tensor_io.h"
-#include "photon/caustic_map.h"
 #include "record/blend.h"
 #include "record/footprint.h"
 #include "record/header.h"
 #include "record/weight.h"
-#include "scene/rays.h"
+
+namespace phos::inline photon {
+struct CausticPhotons;
+}
+namespace phos::inline scene {
+class RayScene;
+}
 
 namespace phos::inline record {
 

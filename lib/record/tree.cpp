@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "record/index.h"
 #include "record/irradiance_cache.h"
+#include "scene/rays.h"
 
 namespace phos::inline record {
 namespace {

@@ -8,7 +8,10 @@
 
 #include "core/vector.h"
 #include "record/irradiance_cache.h"
-#include "scene/rays.h"
+
+namespace phos::inline scene {
+class RayScene;
+}
 
 namespace phos::inline record {
 

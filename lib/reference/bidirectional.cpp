@@ -9,6 +9,7 @@
 #include "reference/roulette.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
+#include "scene/material/total_reflections.h"
 
 namespace phos::inline reference {
 namespace {
@@ -69,6 +70,7 @@ struct BidirectionalTracer::Walk {
   Rgb glossy{0};            // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int32_t events = 0;  // scatterings and panes passed: numbers the random draws
+  TotalReflections total_reflections;
 };
 
 /// Where it has come to: a surface, or the sensor.
@@ -336,9 +338,9 @@ BidirectionalTracer::Next BidirectionalTracer::scatter(const Vertex& at, Walk& w
   walk.ray = {at.point->leave(next.direction), next.direction, 0, kInfinity};
   walk.from = at.point->position;
   ++walk.scatterings;
-  return survives(walk.scatterings, max_component(walk.throughput) / walk.start, random, walk.throughput)
-             ? Next::ray
-             : Next::none;
+  const float in_glass = walk.total_reflections.survival(at.bsdf->total_reflection(at.wo));
+  const float share = std::min(max_component(walk.throughput) / walk.start, in_glass);
+  return survives(walk.scatterings, share, random, walk.throughput) ? Next::ray : Next::none;
 }
 
 void BidirectionalTracer::follow(Walk& walk, const LightPass& pass, std::size_t path, RandomStream& random,

@@ -7,6 +7,7 @@
 #include "reference/roulette.h"
 #include "scene/material/bsdf.h"
 #include "scene/material/passage.h"
+#include "scene/material/total_reflections.h"
 #include "scene/mirror/images.h"
 #include "scene/sky/environment.h"
 
@@ -50,6 +51,7 @@ struct EyePathTracer::Walk {
   Rgb glossy{0};          // share of the path's light that the visible surface's gloss reflects
   std::int64_t scatterings = 0;
   std::int64_t events = 0;  // scatterings and panes passed: numbers the random draws
+  TotalReflections total_reflections;
 };
 
 EyePathTracer::EyePathTracer(const RayScene& rays, const Luminaires& luminaires, const PathOptions& options)
@@ -228,7 +230,10 @@ EyePathTracer::Next EyePathTracer::scatter(const SurfacePoint& point, const Bsdf
   walk.density = next.specular ? 0 : next.density;
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
   ++walk.scatterings;
-  if (!survives(walk.scatterings, max_component(walk.throughput), random, walk.throughput)) return Next::none;
+  const float in_glass = walk.total_reflections.survival(bsdf.total_reflection(wo));
+  if (!survives(walk.scatterings, std::min(max_component(walk.throughput), in_glass), random,
+                walk.throughput))
+    return Next::none;
   return positive(walk.throughput) && walk.events < kMostEvents.most ? Next::ray : Next::none;
 }
 
@@ -278,6 +283,13 @@ Rgb EyePathTracer::irradiance(const SurfacePoint& sensor, RandomStream& random) 
   PathSample sum;
   follow(walk, sum, random);
   return lux + kPi * sum.total();  // cos / density = pi
+}
+
+Rgb EyePathTracer::direct(const SurfacePoint& point, const std::function<Rgb(const Vec3&)>& f_cos,
+                          RandomStream& random) const {
+  // No path of its own samples the direction: shadow rays weigh whole.
+  const auto scatter = [&](const Vec3& wi, float& /*density*/) { return f_cos(wi); };
+  return light_at(point, sample_every_light(0), scatter, random);
 }
 
 }  // namespace phos::inline reference

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/random.h"
@@ -46,6 +47,11 @@ class EyePathTracer {
   /// Irradiance on the side of sensor.geometric_normal, lx (the normal and error_m alone are used, no
   /// material).
   Rgb irradiance(const SurfacePoint& sensor, RandomStream& random) const;
+
+  /// Light straight from lamps (panes and images in flat mirrors included) by shadow rays alone, without
+  /// multiple importance sampling: the integral of luminance times `f_cos`(direction towards it).
+  Rgb direct(const SurfacePoint& point, const std::function<Rgb(const Vec3&)>& f_cos,
+             RandomStream& random) const;
 
  private:
   struct Walk;

@@ -6,8 +6,10 @@
 #include "core/parallel.h"
 #include "reference/limits.h"
 #include "reference/roulette.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
 #include "scene/material/sharp_materials.h"
+#include "scene/material/total_reflections.h"
 
 namespace phos::inline reference {
 
@@ -23,6 +25,7 @@ struct LightTracer::Walk {
   std::int32_t events = 0;             // scatterings and panes passed
   bool mirror = false, sharp = false;  // how it was scattered there
   bool straight = false, ends = false;
+  TotalReflections total_reflections;
   // At the surface that was met.
   SubPathEnd end;
   float landed_m = 0;  // along the edge
@@ -97,8 +100,9 @@ bool LightTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Walk& wal
   const double back = next.specular ? 1 : static_cast<double>(bsdf.density(next.direction, wo));
   walk.behind = walk.end.next_before(1, back, next.specular);
   walk.ray = {point.leave(next.direction), next.direction, 0, kInfinity};
-  return survives(walk.scatterings, max_component(walk.flux) / max_component(walk.lamp.flux_lm), random,
-                  walk.flux);
+  const float share = max_component(walk.flux) / max_component(walk.lamp.flux_lm);
+  const float in_glass = walk.total_reflections.survival(bsdf.total_reflection(wo));
+  return survives(walk.scatterings, std::min(share, in_glass), random, walk.flux);
 }
 
 void LightTracer::trace(RandomStream& random, double eta, LightPaths& paths) const {
@@ -113,7 +117,9 @@ void LightTracer::trace(RandomStream& random, double eta, LightPaths& paths) con
       float before_m = 0;
       do {
         const bool met = way.next(point);
-        if (walk.sharp) {
+        // No sensor is in solid glass.
+        const bool in_glass = met && !point.front && is_solid_glass(rays_->scene().material[point.material]);
+        if (walk.sharp && !in_glass) {
           SharpSegment s{walk.ray.origin + before_m * walk.ray.direction,
                          walk.ray.direction,
                          met ? point.distance_m - before_m : kInfinity,

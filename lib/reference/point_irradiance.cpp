@@ -34,12 +34,12 @@ float rounding_error_m(const Scene& scene, const Vec3& p) {
   return 32 * std::numeric_limits<float>::epsilon() * size;
 }
 
-Partial sample_range(const EyePathTracer& tracer, const SurfacePoint& sensor, const PointOptions& options,
-                     std::uint64_t begin, std::uint64_t end) {
+Partial sample_range(const IrradianceSample& sample, const PointOptions& options, std::uint64_t begin,
+                     std::uint64_t end) {
   Partial part;
   for (std::uint64_t s = begin; s < end; ++s) {
     RandomStream random(options.seed, Stage::reference, (options.item << 32) | s);
-    const Rgb lux = tracer.irradiance(sensor, random);
+    const Rgb lux = sample(random);
     if (!is_finite(lux)) {
       ++part.rejected;
       continue;
@@ -60,17 +60,14 @@ SurfacePoint sensor_at(const Scene& scene, const Vec3& p, const Vec3& n) {
   return sensor;
 }
 
-PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
-                                    const Vec3& n, const PointOptions& options) {
-  const EyePathTracer tracer(rays, luminaires, options.path);
-  const SurfacePoint sensor = sensor_at(rays.scene(), p, n);
+PointIrradiance estimate_irradiance(const IrradianceSample& sample, bool lit, const PointOptions& options) {
   const auto join = [](Partial& sum, const Partial& part) {
     sum.red.merge(part.red), sum.green.merge(part.green), sum.blue.merge(part.blue);
     sum.luminous.merge(part.luminous), sum.spread.merge(part.spread);
     sum.rejected += part.rejected;
   };
   Partial sum;
-  const auto settled = [&] { return luminaires.size() == 0 || trusted(sum.spread); };
+  const auto settled = [&] { return !lit || trusted(sum.spread); };
   std::int64_t done = 0;
   while (done < options.samples) {
     std::int64_t next = options.samples;
@@ -79,7 +76,7 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
     sum = parallel_reduce(
         static_cast<std::size_t>(next - done), kChunk, std::move(sum),
         [&](std::size_t begin, std::size_t end) {
-          return sample_range(tracer, sensor, options, start + begin, start + end);
+          return sample_range(sample, options, start + begin, start + end);
         },
         join);
     done = next;
@@ -96,6 +93,14 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
   result.rejected = sum.rejected;
   result.trusted = settled();
   return result;
+}
+
+PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
+                                    const Vec3& n, const PointOptions& options) {
+  const EyePathTracer tracer(rays, luminaires, options.path);
+  const SurfacePoint sensor = sensor_at(rays.scene(), p, n);
+  const auto sample = [&](RandomStream& random) { return tracer.irradiance(sensor, random); };
+  return estimate_irradiance(sample, luminaires.size() > 0, options);
 }
 
 PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,

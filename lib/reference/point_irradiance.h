@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,12 @@ PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& lumi
 PointIrradiance estimate_irradiance(const RayScene& rays, const Luminaires& luminaires, const Vec3& p,
                                     const Vec3& n, std::int64_t samples, std::int64_t bounces = -1,
                                     std::uint64_t seed = 0);
+
+/// One sample of irradiance, lx.
+using IrradianceSample = std::function<Rgb(RandomStream&)>;
+/// The mean of samples of any kind, of which `options` tells number, error, seed and item. `lit`: is there a
+/// lamp, so that samples without light are not to be trusted?
+PointIrradiance estimate_irradiance(const IrradianceSample& sample, bool lit, const PointOptions& options);
 
 /// A sensor: where it is, and which way it faces (unit).
 struct SensorPoint {

@@ -9,6 +9,7 @@
 #include "reference/camera_view.h"
 #include "reference/central_moments.h"
 #include "reference/events.h"
+#include "reference/map/map_light.h"
 #include "reference/moments.h"
 #include "reference/passes.h"
 #include "reference/render_options.h"
@@ -40,6 +41,8 @@ struct Channels {
     }
   }
 };
+
+Rgb mean(const std::array<double, 3>& sum, double n) { return {sum[0] / n, sum[1] / n, sum[2] / n}; }
 
 /// What a pixel's samples add up to.
 struct Pixel {
@@ -81,8 +84,9 @@ struct BothEnds {
 class Renderer {
  public:
   Renderer(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
-           const ReferenceOptions& options)
+           const ReferenceOptions& options, const MapLight* map)
       : rays_(rays),
+        map_(map),
         tracer_(rays, luminaires, options.path),
         camera_(camera),
         options_(options),
@@ -105,11 +109,13 @@ class Renderer {
   void take_both_ends();
   std::vector<PathSample> splats(const LightPass& light) const;
   std::uint64_t sample_both_ends(std::size_t pixel, const LightPass& light, const PathSample& splat);
+  std::uint64_t sample_map(std::size_t pixel);
   bool sample_illuminance(const Ray& ray, std::uint64_t item, float& lux) const;
   void add_light(Image& image) const;
   void add_surfaces(Image& image) const;
 
   const RayScene& rays_;
+  const MapLight* map_;
   EyePathTracer tracer_;
   const Camera& camera_;
   const ReferenceOptions& options_;
@@ -166,6 +172,7 @@ std::uint64_t Renderer::add(std::size_t pixel, const PathSample& light, const Rg
 
 /// The pixel's next. Returns how many samples were not finite (0 or 1).
 std::uint64_t Renderer::sample(std::size_t pixel) {
+  if (map_) return sample_map(pixel);
   RandomStream random(0, Stage::reference, 0);
   std::uint64_t item = 0;
   const Ray eye = next_ray(pixel, random, item);
@@ -173,6 +180,21 @@ std::uint64_t Renderer::sample(std::size_t pixel) {
   float lux = 0;
   if (options_.illuminance && !sample_illuminance(eye, item, lux)) return 1;
   return add(pixel, light, Rgb(0), lux, 0);
+}
+
+/// The same by a method that reads a photon map.
+std::uint64_t Renderer::sample_map(std::size_t pixel) {
+  RandomStream random(0, Stage::reference, 0);
+  std::uint64_t item = 0;
+  const Ray eye = next_ray(pixel, random, item);
+  const MapSample light = map_->luminance(eye, random);
+  SurfacePoint point;
+  DiscIrradiance lux;
+  if (options_.illuminance && trace(rays_, eye, point)) {
+    RandomStream own(options_.seed, Stage::reference, item | kIlluminanceItem);
+    lux = map_->irradiance(point, own);
+  }
+  return add(pixel, light.sum, light.noise, luminance(lux.irradiance_lx), luminance(lux.noise_lx));
 }
 
 /// What light paths bring to the camera themselves, for each pixel.
@@ -271,13 +293,17 @@ void Renderer::pass(std::int64_t more, bool shared_out) {
 }
 
 double Renderer::error() const {
-  double squares = 0, mean = 0;
+  double squares = 0, light = 0;
   for (const Pixel& p : pixels_) {
     squares += p.scattered.standard_error() * p.scattered.standard_error();
-    mean += p.scattered.mean();
+    light += p.scattered.mean();
+    if (!map_ || p.count == 0) continue;
+    // Samples of a pixel share the noise of its photons, in all channels alike.
+    const double noise = static_cast<double>(luminance(mean(p.bias.sum, p.count)));
+    squares += noise * noise;
   }
   const auto n = static_cast<double>(pixels_.size());
-  return mean > 0 ? std::sqrt(squares / n) / (mean / n) : 0;
+  return light > 0 ? std::sqrt(squares / n) / (light / n) : 0;
 }
 
 bool Renderer::trusted() const {
@@ -287,8 +313,6 @@ bool Renderer::trusted() const {
     squares += p.spread.squares(), fourths += p.spread.fourths(), any |= p.spread.any();
   return any && !(fourths > kFewBright * squares * squares);
 }
-
-Rgb mean(const std::array<double, 3>& sum, double n) { return {sum[0] / n, sum[1] / n, sum[2] / n}; }
 
 Rgb standard_error(const Channels& c, double n) {
   Rgb error(0);
@@ -376,8 +400,8 @@ double reference_bytes(const ReferenceOptions& options) {
 }
 
 ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
-                                  const ReferenceOptions& options) {
-  Renderer renderer(rays, luminaires, camera, options);
+                                  const ReferenceOptions& options, const MapLight* map) {
+  Renderer renderer(rays, luminaires, camera, options, map);
   ReferencePicture result;
   while (result.samples < options.samples) {
     std::int64_t next = options.samples;

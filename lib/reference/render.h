@@ -1,4 +1,4 @@
-// A picture by path tracing, with the standard error of every pixel.
+// A picture by path tracing, or from a photon map, with the standard error of every pixel.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +38,11 @@ struct ReferencePicture {
   Counters counters;  ///< "non-finite sample"
 };
 
-/// Box filter of one pixel; width and height above 0. Same bytes for any number of threads. Throws
-/// Error(numerical) if more than one sample in a million is not finite (such samples are left out).
+/// Box filter of one pixel; width and height above 0. `map`: the light of a method that reads a photon map,
+/// null for the others; the noise of its photons is part of the standard errors. Same bytes for any number of
+/// threads. Throws Error(numerical) if more than one sample in a million is not finite (such samples are left
+/// out).
 ReferencePicture render_reference(const RayScene& rays, const Luminaires& luminaires, const Camera& camera,
-                                  const ReferenceOptions& options);
+                                  const ReferenceOptions& options, const MapLight* map = nullptr);
 
 }  // namespace phos::inline reference

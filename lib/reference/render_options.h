@@ -7,6 +7,7 @@
 
 #include "core/options.h"
 #include "reference/eye_path_tracer.h"
+#include "reference/map/map_options.h"
 #include "reference/method.h"
 #include "scene/scene.h"
 
@@ -23,6 +24,7 @@ struct ReferenceOptions {
   std::uint64_t seed = 0;
   ReferenceMethod method = ReferenceMethod::path;
   PathOptions path;
+  MapOptions map;
 };
 
 /// The options of the command line, but the seed.

@@ -4,9 +4,12 @@
 #include <array>
 
 #include "core/error.h"
+#include "core/origin.h"
 #include "core/random.h"
 #include "core/sampling.h"
+#include "scene/material/models.h"
 #include "scene/material/passage.h"
+#include "scene/receiver.h"
 
 namespace phos::inline scene {
 namespace {
@@ -23,6 +26,13 @@ std::array<Vec3, 8> turned_corners() {
     d[i] = glm::normalize((i & 1 ? 1.f : -1.f) * x + (i & 2 ? 1.f : -1.f) * y + (i & 4 ? 1.f : -1.f) * z);
   return d;
 }
+
+const std::array<Vec3, 8>& eight_directions() {
+  static const std::array<Vec3, 8> kDirections = turned_corners();
+  return kDirections;
+}
+
+Vec3 lifted(const SurfacePoint& p) { return p.position + p.error_m * p.geometric_normal; }
 
 /// Does light of a lamp without extent come straight to p?
 bool sees_lamp(const RayScene& rays, const Vec3& p, const Light& light) {
@@ -62,14 +72,16 @@ bool light_gets_to(const RayScene& rays, const Vec3& origin) {
 }  // namespace
 
 bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {
-  static const std::array<Vec3, 8> kDirections = turned_corners();
   const Scene& scene = rays.scene();
-  const Vec3 origin = receiver.position + receiver.error_m * receiver.geometric_normal;
+  const Vec3 origin = lifted(receiver);
   int hits = 0, behind = 0, one_sided = 0;
-  for (const Vec3& direction : kDirections) {
+  for (const Vec3& direction : eight_directions()) {
     Hit hit;
     const Ray ray{origin, direction};
     if (!rays.intersect(ray, hit)) continue;
+    // Thin panes have no inside.
+    if (const Material& m = scene.material_of(hit.triangle); !is_solid_glass(m) && passes_straight(scene, m))
+      continue;
     ++hits;
     if (!(glm::dot(geometric_normal(scene, hit.triangle), direction) > 0)) continue;
     ++behind;
@@ -79,10 +91,36 @@ bool inside_solid(const RayScene& rays, const SurfacePoint& receiver) {
   return 2 * one_sided > behind || !light_gets_to(rays, origin);
 }
 
+const Material* glass_about(const RayScene& rays, const SurfacePoint& receiver) {
+  const Scene& scene = rays.scene();
+  if (std::none_of(scene.material.begin(), scene.material.end(), is_solid_glass)) return nullptr;
+  const Vec3 origin = lifted(receiver);
+  const Material* glass = nullptr;
+  std::size_t inside = 0;
+  for (const Vec3& direction : eight_directions()) {
+    Hit hit;
+    if (!rays.intersect({origin, direction}, hit)) continue;
+    const Material& m = scene.material_of(hit.triangle);
+    if (!is_solid_glass(m) || !(glm::dot(geometric_normal(scene, hit.triangle), direction) > 0)) continue;
+    ++inside, glass = &m;
+  }
+  return 2 * inside > eight_directions().size() ? glass : nullptr;
+}
+
+void require_in_air(const RayScene& rays, const Vec3& p, const Vec3& n, const std::string& where) {
+  const Material* glass = glass_about(rays, receiver(rays.scene(), p, n));
+  if (!glass) return;
+  throw Error(ExitCode::bad_input, where,
+              text("the sensor at ", place_text(rays.scene().origin_m, p), " is inside of solid glass \"",
+                   glass->name, "\", where no light is measured: move it into the air"));
+}
+
 std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camera& camera) {
   if (!camera.perspective) return std::nullopt;
   SurfacePoint eye;
   eye.position = Vec3(camera.to_world[3]);
+  if (const Material* glass = glass_about(rays, eye))
+    return text("camera \"", camera.name, "\" stands inside of solid glass \"", glass->name, "\": move it");
   if (!inside_solid(rays, eye)) return std::nullopt;
   return text("camera \"", camera.name,
               "\" stands inside a solid, or behind walls that show their backs: move it");

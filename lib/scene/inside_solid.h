@@ -14,6 +14,12 @@ namespace phos::inline scene {
 /// inside of a solid if light cannot get there either, neither from a lamp nor from outside, over 16
 /// surfaces.
 bool inside_solid(const RayScene& rays, const SurfacePoint& receiver);
+/// The solid glass that a point is in: most of the eight rays come to its inside. Null: none.
+const Material* glass_about(const RayScene& rays, const SurfacePoint& receiver);
+/// Throws Error(bad_input, `where`) that names glass and place where a sensor, unit normal `n`, is in solid
+/// glass. Luminance is n2 times as large there as in air, and light that a lamp focuses there lands on no
+/// surface: no estimator tells of it.
+void require_in_air(const RayScene& rays, const Vec3& p, const Vec3& n, const std::string& where);
 /// A line for people where a perspective camera stands in such a place.
 std::optional<std::string> camera_inside_solid(const RayScene& rays, const Camera& camera);
 

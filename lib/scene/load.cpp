@@ -36,7 +36,7 @@ std::string scene_bytes(const std::string& path) {
 void aim(Scene& scene, const std::string& portals) {
   if (!scene.environment)
     throw Error(ExitCode::usage, "--portals",
-                "aims light of a sky, and there is none; give --sky, --sun or --environment");
+                "aims the light of a sky, and the scene has no sky; give --sky, --sun or --environment");
   const RayScene rays(scene);
   scene.portal = find_portals(rays, portals);
   scene.blind = find_blinds(rays);
@@ -51,19 +51,20 @@ void aim(Scene& scene, const std::string& portals) {
 void declare_options(Options& options, SceneOptions& scene) {
   options.section("Scene");
   options.number("time", scene.time_s, "SECONDS",
-                 "when animations are evaluated (default: when those of the caches are, or 0)", {},
+                 "time of the animations (default: the time of the caches that are read, else 0)", {},
                  Adopted::site);
-  options.number("frame", scene.frame, "N", "the same as a frame number, at the frame rate of the scene", {},
-                 Adopted::site);
+  options.number(
+      "frame", scene.frame, "N",
+      "the time as a frame number, counted from 0, at the frame rate of the scene; instead of --time", {},
+      Adopted::site);
   declare_light_options(options, scene);
 }
 
 void declare_light_options(Options& options, SceneOptions& scene) {
   declare_options(options, scene.luminaires);
-  options.file(
-      "environment", scene.environment,
-      "light from all around: an equirectangular map, twice as wide as high, +Y up, its middle towards "
-      "+Z, Radiance .hdr (x 179 lm/W) or OpenEXR (cd/m2); give it to every stage");
+  options.file("environment", scene.environment,
+               "light from all directions: an equirectangular map, twice as wide as high, with +Y up and +Z "
+               "in the middle; Radiance .hdr (times 179 lm/W) or OpenEXR (cd/m2). Give it to every stage");
   options.number("environment-rotation", scene.environment_rotation_deg, "DEGREES",
                  "turns the environment about +Y, counter-clockwise seen from above (default: 0)",
                  {-360, 360}, Adopted::site);
@@ -71,24 +72,25 @@ void declare_light_options(Options& options, SceneOptions& scene) {
                  "multiplies the luminance of the environment (default: 1)", kPositive, Adopted::site);
   declare_options(options, scene.daylight);
   declare_options(options, scene.bands);
-  options.text(
-      "portals", scene.portals, "auto|NAMES",
-      "aims photons and shadow rays of sky, sun and environment at openings: auto finds those through which "
-      "the sky is seen from within; or names of nodes or materials, comma by comma, whose surfaces fill them "
-      "(panes; commas of names that the scene has part none, nor do \\,). One in ten (where a sky or map has "
-      "bright spots, one shadow ray in two) is not aimed, so "
-      "that no light is lost",
-      {Recorded::if_given, Adopted::site});
+  options.text("portals", scene.portals, "auto|NAMES",
+               "openings that photons and shadow rays of sky, sun and environment are aimed at (default: "
+               "none). auto: the openings through which the sky is seen from within; NAMES: nodes or "
+               "materials whose surfaces fill openings, such as panes, separated by commas (a comma within a "
+               "name of the scene does not separate, nor does \\,). One in ten is not aimed (one shadow ray "
+               "in two where a sky or map has bright spots), so that no light is lost",
+               {Recorded::if_given, Adopted::site});
 }
 
 Scene load_scene(const std::string& path, const SceneOptions& options) {
   if (options.time_s && options.frame)
-    throw Error(ExitCode::usage, "--time", "give either --time or --frame");
+    throw Error(ExitCode::usage, "--time", "and --frame set the same time; give one of them");
   if (options.environment.empty() && (options.environment_rotation_deg || options.environment_scale))
-    throw Error(ExitCode::usage, "--environment", "is missing; rotation and scale are of its map");
+    throw Error(
+        ExitCode::usage, "--environment",
+        "is missing: --environment-rotation and --environment-scale change its map; give --environment FILE");
   if (!options.environment.empty() && options.daylight.any())
     throw Error(ExitCode::usage, options.daylight.sky.empty() ? "--sun" : "--sky",
-                "and --environment both say what is beyond the scene; leave one of them out");
+                "and --environment both light the scene from beyond; leave one of them out");
   check(options.bands);
   const Daylight daylight = resolve(options.daylight);
   const std::string bytes = scene_bytes(path);
@@ -100,7 +102,7 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
   } catch (const std::bad_alloc&) {
     throw Error(ExitCode::no_memory, path, "the scene does not fit into memory; use a larger machine");
   } catch (const std::exception& e) {
-    throw Error(ExitCode::bad_input, path, text("malformed: ", e.what()));
+    throw Error(ExitCode::bad_input, path, text("malformed: ", e.what(), "; export the scene again"));
   }
   if (!options.environment.empty()) {
     EnvironmentFile file = read_environment(options.environment, options.environment_scale.value_or(1),
@@ -147,7 +149,7 @@ std::vector<std::string> scene_files(const std::string& path, const SceneOptions
 std::string how_to_add_to(const Scene& scene) {
   try {
     if (!is_gltf(scene_bytes(scene.path)))
-      return text("add one in ", obj_lights_path(scene.path), " (phos-scene --help has its form)");
+      return text("add one in ", obj_lights_path(scene.path), " (phos-scene --help shows its form)");
   } catch (const Error&) {  // made in memory, or removed since
   }
   return "add one in the modeller";

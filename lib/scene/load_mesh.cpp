@@ -45,9 +45,9 @@ void check(const Scene& scene, const MeshData& mesh, const std::string& what) {
   for (const Triangle& t : mesh.triangle) {
     for (const std::uint32_t v : t.v) {
       if (v < mesh.position.size()) continue;
-      throw Error(
-          ExitCode::bad_input, scene.path,
-          text(what, ": index ", v, " is out of range; there are ", mesh.position.size(), " vertices"));
+      throw Error(ExitCode::bad_input, scene.path,
+                  text(what, ": index ", v, " is out of range; there are ", mesh.position.size(),
+                       " vertices; export the scene again"));
     }
   }
 }

@@ -26,7 +26,7 @@ std::string line_of(const Note& note, const std::vector<std::string>& names) {
   std::set<std::string> known;
   for (std::size_t i = 0; i < names.size() && shown < kShown; ++i, ++told) {
     if (!known.insert(names[i]).second) continue;  // exporters give many the same
-    list += (shown++ > 0 ? ", " : "") + quoted(names[i]);
+    list.append(shown++ > 0 ? ", " : "").append(quoted(names[i]));
   }
   if (names.size() > told) list += text(" and ", names.size() - told, " more");
   return text(names.size(), " ", note.kind, missing ? "s not found (" : "s (", list, "): ", note.message);

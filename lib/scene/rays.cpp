@@ -10,6 +10,7 @@
 #include "core/float_traps.h"
 #include "core/interrupt.h"
 #include "core/last_words.h"
+#include "core/options.h"
 #include "core/parallel.h"
 #include "scene/material/filled_glass.h"
 #include "scene/material/models.h"
@@ -172,7 +173,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   // Embree takes no notice of a name it does not know.
   const char* const known[] = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
   if (std::find(std::begin(known), std::end(known), isa) == std::end(known)) {
-    throw Error(ExitCode::usage, "isa",
+    throw Error(ExitCode::usage, "--isa",
                 text("unknown instruction set \"", isa, "\"; use sse2, sse4.2, avx, avx2 or avx512"));
   }
   const std::string config = "isa=" + isa;
@@ -188,7 +189,7 @@ void RayScene::Impl::make_device(const std::string& isa) {
   const RTCError error = rtcGetDeviceError(nullptr);
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ExitCode::no_memory, "", "not enough memory to start the ray tracer; use a larger machine");
-  throw Error(ExitCode::usage, isa.empty() ? "" : "isa",
+  throw Error(ExitCode::usage, isa.empty() ? "" : "--isa",
               text("Embree cannot start", isa.empty() ? "" : " with instruction set \"" + isa + "\"",
                    " (error ", static_cast<int>(error), "); use one that this machine has, such as sse2"));
 }
@@ -545,16 +546,16 @@ bool trace(const RayScene& rays, const Ray& ray, SurfacePoint& point) {
 }
 
 void declare_isa(Options& options, std::string& isa) {
-  options.choice<std::string>("isa", isa,
-                              {{"best", ""},
-                               {"sse2", "sse2"},
-                               {"sse4.2", "sse4.2"},
-                               {"avx", "avx"},
-                               {"avx2", "avx2"},
-                               {"avx512", "avx512"}},
-                              "instruction set of the ray tracer; sse2 gives the same bytes on all x86 "
-                              "processors of one maker (each maker "
-                              "rounds reciprocals in its own way)");
+  options.choice<std::string>(
+      "isa", isa,
+      {{"best", ""},
+       {"sse2", "sse2"},
+       {"sse4.2", "sse4.2"},
+       {"avx", "avx"},
+       {"avx2", "avx2"},
+       {"avx512", "avx512"}},
+      "instruction set of the ray tracer; best: the widest of this machine; sse2: the same bytes on all x86 "
+      "processors of one maker (each maker rounds reciprocals in its own way)");
 }
 
 }  // namespace phos::inline scene

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/options.h"
 #include "scene/scene.h"
+
+namespace phos {
+class Options;
+}
 
 namespace phos::inline scene {
 

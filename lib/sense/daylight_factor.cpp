@@ -22,14 +22,15 @@ double open_sky_lx(const Scene& scene) {
   if (!scene.environment) throw fail("needs a sky; give --sky overcast, or --environment");
   if (scene.environment->sun())
     throw fail(
-        "is of the sky alone, and a sun shines too; give --sun-illuminance 0 if the sky needs its position");
+        "counts the light of the sky alone, and a sun shines too; leave out the sun, or give "
+        "--sun-illuminance 0 if the sky needs the sun's position");
   for (const Light& light : scene.light)
     if (light.kind != Light::Kind::environment)
-      throw fail(
-          text("is of the sky alone, and light \"", light.name, "\" of the scene shines too; take it out"));
+      throw fail(text("counts the light of the sky alone, and light \"", light.name,
+                      "\" of the scene shines too; take it out"));
   const auto lx = static_cast<double>(luminance(Rgb(scene.environment->irradiance_up_lx())));
   if (!(lx > 0))
-    throw fail("is a share of what the sky gives in the open, and this one gives nothing from above");
+    throw fail("is a share of the illuminance in the open, and this sky gives none; give --sky overcast");
   return lx;
 }
 

@@ -41,7 +41,7 @@ Ticks ticks(double lo, double hi, double spacing, double margin) {
   if (!(room >= 0)) return {};
   const double cells = std::max(std::floor(room / spacing + 1e-3), 1.0);
   if (cells > kMostPoints) {
-    throw Error(ExitCode::usage, "grid",
+    throw Error(ExitCode::usage, "--grid",
                 text("a spacing of ", shortest(spacing), " m makes too many points; give a larger one"));
   }
   return {0.5 * (lo + hi) - 0.5 * (cells - 1) * spacing, spacing, static_cast<std::size_t>(cells)};
@@ -49,7 +49,7 @@ Ticks ticks(double lo, double hi, double spacing, double margin) {
 
 void require_few(std::size_t columns, std::size_t rows, double spacing) {
   if (static_cast<double>(columns) * static_cast<double>(rows) <= kMostPoints) return;
-  throw Error(ExitCode::usage, "grid",
+  throw Error(ExitCode::usage, "--grid",
               text("a spacing of ", shortest(spacing), " m makes ", columns, " x ", rows,
                    " points; give a larger one"));
 }
@@ -189,7 +189,8 @@ bool near_walls(const RayScene& rays, const Vec3& p, const Vec3& up, float margi
 
 /// Can a sensor be here? Something is below it, and it is neither in a solid nor behind the walls.
 bool usable(const RayScene& rays, const Vec3& p, const Vec3& up, float margin) {
-  if (!rays.occluded({p, -up}) || inside_solid(rays, receiver(rays.scene(), p, up))) return false;
+  const SurfacePoint at = receiver(rays.scene(), p, up);
+  if (!rays.occluded({p, -up}) || inside_solid(rays, at) || glass_about(rays, at)) return false;
   return !(margin > 0) || !near_walls(rays, p, up, margin);
 }
 
@@ -197,12 +198,14 @@ bool usable(const RayScene& rays, const Vec3& p, const Vec3& up, float margin) {
 
 void declare_options(Options& options, GridOptions& g) {
   options.section("Grid of sensors");
-  options.number("grid", g.spacing_m, "METRES", "distance between the points of a grid", kPositive);
-  options.text("mesh", g.mesh, "NODE", "grid on the front of this node's surfaces");
+  options.number("grid", g.spacing_m, "METRES", "distance between the points of a grid of sensors",
+                 kPositive);
+  options.text("mesh", g.mesh, "NODE", "node whose surfaces carry the grid, on their front");
   options.number("height", g.height_m, "METRES",
-                 "grid on a workplane this far above the floor: the lowest level surface that faces up");
+                 "height of a workplane that carries the grid, above the floor (the lowest level surface "
+                 "that faces up)");
   options.number("margin", g.margin_m, "METRES",
-                 "no points nearer than this to walls beside the workplane, or to the edges of the mesh",
+                 "least distance of the points to walls beside the workplane, or to the edges of the mesh",
                  kNotNegative);
   options.choice<Axis>("up", g.up, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
                        "axis that points up; y in glTF");
@@ -210,17 +213,29 @@ void declare_options(Options& options, GridOptions& g) {
 
 void check(const GridOptions& grid, const std::string& points_path) {
   if (points_path.empty() == !grid.spacing_m)
-    throw Error(ExitCode::usage, "", "give either --points FILE or --grid METRES");
+    throw Error(ExitCode::usage, "",
+                "sensors are missing, or stated twice; give either --points FILE or --grid METRES");
   if (!grid.spacing_m && (!grid.mesh.empty() || grid.height_m || grid.margin_m > 0))
-    throw Error(ExitCode::usage, "points", "--mesh, --height and --margin belong to --grid; leave them out");
+    throw Error(ExitCode::usage, "--points",
+                "--mesh, --height and --margin belong to --grid; leave them out");
   if (grid.spacing_m && grid.mesh.empty() == !grid.height_m)
-    throw Error(ExitCode::usage, "grid", "needs either --mesh NODE or --height METRES");
+    throw Error(ExitCode::usage, "--grid",
+                "needs either --mesh NODE or --height METRES; give one of the two");
 }
 
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays) {
   const DVec3& origin_m = rays.scene().origin_m;
-  if (!points_path.empty()) return read_sensors(points_path, origin_m);
+  if (!points_path.empty()) {
+    Sensors sensors = read_sensors(points_path, origin_m);
+    for (const SurfaceSample& s : sensors.points)
+      require_in_air(rays, s.position, s.normal, points_path == "-" ? "stdin" : points_path);
+    return sensors;
+  }
   Sensors sensors = grid.mesh.empty() ? workplane(rays, grid) : mesh_grid(rays.scene(), grid);
+  if (!grid.mesh.empty())
+    sensors.left_out += std::erase_if(sensors.points, [&](const SurfaceSample& s) {
+      return glass_about(rays, receiver(rays.scene(), s.position, s.normal)) != nullptr;
+    });
   sensors.origin_m = origin_m;
   return sensors;
 }
@@ -309,8 +324,8 @@ Sensors mesh_grid(const Scene& scene, const GridOptions& grid) {
   if (!found) {
     std::string names;
     for (std::size_t i = 0; i < scene.instance.size() && i < 8; ++i)
-      names += (i > 0 ? ", " : "") + scene.instance[i].node;
-    throw Error(ExitCode::usage, "mesh",
+      names.append(i > 0 ? ", " : "").append(scene.instance[i].node);
+    throw Error(ExitCode::usage, "--mesh",
                 text("the scene has no surface of node \"", grid.mesh, "\"; it has ", names,
                      scene.instance.size() > 8 ? ", ..." : ""));
   }

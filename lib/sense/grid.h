@@ -23,7 +23,9 @@ void declare_options(Options& options, GridOptions& grid);
 
 /// Throws Error(usage) unless the sensors are either in a file or on one kind of grid.
 void check(const GridOptions& grid, const std::string& points_path);
-/// From the file if there is one, else on the grid.
+/// From the file if there is one, else on the grid. Points of a grid that are in solid glass are left out, as
+/// those of a workplane in other solids are. Throws Error(bad_input) for a point of the file that is in solid
+/// glass.
 Sensors find_sensors(const std::string& points_path, const GridOptions& grid, const RayScene& rays);
 
 /// The lowest surface that faces up and is level, at least a hundredth of the scene's plan in size; the

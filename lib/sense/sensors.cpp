@@ -115,6 +115,7 @@ std::vector<Reading> read_fresh(const std::vector<SurfaceSample>& open, const Ra
   if (tree) {
     const EquivalentPhotons equivalent = equivalent_photons(tree->records(), caches.accuracy());
     source.photon_lm = equivalent.photon_lm, source.zone_photons = equivalent.of_a_zone;
+    source.common = equivalent.common, source.tell_common = equivalent.common > 0;
   }
   const GatherEstimator estimator(rays, lights, source, resolved, options.seed);
   IrradianceCache fresh;
@@ -171,17 +172,19 @@ float most_height(double accuracy) { return static_cast<float>(0.2 * accuracy); 
 }  // namespace
 
 void declare_options(Options& options, SensorOptions& s) {
-  options.integer(
-      "light-samples", s.light_samples, "N",
-      "shadow rays to each area light in place of as many as --error takes; 0, for caches that hold all "
-      "light: none, and direct_lx and indirect_lx stay empty",
-      {0, 1e6});
+  options.integer("light-samples", s.light_samples, "N",
+                  "number of shadow rays to each area light (default: as many as --error takes); 0, for "
+                  "caches that hold all light: none, and direct_lx and indirect_lx stay empty",
+                  {0, 1e6});
   options.choice<LeakTest>(
       "leak-test", s.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
-      "ray: a record serves a sensor only if the two can see each other; none is faster");
+      "ray: a record serves a sensor only if the two see each other; none: no test, which is faster");
   options.flag("direct-only", s.direct_only, "no indirect light");
-  options.integer("rays", s.rays, "N", "rays of a record made where the caches have none", {4, 1e8});
-  options.number("accuracy", s.accuracy, "A", "of those records: zone of influence = A x mean distance",
+  options.integer("rays", s.rays, "N",
+                  "number of rays of each record that is made where the caches have none", {4, 1e8});
+  options.number("accuracy", s.accuracy, "A",
+                 "accuracy of the records that are made where the caches have none: zone of influence = A x "
+                 "mean distance",
                  {0, 10, true});
 }
 
@@ -213,8 +216,8 @@ void SensorCaches::require_light(bool direct, const std::shared_ptr<const Causti
   if (!caustics_) caustics_ = caustics;
   if (!empty() && direct != holds_direct_)
     throw Error(ExitCode::mismatch, name,
-                text("holds ", direct ? "all" : "indirect", " light, the cache before it ",
-                     direct ? "indirect" : "all", "; give caches made with the same --paths"));
+                text("holds ", direct ? "all" : "indirect", " light, and the cache before it holds ",
+                     direct ? "indirect" : "all", " light; give caches made with the same --paths"));
   holds_direct_ = direct;
 }
 

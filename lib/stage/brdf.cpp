@@ -31,7 +31,7 @@ void run(Tool& tool, const BrdfCommand& asked) {
       tool.counters().merge(counters);
     }
   }
-  if (tables.empty()) tool.say("nothing glossy here: the file is empty");
+  if (tables.empty()) tool.say("the scene has no gloss, and the file is empty");
   tool.stat("materials", materials);
   if (!asked.bases.empty()) {
     const Tool::Timer timer = tool.time("bases");

@@ -1,6 +1,7 @@
 #include "stage/chosen_estimator.h"
 
 #include "core/error.h"
+#include "radiance/gloss_cache.h"
 #include "splat/gl/hemisphere_raster.h"
 
 namespace phos::stage {
@@ -14,11 +15,10 @@ GlossCache gloss_cache(const RayScene& rays, const RecordInputs& inputs, const R
                    options.leak_test == LeakTest::ray ? &rays : nullptr);
   for (const RadianceRecord& r : radiance.records) gloss.insert(r);
   if (gloss.size() == 0 && !radiance.records.empty() && !gloss.tables().orders().empty())
-    throw Error(
-        ExitCode::mismatch, "",
-        text("radiance records of order ", radiance.order(),
-             " serve no lobe: they were made with other lobes; give the .brdf file that phos-radiance "
-             "read, or rerun phos-radiance"));
+    throw Error(ExitCode::mismatch, "",
+                text("radiance records of order ", radiance.order(),
+                     " fit no lobe of the scene, as they were made with other lobes; give the .brdf file "
+                     "that phos-radiance read, or rerun phos-radiance"));
   return gloss;
 }
 
@@ -33,9 +33,9 @@ CoarseLevel coarse_of_diffuse(const RayScene& rays, const RecordInputs& inputs, 
   if (inputs.source)
     return CoarseLevel(rays, *inputs.source, inputs.photons ? &*inputs.photons : nullptr, options, seed);
   if (inputs.photons) return CoarseLevel(rays, *inputs.photons, options, seed);
-  throw Error(
-      ExitCode::usage, "--gather-bounces",
-      "for more than the first bounce, give photons or an earlier cache too; --gather-bounces 1 needs none");
+  throw Error(ExitCode::usage, "--gather-bounces",
+              "more than the first bounce needs photons or an earlier cache; give one of them, or "
+              "--gather-bounces 1");
 }
 
 CoarseLevel coarse_level(const RayScene& rays, const RecordInputs& inputs, const RecordOptions& options,

@@ -20,7 +20,8 @@ void take(std::string& slot, const std::string& path, const char* what) {
 
 void take_scene(std::string& scene, const std::string& path, Beside beside) {
   if (!scene.empty() && beside == Beside::caches)
-    throw Error(ExitCode::usage, path, text("is no cache, and ", scene, " is the scene; give one scene"));
+    throw Error(ExitCode::usage, path,
+                text("is not a phos file, and ", scene, " is the scene already; give one scene, and caches"));
   take(scene, path, "scene");
 }
 
@@ -105,7 +106,7 @@ std::vector<Container> open_caches(const std::vector<std::string>& paths, CacheK
   }
   if (kinds == CacheKinds::records_and_lobes && std::all_of(files.begin(), files.end(), is_brdf))
     throw Error(ExitCode::bad_input, paths.empty() ? "CACHE" : paths.front(),
-                "is no irradiance cache; give one too (phos-irradiance makes it)");
+                "is not an irradiance cache, which is needed; give the output of phos-irradiance too");
   return files;
 }
 

@@ -4,12 +4,14 @@
 
 #include "estimate/record_ways.h"
 #include "file/adoption.h"
+#include "photon/caustic_map.h"
 #include "place/modes.h"
 #include "place/parts.h"
 #include "place/points_on_surfaces.h"
 #include "place/read_points.h"
 #include "place/typical_distance.h"
 #include "scene/inside_solid.h"
+#include "splat/gl/choice.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -36,9 +38,9 @@ void judge_placement(RecordOptions& records, PlacementOptions& placement, const 
     placement.error = kUsualPlacementError;
   if (!placement.error) return;
   if (!judged)
-    throw Error(
-        ExitCode::usage, "--placement-error",
-        "is of gathered records with a circle for a footprint; give --estimate gather, or leave it out");
+    throw Error(ExitCode::usage, "--placement-error",
+                "needs gathered records with circular footprints; give --estimate gather without "
+                "--footprint, or leave it out");
   if (begun) records.accuracy = 1 / 3.0;
 }
 
@@ -90,6 +92,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("irradiance", asked.add_to);
   if (!placement.part.empty()) tool.set_variant("part " + placement.part);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   const Scene scene = load_scene(files.scene, asked.scene);
@@ -146,8 +149,8 @@ void run(Tool& tool, IrradianceCommand& asked) {
   }
   if (cache.records.empty()) {
     tool.warn(inputs.photons && inputs.photons->size() == 0
-                  ? "there are no photons: the file is empty, which means no light anywhere"
-                  : "no place wants a record (see --place, --paths): the file is empty");
+                  ? "there are no photons, and the file is empty: no light anywhere"
+                  : "no place needs a record (see --place, --paths): the file is empty");
   }
   write_irradiance(tool.output(), cache, provenance());
 }

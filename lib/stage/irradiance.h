@@ -8,11 +8,12 @@
 #include "file/tool.h"
 #include "place/placement_options.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 22;
+inline constexpr int kIrradianceAlgorithm = 23;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;
@@ -26,6 +27,7 @@ struct IrradianceCommand {
   PlacementOptions placement;
   std::string at, add_to;  ///< files
   std::string isa;
+  GlBy gl = GlBy::osmesa;
   bool allow_mismatch = false;
 };
 

@@ -7,6 +7,7 @@
 #include "photon/events.h"
 #include "photon/photon_map.h"
 #include "photon/photon_shards.h"
+#include "scene/nested_glass.h"
 #include "scene/rays.h"
 #include "scene/sky/access.h"
 
@@ -25,6 +26,8 @@ void report(Tool& tool, const PhotonTotals& totals) {
     tool.warn(totals.paths == 0
                   ? "no paths were emitted (--photons 0): the map is empty"
                   : "every photon left the scene: the map is empty; do the lights face surfaces?");
+  if (const std::uint64_t kept = tool.counters()[kKeptInGlassEvent]; kept > 0)
+    tool.say(text(kept, " photons ended in glass: total reflection keeps their light in it"));
   tool.stat("paths", totals.paths);
   tool.stat("stored", totals.stored);
 }
@@ -64,6 +67,7 @@ void run(Tool& tool, const PhotonsCommand& asked) {
     const Tool::Timer timer = tool.time("trace");
     photons = trace_photons(*rays, options, tool.seed(), totals, tool.counters());
   }
+  if (const auto nested = nested_glass(*rays)) tool.warn(*nested);
   report_openings(tool, *rays, options, !asked.scene.portals.empty());
   check_events(tool.counters(), totals);
   report(tool, totals);

@@ -59,7 +59,7 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
   const CsvTable table = parse_csv(bytes, input);
   if (options.x.empty() || options.y.empty())
     throw Error(ExitCode::usage, options.x.empty() ? "--x" : "--y",
-                text("name a column of ", input, ": ", table.names()));
+                text("is missing; give a column of ", input, ": ", table.names()));
   const Plot plot = plot_of(table, options);
   write_plot(tool.output(), plot, plot_svg, plot_picture);
   if (const std::size_t n = points_left_out(plot); n > 0) {
@@ -71,8 +71,7 @@ void draw_plot(Tool& tool, const std::string& bytes, const std::string& input,
 void draw_goniometric(Tool& tool, const std::string& input) {
   const Options& options = tool.options();
   if (tool.output().ends_with(".hdr") || tool.output().ends_with(".csv"))
-    throw Error(ExitCode::usage, "--output",
-                "a polar plot is no image of light; the name must end in .png or .svg");
+    throw Error(ExitCode::usage, "--output", "a polar plot needs a name that ends in .png or .svg");
   refuse_given(given_picture_option(options), "images", input, "a luminaire");
   refuse_given(given_plot_option(options), "tables", input, "a luminaire");
   refuse_given(given_contour_option(options), "images and tables", input, "a luminaire");
@@ -119,8 +118,8 @@ void check_usage(const Options& options, const std::string& output, const Pictur
     refuse("--false-colour", "false colours need an output that ends in .png");
   if (!picture.contours.of.empty() && (output.ends_with(".hdr") || output.ends_with(".csv")))
     refuse("--contours", "lines of equal value need an output that ends in .png or .svg");
-  if (video && s.frames.empty()) refuse("--output", "a video is made of frames: --frames 0:47");
-  if (!video && s.frames_per_s) refuse("--fps", "is of videos: -o film.mp4");
+  if (video && s.frames.empty()) refuse("--output", "a video needs frames; give --frames 0:47");
+  if (!video && s.frames_per_s) refuse("--fps", "needs a video; give -o film.mp4, or leave it out");
   if (s.frames.empty() && names_frames(output))
     refuse("--output", text("\"", output, "\" names a sequence; say which frames: --frames 0:47"));
   if (s.frames.empty()) return;

@@ -23,7 +23,7 @@ void tell_of_gloss(Tool& tool, const Json& report, bool projected_here) {
   tool.stat("gloss", report);
   std::istringstream lines(gloss_text(report));
   for (std::string line; std::getline(lines, line);) tool.say(line.substr(line.find_first_not_of(' ')));
-  if (projected_here) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+  if (projected_here) tool.say("lobes were projected here; phos-brdf stores them, and has options for them");
 }
 
 void summarise(Tool& tool, const RadianceCache& cache, const std::vector<RadianceRun>& runs) {
@@ -80,7 +80,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   if (!tables.orders().empty()) missed = tell_missed_ways(tool, rays, radiance.records);
   missed = tell_unsampled_kept(tool, asked.add_to, missed_before, missed);
   if (tables.orders().empty()) {
-    tool.say(text(tables.choices().empty() ? "nothing glossy here" : "all gloss is traced by rays",
+    tool.say(text(tables.choices().empty() ? "the scene has no gloss" : "all gloss is traced by rays",
                   ": the file is empty"));
   } else {
     if (!asked.at.empty())
@@ -95,7 +95,7 @@ void run(Tool& tool, RadianceCommand& asked) {
     summarise(tool, cache,
               place_radiance(cache, tables, std::ref(estimators), rays, radiance.records, placement, source,
                              tool.counters()));
-    if (cache.records.empty()) tool.warn("no place wants a record (see --place): the file is empty");
+    if (cache.records.empty()) tool.warn("no place needs a record (see --place): the file is empty");
   }
   Provenance provenance = tool.provenance(FileKind::radiance, scene.hash, scene.parts);
   note_unsampled(provenance, missed);

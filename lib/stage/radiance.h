@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 19;
+inline constexpr int kRadianceAlgorithm = 20;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;

@@ -1,6 +1,7 @@
 #include "stage/record_inputs.h"
 
 #include "core/error.h"
+#include "photon/caustic_map.h"
 #include "radiance/brdf/file.h"
 #include "scene/material/sharp_materials.h"
 #include "temporal/film/inputs.h"

@@ -7,6 +7,7 @@
 #include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/motion/film.h"
+#include "scene/nested_glass.h"
 #include "scene/sky/daylight.h"
 #include "sense/daylight_factor.h"
 #include "sense/sensor_table.h"
@@ -26,7 +27,7 @@ void check_usage(const Options& options, const InputFiles& files, const SenseCom
     throw Error(ExitCode::usage, exact ? "--exact" : "--direct-only", "reads no cache; leave the caches out");
   for (const char* name : {"samples", "method"})
     if (!exact && options.given(name))
-      throw Error(ExitCode::usage, text("--", name), "belongs to --exact; leave it out");
+      throw Error(ExitCode::usage, text("--", name), "needs --exact; give --exact, or leave it out");
   if (!exact && options.given("error") && sense.light_samples)
     throw Error(ExitCode::usage, "--error", "chooses the number of shadow rays; leave out --light-samples");
   if ((exact || sense.direct_only) && !sense.sends_rays())
@@ -102,7 +103,7 @@ void report_on(Tool& tool, const std::string& summary_path, const Sensors& senso
   if (report.above_error > 0)
     tool.say(
         text("direct light of ", report.above_error, " sensors is known less well than --error asks: pilots ",
-             "foretell it roughly, and no lamp gets more than ", DirectReader::kMostRays,
+             "predict it roughly, and no lamp gets more than ", DirectReader::kMostRays,
              " rays (--light-samples can be more; --portals auto finds a sky behind windows with fewer)"));
   if (!report.inside.empty())
     tool.warn(text(report.inside.size(),
@@ -130,11 +131,14 @@ void run(Tool& tool, SenseCommand& asked) {
   std::optional<double> open_lx;
   if (asked.factors) open_lx = open_sky_lx(scene);
   if (asked.factors && !is_overcast(asked.scene.daylight))
-    tool.warn("daylight factors are by the norm of an overcast sky (--sky overcast, cie:1 or cie:3)");
+    tool.warn(
+        "daylight factors are defined under an overcast sky; give --sky overcast, cie:1 or cie:3 for "
+        "standard ones");
   const RayScene rays(scene, {asked.isa});
   const Luminaires lights(scene);
+  if (const auto nested = nested_glass(rays)) tool.warn(*nested);
   const Sensors sensors = find_sensors(asked.points, asked.grid, rays);
-  if (sensors.points.empty()) tool.warn("there is no sensor: the output is a header alone");
+  if (sensors.points.empty()) tool.warn("there is no sensor, and the output is a header alone");
   SensorOptions& sense = asked.sense;
   sense.seed = asked.exactly.seed = tool.seed();
   sense.error = asked.exactly.relative_error.value_or(sense.error);

@@ -13,6 +13,7 @@
 #include "scene/rays.h"
 #include "scene/report/unsampled.h"
 #include "splat/caches.h"
+#include "splat/gl/choice.h"
 #include "splat/picture/gloss.h"
 #include "splat/picture/memory.h"
 #include "splat/picture/noise_target.h"
@@ -38,7 +39,7 @@ void tell_of_files(const Tool& tool, const std::vector<Container>& files, const 
     throw Error(
         ExitCode::usage, "--overlay-colour life",
         "tells how long the records of a film live, and no film is given; make one with phos-temporal");
-  if (radiance && !glossy) tool.say("nothing here is glossy: radiance records are not used");
+  if (radiance && !glossy) tool.say("the scene has no gloss: radiance records are not used");
   if (brdf && !(radiance && glossy) && render.environment == EnvironmentBy::traced)
     tool.say("the .brdf file is not used: it serves radiance records, and --environment-mode hsh");
 }
@@ -73,6 +74,7 @@ void run(Tool& tool, SplatCommand& asked) {
     throw Error(ExitCode::usage, asked.misses.empty() ? "--gloss-misses" : "--misses",
                 "a picture that is not made anew has no misses; leave out --reuse");
   require_one_choice(tool.options(), render);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   std::vector<Container>& files = asked.opened;
@@ -107,7 +109,7 @@ void run(Tool& tool, SplatCommand& asked) {
     const auto timer = tool.time("gloss tables");
     return gloss_of_picture(rays, caches, render, asked.allow_mismatch, tool.counters());
   }();
-  if (gloss.projected) tool.say("lobes were projected here; phos-brdf keeps them, and has options");
+  if (gloss.projected) tool.say("lobes were projected here; phos-brdf stores them, and has options for them");
   report_noise(
       tool, render,
       choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));

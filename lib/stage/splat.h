@@ -8,6 +8,7 @@
 #include "file/tool.h"
 #include "image/image.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 #include "splat/picture/render.h"
 
 namespace phos::stage {
@@ -20,6 +21,7 @@ struct SplatCommand {
   std::vector<std::string> caches;  ///< of irradiance and radiance, and lobes
   SceneOptions scene;
   RenderOptions render;
+  GlBy gl = GlBy::osmesa;
   ExrCompression compression = ExrCompression::zip;
   std::string misses, gloss_misses;  ///< files
   bool allow_mismatch = false;

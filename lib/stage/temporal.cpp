@@ -4,6 +4,7 @@
 #include "place/typical_distance.h"
 #include "radiance/brdf/file.h"
 #include "radiance/gloss_report.h"
+#include "splat/gl/choice.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
@@ -57,6 +58,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   refuse_inputs(files);
   job.of_radiance = asked.kind == RecordKind::radiance;
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
+  use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
   register_raster_estimator();
 

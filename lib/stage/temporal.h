@@ -7,12 +7,13 @@
 #include "file/tool.h"
 #include "radiance/gloss_tables.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 #include "temporal/make_film.h"
 
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 21;
+inline constexpr int kTemporalAlgorithm = 22;
 
 enum class RecordKind { irradiance, radiance };
 
@@ -20,6 +21,7 @@ struct TemporalCommand {
   TemporalCommand() { job.light.records.estimate = Estimate::gather, job.placement.place = Place::view; }
   std::vector<std::string> inputs;
   std::string frames, isa;
+  GlBy gl = GlBy::osmesa;
   SceneOptions scene;
   FilmJob job;
   RecordKind kind = RecordKind::irradiance;

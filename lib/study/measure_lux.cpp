@@ -22,7 +22,7 @@ LuxTable read_lux(const std::string& path) {
                     spread = find({"stderr_lx"}), none = csv.columns.size();
   if (x == none || y == none || z == none || lux == none)
     throw Error(ExitCode::bad_input, path,
-                text("is no table of lux: it has the columns ", csv.names(),
+                text("is not a table of lux: it has the columns ", csv.names(),
                      "; give one of phos-sense or phos-reference --points"));
   if (csv.rows.empty()) throw Error(ExitCode::bad_input, path, "has no sensor; give points");
   LuxTable table;

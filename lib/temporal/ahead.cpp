@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "direct/direct_light.h"
 #include "estimate/gather.h"
+#include "estimate/hit_light.h"
 #include "scene/motion/anchor.h"
 #include "temporal/events.h"
 #include "temporal/reprojection.h"

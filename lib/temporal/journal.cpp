@@ -163,7 +163,10 @@ EstimateJournal::EstimateJournal(const std::string& path, const std::string& key
     file_ << kHeader << key << '\n';
     file_.flush();
   }
-  if (!file_) throw Error(ExitCode::bad_input, path, "cannot be written; it keeps what is done of the film");
+  if (!file_)
+    throw Error(ExitCode::bad_input, path,
+                "cannot be written, and it keeps the finished part of the film; free some space, or choose "
+                "another folder");
 }
 
 EstimateJournal::~EstimateJournal() = default;

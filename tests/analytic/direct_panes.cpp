@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "direct/direct_light.h"
+#include "estimate/record_options.h"
 #include "scene/material/pane.h"
 #include "support/daylight.h"
 #include "support/gathered.h"

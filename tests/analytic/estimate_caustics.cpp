@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/caustic_light.h"
+#include "estimate/gather.h"
 #include "place/two_level.h"
 #include "support/mirrors.h"
 #include "support/records.h"

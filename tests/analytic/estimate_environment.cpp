@@ -1,6 +1,7 @@
 // Records, sensors and shading in an environment, where the light is known.
 #include <gtest/gtest.h>
 
+#include "estimate/shading.h"
 #include "support/environment.h"
 #include "support/gathered.h"
 #include "support/one_material.h"

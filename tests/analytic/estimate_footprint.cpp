@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "estimate/hemisphere/footprint_fit.h"
+#include "estimate/record_options.h"
 #include "record/footprint_columns.h"
 #include "record/irradiance_cache.h"
 #include "record/tree.h"

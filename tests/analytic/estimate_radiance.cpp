@@ -4,6 +4,8 @@
 
 #include "estimate/radiance_gather.h"
 #include "record/tree.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/rays.h"
 #include "support/gathered.h"
 #include "support/radiance_scenes.h"
 

@@ -6,6 +6,7 @@
 #include "core/sampling.h"
 #include "estimate/radiance_gather.h"
 #include "place/two_level.h"
+#include "scene/lamp/luminaires.h"
 #include "support/gathered.h"
 #include "support/photon_lobes.h"
 #include "support/records.h"

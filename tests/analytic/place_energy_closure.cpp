@@ -3,12 +3,15 @@
 // paint) is a good part of it.
 #include <gtest/gtest.h>
 
+#include "core/random.h"
+#include "estimate/gather.h"
 #include "estimate/radiance_density.h"
 #include "estimate/radiance_gather.h"
 #include "place/modes.h"
 #include "place/radiance_placement.h"
 #include "place/two_level.h"
 #include "radiance/gloss_cache.h"
+#include "scene/lamp/luminaires.h"
 #include "support/energy.h"
 #include "support/gathered.h"
 

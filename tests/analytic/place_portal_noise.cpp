@@ -5,6 +5,7 @@
 #include "photon/photon_noise.h"
 #include "photon/trace.h"
 #include "place/two_level.h"
+#include "record/irradiance_cache.h"
 #include "scene/opening/find_portals.h"
 #include "support/daylight.h"
 
@@ -67,6 +68,23 @@ TEST(PortalNoise, OfRecordsIsThatOfTheUsualOnes) {
     records.back().irradiance = Rgb(10000), records.back().stderr_lx = Rgb(5000);
   }
   EXPECT_NEAR(equivalent_photons(records, 0.5).photon_lm, usual.photon_lm, 1e-6);
+  EXPECT_EQ(usual.common, 0);
+}
+
+/// Errors that are three times as large, for what all have in common: alone, photons tell the same.
+TEST(PortalNoise, OfRecordsIsPartlyCommon) {
+  std::vector<IrradianceRecord> records(100);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    IrradianceRecord& r = records[i];
+    r.radius_m = 1 + 0.01f * static_cast<float>(i), r.irradiance = Rgb(100), r.stderr_lx = Rgb(5);
+  }
+  const EquivalentPhotons alone = equivalent_photons(records, 0.5);
+  for (IrradianceRecord& r : records) r.stderr_lx = Rgb(15), r.shared = (kSharedByZones + 8) / 9;
+  const EquivalentPhotons common = equivalent_photons(records, 0.5);
+  EXPECT_NEAR(common.photon_lm, alone.photon_lm, 1e-5 * alone.photon_lm);
+  EXPECT_NEAR(common.of_a_zone, alone.of_a_zone, 1e-5 * alone.of_a_zone);
+  EXPECT_EQ(alone.common, 0);
+  EXPECT_NEAR(common.common, 8 * 0.05 * 0.05, 1e-6);
 }
 
 }  // namespace phos::test

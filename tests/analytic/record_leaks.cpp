@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/rays.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -173,7 +173,7 @@ TEST(DaylightFactor, IsOfTheSkyAlone) {
   refused(lamp, "shines too; take it out");
   Scene below = open_floor();
   surround(below, map_of(8, [](int, int y) { return Rgb(y > 3 ? 1.f : 0.f); }));
-  refused(below, "nothing from above");
+  refused(below, "this sky gives none");
 }
 
 }  // namespace phos::test

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimate/gather.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/rays.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "splat/gl/raster_plane.h"
 #include "support/raster.h"

@@ -11,6 +11,7 @@
 #include "core/sampling.h"
 #include "direct/direct_light.h"
 #include "estimate/gather.h"
+#include "estimate/hit_light.h"
 #include "support/records.h"
 
 namespace phos {

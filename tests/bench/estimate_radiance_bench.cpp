@@ -8,6 +8,7 @@
 #include "hsh/rotation.h"
 #include "radiance/brdf/projection.h"
 #include "radiance/tree.h"
+#include "scene/lamp/luminaires.h"
 #include "support/gathered.h"
 #include "support/one_material.h"
 #include "support/radiance_records.h"

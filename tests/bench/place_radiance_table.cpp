@@ -10,6 +10,7 @@
 #include "place/two_level.h"
 #include "place/view_candidates.h"
 #include "radiance/gloss_cache.h"
+#include "scene/lamp/luminaires.h"
 #include "support/records.h"
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "splat/cpu/splatter.h"
+#include "splat/gl/kinds.h"
 #include "splat/gl/renderer.h"
 #include "splat/tiles.h"
 #include "support/scenes.h"
@@ -58,14 +59,21 @@ void splat_cpu(benchmark::State& state) {
   set_threads(0);
 }
 
-void splat_gl(benchmark::State& state) {
+/// Of one record almost all is the way of the G-buffer to the driver, and of the sums back.
+void splat_gl(benchmark::State& state, GlBy by, std::size_t count) {
   const Frame1000 frame(coverage_of(state));
-  GlRenderer gl(frame.s.scene);
-  gl.splat(std::span(frame.records).first(1), kAccuracy, frame.g, frame.camera);  // compiles the shaders
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(gl.splat(frame.records, kAccuracy, frame.g, frame.camera));
+  choose_gl(by);
+  try {
+    GlRenderer gl(frame.s.scene);
+    const auto records = std::span(frame.records).first(count);
+    gl.splat(records.first(1), kAccuracy, frame.g, frame.camera);  // compiles the shaders
+    for (auto _ : state) {
+      benchmark::DoNotOptimize(gl.splat(records, kAccuracy, frame.g, frame.camera));
+    }
+    state.SetLabel(gl.description());
+  } catch (const NoGl& e) {
+    state.SkipWithError(e.what());
   }
-  state.SetLabel(gl.description());
 }
 
 void gbuffer_traced(benchmark::State& state) {
@@ -90,7 +98,16 @@ BENCHMARK(splat_cpu)
     ->Args({20, 1})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK(splat_gl)->Arg(5)->Arg(20)->Unit(benchmark::kMillisecond)->UseRealTime();
+#define PHOS_SPLAT_GL(by, count)                             \
+  BENCHMARK_CAPTURE(splat_gl, by##_##count, GlBy::by, count) \
+      ->Arg(5)                                               \
+      ->Arg(20)                                              \
+      ->Unit(benchmark::kMillisecond)                        \
+      ->UseRealTime()
+PHOS_SPLAT_GL(osmesa, 1);
+PHOS_SPLAT_GL(osmesa, 4000);
+PHOS_SPLAT_GL(egl, 1);
+PHOS_SPLAT_GL(egl, 4000);
 BENCHMARK(gbuffer_traced)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(gbuffer_rasterised)->Unit(benchmark::kMillisecond)->UseRealTime();
 

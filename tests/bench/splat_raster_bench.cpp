@@ -9,7 +9,10 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "estimate/gather.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/load.h"
+#include "scene/rays.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "support/raster.h"
 

@@ -2,6 +2,7 @@
 // or its irradiance alone.
 #include <benchmark/benchmark.h>
 
+#include "core/random.h"
 #include "support/two_frames.h"
 #include "temporal/ahead.h"
 

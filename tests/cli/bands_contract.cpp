@@ -156,9 +156,9 @@ TEST(BandsTool, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(run_tool({"bands"}).code, 2);
   refused(parts(".exr", {1, 2, 4}), 4, "triplet 3 of 4 is missing");
   refused(parts(".csv", {4}), 4, "triplets 1,2,3 of 4 are missing");
-  refused(parts(".exr", {1, 2, 2, 3, 4}), 4, "is triplet 2 too");
+  refused(parts(".exr", {1, 2, 2, 3, 4}), 4, "is triplet 2, and so is");
   refused(parts(".exr", {1, 2, 3, 4}) + Words{"--dark", "2"}, 4, "dark");
-  refused(parts(".exr", {1, 2, 3, 4}) + Words{"--dark", "5"}, 2, "not there");
+  refused(parts(".exr", {1, 2, 3, 4}) + Words{"--dark", "5"}, 2, "have 4 triplets");
   refused(parts(".exr", {1, 2, 3, 4}) + Words{"--dark", "x"}, 2, "no triplet");
   refused(parts(".exr", {1, 2, 3}) + parts(".csv", {4}), 2, "each on their own");
   refused(parts(".exr", {1, 2, 3}) + Words{rgb}, 3, "rgb.exr: is a picture in RGB");

@@ -14,7 +14,7 @@ TEST(BrdfDiscs, PicturesOfTablesAndHarmonics) {
   std::string before;
   for (const char* which : {"error", "order", "harmonics"}) {
     const std::string png = f + "/" + which + ".png";
-    const Run run = run_tool({"picture", "--discs", which, brdf, "-o", png});
+    const test::Run run = run_tool({"picture", "--discs", which, brdf, "-o", png});
     ASSERT_EQ(run.code, 0) << run.err;
     const std::string bytes = slurp(png);
     EXPECT_EQ(bytes.substr(1, 3), "PNG");

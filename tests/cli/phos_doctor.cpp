@@ -54,7 +54,7 @@ TEST(Doctor, AllIsWellHere) {
   const auto text = run_doctor({}, {});
   EXPECT_EQ(text.code, 0);
   EXPECT_EQ(text.out.find("ok       programs"), 0u) << text.out;
-  EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 11);
+  EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 12);
 }
 
 TEST(Doctor, WithoutHelpers) {
@@ -102,6 +102,22 @@ TEST(Doctor, OpenGLThatIsBroken) {
     EXPECT_TRUE(!row.ok && row.required) << setting;
     EXPECT_NE(row.remedy.find("apt-get install libosmesa6"), std::string::npos) << row.remedy;
   }
+}
+
+TEST(Doctor, EglIsThereOrNot) {
+  const Row here = row_of(run_doctor({}), "EGL");
+  EXPECT_FALSE(here.required);
+  if (here.ok) {
+    EXPECT_NE(here.found.find(", EGL 1."), std::string::npos) << here.found;
+    EXPECT_TRUE(here.found.ends_with("; draws")) << here.found;
+  }
+  const auto run = run_doctor({"__EGL_VENDOR_LIBRARY_DIRS=/nowhere"});
+  EXPECT_EQ(run.code, 0) << run.out;
+  EXPECT_TRUE(ready(run));
+  const Row row = row_of(run, "EGL");
+  EXPECT_FALSE(row.ok || row.required);
+  EXPECT_NE(row.found.find("no OpenGL 4.5 core context from EGL: "), std::string::npos) << row.found;
+  EXPECT_NE(row.remedy.find("apt-get install libegl1"), std::string::npos) << row.remedy;
 }
 
 TEST(Doctor, ProgramsThatAreMissingOrOfAnotherVersion) {

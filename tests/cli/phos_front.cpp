@@ -8,12 +8,12 @@ namespace {
 
 using test::Run;
 
-std::string phos() { return std::string(PHOS_TOOLS) + "/phos"; }
+std::string phos() { return PHOS_TOOLS "/phos"; }
 
-Run run_phos(std::vector<std::string> arguments, const std::string& path = "") {
-  arguments.insert(arguments.begin(), phos());
-  if (!path.empty()) arguments.insert(arguments.begin(), {"/usr/bin/env", "PATH=" + path});
-  return test::run_shell(arguments, test::scratch("phos"));
+Run run_phos(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{phos()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return test::run_shell(command, test::scratch("phos"));
 }
 
 TEST(Phos, NoArgumentsHelpAndVersion) {

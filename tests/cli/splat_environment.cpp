@@ -81,7 +81,7 @@ TEST(EnvironmentTools, RefuseCachesOfAnotherEnvironment) {
   };
   refused({}, "give the same --environment");
   refused({"--environment", sky(f, "other.exr", 101)}, "another --environment");
-  refused({"--environment", map, "--environment-rotation", "1"}, "its rotation");
+  refused({"--environment", map, "--environment-rotation", "1"}, "another rotation");
   refused({"--environment", map, "--environment-scale", "1.5"}, "scale");
   EXPECT_EQ(
       run_tool({"irradiance", scene, f + "/a.photons", "--environment", map, "-o", f + "/a.irradiance"}).code,

@@ -96,7 +96,7 @@ TEST_F(Harmonics, RefuseWhatDoesNotFit) {
   refused({scene, cache, "--environment", sky, "--environment-order", "0"}, 2, "--environment-order");
   refused({scene, cache, "--environment", sky, "--environment-order", "200"}, 2, "--environment-order");
   refused({scene, cache, "--environment", sky, "--direct", "interleaved"}, 2, "--direct traced");
-  refused({scene, path("a.brdf"), "--environment", sky}, 3, "no irradiance cache");
+  refused({scene, path("a.brdf"), "--environment", sky}, 3, "not an irradiance cache");
   refused({scene, path("a.photons"), "--environment", sky}, 3, "photons");
   // Tables of another material.
   write_scene("other", 9);

@@ -95,7 +95,7 @@ TEST(DaylightTools, MeasureDaylightFactors) {
   const auto clear =
       run_tool(grid + Words{"--direct-only", "--sky", "clear", "--sun", "180,40", "--sun-illuminance", "0"});
   EXPECT_EQ(clear.code, 0);
-  EXPECT_NE(clear.err.find("norm of an overcast sky"), std::string::npos) << clear.err;
+  EXPECT_NE(clear.err.find("defined under an overcast sky"), std::string::npos) << clear.err;
   Words words(grid.begin() + 1, grid.end());
   expect_refused("sense", words + Words{"--direct-only", "--sky", "clear", "--sun", "180,40"}, 2,
                  "a sun shines too");
@@ -198,7 +198,7 @@ TEST(DaylightTools, RefuseBadWords) {
     expect_refused("photons", Words{kRoom, "-o", scratch("daylight-bad") + "/a.photons"} + words, 2, why);
   };
   refused({"--sky", "clear"}, "brighter about the sun");
-  refused({"--sky", "azure"}, "there is no sky \"azure\"");
+  refused({"--sky", "azure"}, "\"azure\" is not a sky");
   refused({"--sky", "clear", "--sun", "10,-20"}, "20 degrees below the horizon");
   refused({"--sky", "clear", "--location", "52.5,13.4", "--when", "2026-06-21T01:00+02:00"},
           "below the horizon");
@@ -209,7 +209,7 @@ TEST(DaylightTools, RefuseBadWords) {
           "0.01 to 0.6");
   refused({"--sky", "overcast", "--ground-albedo", "1.5"}, "--ground-albedo");
   refused({"--sky", "overcast", "--portals", "window"}, "there is no node or material \"window\"");
-  refused({"--portals", "auto"}, "aims light of a sky, and there is none");
+  refused({"--portals", "auto"}, "aims the light of a sky, and the scene has no sky");
 }
 
 /// A closed scene: said by phos-scene and by phos-photons.
@@ -220,15 +220,15 @@ TEST(DaylightTools, SayThatNothingGetsIn) {
         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
   spill(f + "/box.lights.json", R"({"cameras":[{"eye":[0.5,0.5,0.5],"target":[1,0.5,0.5]}]})");
   const auto lint = run_tool({"scene", f + "/box.obj", "--sky", "overcast"});
-  EXPECT_NE((lint.out + lint.err).find("no light of the sky gets in"), std::string::npos)
+  EXPECT_NE((lint.out + lint.err).find("no light of the sky reaches the view"), std::string::npos)
       << lint.out << lint.err;
   const auto photons = run_tool({"photons", f + "/box.obj", "--sky", "overcast", "--photons", "1000",
                                  "--portals", "auto", "-o", f + "/a.photons"});
   EXPECT_EQ(photons.code, 0);
-  EXPECT_NE(photons.err.find("no light of the sky gets in"), std::string::npos) << photons.err;
+  EXPECT_NE(photons.err.find("no light of the sky reaches the view"), std::string::npos) << photons.err;
   EXPECT_NE(photons.err.find("no place sees the sky from within"), std::string::npos) << photons.err;
   const auto open = run_tool({"scene", kRoom, "--sky", "overcast"});
-  EXPECT_EQ((open.out + open.err).find("gets in"), std::string::npos) << open.out << open.err;
+  EXPECT_EQ((open.out + open.err).find("reaches the view"), std::string::npos) << open.out << open.err;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ case $name in
     given --height || add --width 48 ;;
   phos-sense) most --samples 16; most --rays 64; most --light-samples 16; least --error 0.1; least --grid 0.05; word --exact || given --light-samples || add --error 0.1 ;;
   phos-reference)
-    most --samples 4; most --width 48; least --error 0.2
+    most --samples 4; most --width 48; most --gather-rays 4; least --error 0.2
     if ! given --points; then add --width 48; add --samples 4; fi ;;
   phos-plan)
     if word --run; then most --pilot-seconds 1; add --pilot-seconds 1; else most --pilot-seconds 0; add --pilot-seconds 0; fi

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "direct/direct_light.h"
+#include "estimate/gather.h"
 #include "support/gathered.h"
 #include "support/records.h"
 #include "support/sweep.h"

@@ -277,7 +277,14 @@ TEST(Light, CausticsKeepTheirEnergy) {
       EXPECT_EQ(totals.escaped_flux_lm, Rgb(0)) << ior;
       const double lost =
           1 - static_cast<double>(totals.stored_flux_lm.y) / static_cast<double>(totals.emitted_flux_lm.y);
-      EXPECT_LT(std::fabs(lost), 1e-6) << "ior " << ior;
+      // Roulette among what total reflection keeps long has the right mean, and noise; no lumen is
+      // unaccounted for.
+      const auto kept = static_cast<double>(counters[kKeptInGlassEvent]);
+      EXPECT_LT(std::fabs(lost), 1e-6 + 3 * std::sqrt(kept) / 20000) << "ior " << ior;
+      EXPECT_LT(kept, 50) << "ior " << ior;
+      const double absorbed =
+          static_cast<double>(totals.absorbed_flux_lm.y) / static_cast<double>(totals.emitted_flux_lm.y);
+      EXPECT_NEAR(absorbed, 1, 1e-6) << "ior " << ior;
       EXPECT_EQ(counters[kNonFiniteEvent] + counters[kTooLongEvent], 0u) << "ior " << ior;
     }
   }

@@ -6,6 +6,7 @@
 #include "estimate/radiance_gather.h"
 #include "place/modes.h"
 #include "place/radiance_report.h"
+#include "scene/lamp/luminaires.h"
 #include "support/gathered.h"
 #include "support/glossy_room.h"
 

@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "direct/direct_light.h"
+#include "estimate/gather.h"
 #include "estimate/radiance_gather.h"
 #include "record/footprint.h"
 #include "record/tree.h"

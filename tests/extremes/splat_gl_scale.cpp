@@ -1,21 +1,14 @@
 // Rasterising, splatting and shadow maps do not know the unit of length, nor where the origin is.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "splat/cpu/splatter.h"
 #include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 
 namespace phos {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 constexpr int kWidth = 80, kHeight = 60;
 

@@ -1,13 +1,12 @@
 // Splats on the CPU, and the whole pipeline (photons, records, picture), at every size and power.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "radiance/check.h"
 #include "record/check.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "splat/gl/renderer.h"
 #include "splat/picture/render.h"
+#include "support/gl.h"
 #include "support/raster.h"
 #include "support/splat_records.h"
 #include "support/splat_scenes.h"
@@ -15,12 +14,6 @@
 
 namespace phos::test {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 /// Records as they are in the room of one size and power, put into the others.
 void resize(IrradianceRecord& r, Scale by) {

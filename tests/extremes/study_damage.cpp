@@ -60,7 +60,7 @@ TEST(Sizes, DotsElsewhereAreTaken) {
 TEST(Text, LettersOfOtherLanguagesAreTaken) {
   EXPECT_EQ(parse_toml("x = \"\"\"a\\\n  \xc3\xa9\"\"\"  # \xc3\x96\n", "a.toml").root.find("x")->as_string(),
             "a\xc3\xa9");
-  EXPECT_NE(refusal("x = 1 \xc3\x96\n").find("is no TOML"), std::string::npos);
+  EXPECT_NE(refusal("x = 1 \xc3\x96\n").find("is not TOML"), std::string::npos);
 }
 
 TEST(Sizes, NestingIsRefused) {

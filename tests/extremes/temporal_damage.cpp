@@ -203,7 +203,7 @@ TEST(Scene, MayNotNameADevice) {
     ADD_FAILURE() << "a buffer without end was read";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::bad_input);
-    EXPECT_NE(std::string(e.what()).find("is no file"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("is not a file"), std::string::npos) << e.what();
   }
 }
 

@@ -32,6 +32,7 @@ echo "$(basename "$package"), $(du -h "$package" | cut -f1)"
 for need in libosmesa6 jq libembree libc6; do
   [[ $(field Depends) == *"$need"* ]] || wrong "it does not depend on $need: $(field Depends)"
 done
+[[ $(field Suggests) == libegl1 ]] || wrong "it does not suggest libegl1: $(field Suggests)"
 TMPDIR=$scratch lintian --allow-root --fail-on error "$package" >"$scratch/log" 2>/dev/null || wrong "lintian finds errors"
 sed 's/^/lintian: /' "$scratch/log"
 

@@ -3,6 +3,7 @@
 #   one name, one type    no two headers of lib define a type of the same name (the one-definition rule)
 #   one module, one space a file of lib/x opens the namespace phos::x and no other but for forward declarations; core's types stand in phos
 #   header and source      every source of lib has a header of its name beside it, but for those listed below
+#   judges apart          lib/reference includes nothing of photons, but for lib/reference/map the photon map itself
 #   folders of one idea   no folder of lib holds more than 40 sources
 set -euo pipefail
 cd "$1"
@@ -36,6 +37,13 @@ foreign=$(find lib \( -name '*.h' -o -name '*.cpp' \) -exec awk '
 if [[ -n $foreign ]]; then
   echo "files that open another module's namespace:"
   echo "$foreign"
+  failed=1
+fi
+
+shared=$(grep -rnE '#include "(photon|record|radiance|estimate|place)/' lib/reference | grep -vE '^lib/reference/map/[^:]*:[0-9]+:#include "photon/photon_map.h"' || true)
+if [[ -n $shared ]]; then
+  echo "estimators that the reference shares with what it judges:"
+  echo "$shared"
   failed=1
 fi
 

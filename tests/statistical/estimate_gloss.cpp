@@ -1,7 +1,11 @@
 // Where secondary rays land on a glossy surface, radiance records say what rays sent on would find.
 #include <gtest/gtest.h>
 
+#include "core/random.h"
 #include "estimate/radiance_gather.h"
+#include "estimate/shading.h"
+#include "radiance/gloss_cache.h"
+#include "radiance/gloss_tables.h"
 #include "record/tree.h"
 #include "support/gathered.h"
 #include "support/one_material.h"

@@ -9,14 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "core/random.h"
+#include "estimate/gather.h"
 #include "estimate/radiance_density.h"
 #include "estimate/radiance_gather.h"
+#include "estimate/record_options.h"
 #include "file/csv.h"
 #include "place/two_level.h"
 #include "radiance/cache.h"
 #include "radiance/tree.h"
+#include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/load.h"
+#include "scene/rays.h"
 #include "sense/sensors.h"
 #include "support/records.h"
 #include "support/run.h"

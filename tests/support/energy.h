@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/random.h"
 #include "hsh/quadrature.h"
 #include "radiance/brdf/lobe_projection.h"
 #include "radiance/cache.h"

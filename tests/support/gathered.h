@@ -7,8 +7,11 @@
 
 #include "core/float_traps.h"
 #include "estimate/gather.h"
+#include "estimate/record_options.h"
 #include "record/irradiance_cache.h"
 #include "record/tree.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/rays.h"
 #include "support/scenes.h"
 
 namespace phos::test {

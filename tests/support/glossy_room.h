@@ -5,6 +5,7 @@
 #include <string>
 
 #include "radiance/cache.h"
+#include "scene/rays.h"
 #include "support/estimators.h"
 #include "support/one_material.h"
 #include "support/scenes.h"

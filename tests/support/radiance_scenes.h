@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/random.h"
 #include "estimate/radiance_record.h"
 #include "hsh/projection.h"
 #include "support/gradient_scenes.h"

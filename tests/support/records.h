@@ -7,6 +7,7 @@
 #include "photon/trace.h"
 #include "place/placement.h"
 #include "place/placement_options.h"
+#include "scene/rays.h"
 #include "support/golden_table.h"
 #include "support/scenes.h"
 

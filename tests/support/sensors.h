@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/error.h"
+#include "scene/lamp/luminaires.h"
+#include "scene/rays.h"
 #include "sense/sensors.h"
 #include "support/indexed_file.h"
 #include "support/scenes.h"

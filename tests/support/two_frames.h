@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "estimate/gather.h"
+#include "scene/lamp/luminaires.h"
 #include "scene/motion/film.h"
+#include "scene/rays.h"
 #include "support/gathered.h"
 
 namespace phos::test {

@@ -132,7 +132,7 @@ TEST_F(Adoption, HelpAndDescriptionSayWhich) {
     std::string flat;
     for (const char c : text)
       if (c != '\\' && c != '\n' && !(c == ' ' && flat.ends_with(' '))) flat += c;
-    EXPECT_NE(flat.find("taken from it"), std::string::npos) << flat;
+    EXPECT_NE(flat.find("taken from this file"), std::string::npos) << flat;
   }
   EXPECT_EQ(program.options.names(Adopted::estimate),
             (std::vector<std::string>{"number", "maybe", "count", "flag", "word", "shape", "late"}));
@@ -145,7 +145,7 @@ TEST_F(Adoption, TwoNamesOfOneValueAreNotGivenTogether) {
     ADD_FAILURE();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::usage);
-    EXPECT_STREQ(e.what(), "says what --shape says; give one of the two");
+    EXPECT_STREQ(e.what(), "sets the same as --shape; give one of the two");
   }
 }
 

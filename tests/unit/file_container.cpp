@@ -188,7 +188,7 @@ TEST(Container, AnotherKindNamesBoth) {
   const Error e = error_of([&] { Container::open(path, FileKind::irradiance); });
   EXPECT_EQ(e.code(), ExitCode::bad_input);
   EXPECT_EQ(e.where(), path);
-  EXPECT_STREQ(e.what(), "is a photons file, not irradiance; give what phos-irradiance writes");
+  EXPECT_STREQ(e.what(), "holds photons, not irradiance; give the output of phos-irradiance");
 }
 
 TEST(Container, AnotherVersionNamesBoth) {

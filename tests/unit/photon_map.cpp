@@ -17,7 +17,7 @@
 namespace phos {
 namespace {
 
-Photons some_photons(std::size_t n) {
+Photons some_photons(std::size_t n, bool families = false) {
   RandomStream random(1, Stage::test, n);
   random.start_bounce(0);
   Photons p;
@@ -31,6 +31,7 @@ Photons some_photons(std::size_t n) {
     p.distance.push_back(random.uniform());
     p.path.push_back(static_cast<std::uint8_t>(i % 3));
     p.bounce.push_back(static_cast<std::uint8_t>(i));
+    if (families) p.family.push_back(random.bits());
   }
   return p;
 }
@@ -64,6 +65,8 @@ void expect_equal(const PhotonMap& a, const PhotonMap& b) {
   expect_equal(a.source_normal, b.source_normal, "source_normal"),
       expect_equal(a.distance, b.distance, "distance");
   expect_equal(a.path, b.path, "path"), expect_equal(a.bounce, b.bounce, "bounce");
+  EXPECT_EQ(a.family.size(), b.family.size());
+  expect_equal(a.family, b.family, "family");
   EXPECT_EQ(totals_to_json(a.totals), totals_to_json(b.totals));
   std::vector<std::uint32_t> rows, more;
   std::vector<float> d2, more_d2;
@@ -78,9 +81,11 @@ void expect_equal(const PhotonMap& a, const PhotonMap& b) {
 
 TEST(PhotonMap, WrittenAndOpenedIsTheSame) {
   const std::string folder = test::scratch("photon_map_same");
-  for (const std::size_t n : {0u, 1u, 2u, 17u, 5000u}) {
-    const PhotonMap map = PhotonMap::build(some_photons(n), totals_for(n));
+  for (const std::size_t n : {0u, 1u, 2u, 17u, 5000u, 5001u}) {
+    const bool families = n % 2 == 1;
+    const PhotonMap map = PhotonMap::build(some_photons(n, families), totals_for(n));
     ASSERT_EQ(map.size(), n);
+    ASSERT_EQ(map.family.size(), families ? n : 0);
     EXPECT_EQ(map.container(), nullptr);
     const std::string path = folder + "/a.photons", again = folder + "/b.photons";
     map.write(path, provenance());
@@ -94,7 +99,7 @@ TEST(PhotonMap, WrittenAndOpenedIsTheSame) {
 }
 
 TEST(PhotonMap, BuildKeepsTheRowsTogether) {
-  const Photons source = some_photons(3000);
+  const Photons source = some_photons(3000, true);
   const PhotonMap map = PhotonMap::build(source, totals_for(3000));
   std::vector<std::size_t> order(source.size());
   for (std::size_t i = 0; i < source.size(); ++i) {
@@ -107,6 +112,7 @@ TEST(PhotonMap, BuildKeepsTheRowsTogether) {
     EXPECT_EQ(map.source_normal[i], source.source_normal[j]);
     EXPECT_EQ(map.distance[i], source.distance[j]);
     EXPECT_EQ(map.path[i], source.path[j]);
+    EXPECT_EQ(map.family[i], source.family[j]);
     EXPECT_EQ(map.bounce[i], source.bounce[j]);
   }
 }

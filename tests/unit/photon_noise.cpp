@@ -7,7 +7,7 @@ namespace phos {
 namespace {
 
 /// `paths` paths that leave `each` photons, the first of them direct.
-PhotonMap paths_of(int paths, int each, float flux_lm) {
+PhotonMap paths_of(int paths, int each, float flux_lm, bool families = false) {
   Photons p;
   PhotonTotals totals;
   totals.emitted = static_cast<std::uint64_t>(paths);
@@ -19,6 +19,7 @@ PhotonMap paths_of(int paths, int each, float flux_lm) {
       p.distance.push_back(1);
       p.path.push_back(static_cast<std::uint8_t>(b == 0 ? PhotonPath::direct : PhotonPath::indirect));
       p.bounce.push_back(static_cast<std::uint8_t>(b));
+      if (families) p.family.push_back(static_cast<std::uint32_t>(i));
     }
   }
   totals.stored = p.size();
@@ -38,6 +39,19 @@ TEST(PhotonNoise, CountsPairsOfAPath) {
   EXPECT_EQ(indirect.photons, kPaths * (kEach - 1));
   EXPECT_NEAR(indirect.pairs, double(kEach - 2) / (kPaths * (kEach - 1)), 1e-12);
   EXPECT_EQ(all.spread(400), 1);  // each path leaves as many, each time
+}
+
+/// Photons that carry alike: the same, whether their bounces or their families tell of their paths.
+TEST(PhotonNoise, CountsPairsOfAFamily) {
+  for (const bool direct : {true, false}) {
+    const PhotonNoise bounces = photon_noise(paths_of(50, 8, 0.25f), direct),
+                      families = photon_noise(paths_of(50, 8, 0.25f, true), direct);
+    EXPECT_NEAR(families.pairs, bounces.pairs, 1e-12);
+    EXPECT_NEAR(families.common, bounces.common, 1e-12);
+    EXPECT_EQ(families.photon_lm, bounces.photon_lm);
+  }
+  EXPECT_EQ(photon_noise(paths_of(50, 1, 0.25f, true), true).pairs, 0);
+  EXPECT_EQ(photon_noise(paths_of(50, 8, 0, true), true).pairs, 0);
 }
 
 TEST(PhotonNoise, SpreadIsWhatPathsOfUnlikeLengthsAdd) {

@@ -1,11 +1,15 @@
 // What a traced photon says of itself, and that threads and shards change nothing.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "photon/events.h"
 #include "photon/photon_file.h"
 #include "photon/trace.h"
+#include "scene/opening/find_portals.h"
+#include "support/daylight.h"
 #include "support/scenes.h"
 
 namespace phos {
@@ -33,7 +37,7 @@ std::string bytes(const Photons& p) {
   };
   add(p.position), add(p.flux), add(p.direction), add(p.normal), add(p.distance), add(p.source_normal),
       add(p.path);
-  add(p.bounce);
+  add(p.bounce), add(p.family);
   return all;
 }
 
@@ -65,6 +69,34 @@ TEST(Trace, ShardsAreThePartsOfTheWhole) {
     EXPECT_EQ(bytes(photons), bytes(whole.photons)) << n << " shards";
     EXPECT_EQ(totals_to_json(totals), totals_to_json(whole.totals)) << n << " shards";
   }
+}
+
+/// Where the ground sends light through a window, by many photons of one path.
+TEST(Trace, PhotonsTellTheirPathWherePathsPart) {
+  Scene scene = test::room_with_window(0.5f);
+  test::begin_instance(scene, "ground", 0);
+  test::add_quad(scene, {-2, -0.01f, 4.01f}, {0, 0, 8}, {9, 0, 0});
+  test::surround(scene, test::sky_of("overcast", ""));
+  EXPECT_TRUE(traced(scene, 1000).photons.family.empty());
+  scene.portal = find_portals(RayScene(scene), "auto");
+  ASSERT_FALSE(scene.portal.empty());
+  set_threads(1);
+  const Traced one = traced(scene, 5'001);
+  set_threads(2);
+  const Traced two = traced(scene, 5'001);
+  set_threads(0);
+  EXPECT_EQ(bytes(one.photons), bytes(two.photons));
+  ASSERT_EQ(one.photons.family.size(), one.photons.size());
+  std::map<std::uint32_t, std::size_t> photons_of;
+  std::size_t most = 0;
+  for (const std::uint32_t path : one.photons.family) {
+    EXPECT_LT(path, 5'001u);
+    most = std::max(most, ++photons_of[path]);
+  }
+  EXPECT_GT(most, 50u);
+  Photons joined;
+  for (int i = 1; i <= 3; ++i) append(joined, traced(scene, 5'001, text(i, "/3")).photons);
+  EXPECT_EQ(bytes(joined), bytes(one.photons));
 }
 
 TEST(Trace, MoreShardsThanPaths) {

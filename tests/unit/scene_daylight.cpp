@@ -299,7 +299,7 @@ TEST(Daylight, SaysWhatIsWrong) {
   o.sun = "180;40";
   refuse(o, "AZIMUTH,ELEVATION");
   o.sun = "180,40", o.sky = "blue";
-  refuse(o, "there is no sky \"blue\"");
+  refuse(o, "\"blue\" is not a sky");
   o.sky = "cie:17";
   refuse(o, "cie:1 to cie:16");
   o.sky = "perez";
@@ -311,7 +311,7 @@ TEST(Daylight, SaysWhatIsWrong) {
   o.when = "2026-12-21T23:00+01:00";
   refuse(o, "below the horizon");
   o.when = "2026-12-21T12:00+01:00", o.sun = "1,1";
-  refuse(o, "leave it out");
+  refuse(o, "give one of the two");
   o = {}, o.location = "152,13", o.when = "2026-12-21T12:00+01:00";
   refuse(o, "is not on earth");
   o = {}, o.sky_lx = 100;
@@ -319,7 +319,7 @@ TEST(Daylight, SaysWhatIsWrong) {
   o = {}, o.sun = "1,1", o.sun_lx = 0;
   refuse(o, "gives no light");
   o = {}, o.sky = "overcast", o.dew_point_c = 3;
-  refuse(o, "for --sky perez alone");
+  refuse(o, "needs --sky perez");
   EXPECT_EQ(complaint_of({}), "");
 }
 

@@ -2,22 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "scene/report/features.h"
-#include "support/run.h"
+#include "support/page.h"
 
 namespace phos {
 namespace {
 
-constexpr const char* kBegin = "<!-- tables -->\n";
-
 TEST(SceneFeatures, TheDocumentHoldsTheTables) {
-  const std::string document = test::slurp(std::string(PHOS_SOURCE) + "/docs/scenes.md");
-  const std::size_t at = document.find(kBegin);
-  ASSERT_NE(at, std::string::npos) << "docs/scenes.md has no line " << kBegin;
-  ASSERT_GT(document.size(), at + std::string(kBegin).size());
-  const std::string there = document.substr(at + std::string(kBegin).size());
-  EXPECT_EQ(there.compare(1, std::string::npos, feature_tables()), 0)
-      << "what follows that line in docs/scenes.md should be:\n\n"
-      << feature_tables();
+  test::expect_rest("docs/scenes.md", "tables", feature_tables());
 }
 
 TEST(SceneFeatures, EveryRowSaysWhatIsDone) {

@@ -325,7 +325,7 @@ TEST(BandOptions, AreChecked) {
   EXPECT_NE(usage_of([&] { check(o); }).find("3 to 400"), std::string::npos);
   o = BandOptions();
   o.spectra = {"a=b"};
-  EXPECT_NE(usage_of([&] { check(o); }).find("--bands too"), std::string::npos);
+  EXPECT_NE(usage_of([&] { check(o); }).find("needs --bands"), std::string::npos);
   const BandOptions some = triplet(5, {"a=b"});
   BandOptions read;
   const std::vector<std::string> words = band_words(some);

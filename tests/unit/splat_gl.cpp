@@ -6,17 +6,12 @@
 #include "core/error.h"
 #include "splat/cpu/splatter.h"
 #include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 
 namespace phos {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 /// Share of pixels that show something else, and the greatest differences at the others.
 struct SurfaceDifference {

@@ -135,7 +135,7 @@ TEST(Overlay, ColoursTellLives) {
   EXPECT_EQ(m.drawn.most, 16);
   const OverlayColourRow& row = row_of(OverlayColour::life);
   for (int i = 0; i < 3; ++i) {
-    const Rgb told = scene_colour(overlay_colour(row, 0.5 * i), m.drawn.key_cd_m2);
+    const Rgb told = scene_colour(row.at(0.5 * i), m.drawn.key_cd_m2);
     const Rgb seen = m.at(150, 25 + 50 * i);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], told[c], 1e-5) << i;
   }
@@ -160,7 +160,7 @@ TEST(Overlay, LegendInTheCorner) {
   const auto at = [&](int x, int y) { return picture[static_cast<std::size_t>(y * 400 + x)]; };
   const OverlayColourRow& row = row_of(OverlayColour::radius);
   for (const int x : {25, 97, 170}) {
-    const Rgb told = scene_colour(overlay_colour(row, (x - 19.5 + 0.5) / 156), 1);
+    const Rgb told = scene_colour(row.at((x - 19.5 + 0.5) / 156), 1);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(x, 400 - 50)[c], told[c], 0.05f * max_component(told)) << x;
   }
   EXPECT_EQ(at(300, 350), Rgb(1));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "direct/direct_light.h"
+#include "estimate/hemisphere/hemisphere.h"
 #include "splat/gl/hemisphere_raster.h"
 #include "splat/gl/raster_plane.h"
 #include "support/scenes.h"

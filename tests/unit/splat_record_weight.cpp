@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <vector>
 
 #include "core/random.h"
@@ -10,16 +9,11 @@
 #include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
 #include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/scenes.h"
 
 namespace phos {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 constexpr float kAccuracy = 0.25f;
 /// Rounding, of a weight against 1 and of light against twice the record's.

@@ -1,20 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "core/random.h"
 #include "scene/lamp/luminaires.h"
 #include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/scenes.h"
 
 namespace phos {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 constexpr int kWidth = 120, kHeight = 90;
 

@@ -1,24 +1,18 @@
 // Records that fade, drawn: as the functions of the cache blend them, on the CPU and by OpenGL.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 
 #include "core/random.h"
 #include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
 #include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/gloss_view.h"
 #include "support/splat_records.h"
 
 namespace phos {
 namespace {
-
-class GlEnvironment : public ::testing::Environment {
- public:
-  void SetUp() override { setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); }
-};
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new GlEnvironment);
 
 constexpr float kAccuracy = 0.25f;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/density.h"
+#include "estimate/gather.h"
 #include "estimate/radiance_gather.h"
 #include "photon/trace.h"
 #include "support/moving_rooms.h"

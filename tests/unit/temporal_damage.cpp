@@ -8,6 +8,7 @@
 
 #include "file/kinds/tables.h"
 #include "file/kinds/tensor_io.h"
+#include "photon/caustic_map.h"
 #include "photon/photon_map.h"
 #include "radiance/brdf/file.h"
 #include "radiance/brdf/table.h"
@@ -35,6 +36,7 @@ void write_photons(const std::string& path, Provenance provenance) {
     p.direction.push_back(encode_octahedral({0, 1, 0})), p.normal.push_back(encode_octahedral({0, 1, 0}));
     p.source_normal.push_back(encode_octahedral({0, -1, 0})), p.distance.push_back(2);
     p.path.push_back(static_cast<std::uint8_t>(PhotonPath::indirect)), p.bounce.push_back(1);
+    p.family.push_back(static_cast<std::uint32_t>(i));
   }
   const CausticPhotons caustics = *some_caustics();
   p.flights = caustics.flights;

@@ -12,8 +12,8 @@ namespace {
 constexpr std::string_view kPrefix = "phos-";
 
 constexpr Program kPrograms[] = {
-    {"phos-scene", "checks a scene and says what computing its light requires", "scene, luminaire",
-     "text, JSON"},
+    {"phos-scene", "checks a scene and shows the stages and settings that its light requires",
+     "scene, luminaire", "text, JSON"},
     {"phos-photons", "traces photons from the lights and stores where they land", "scene", ".photons"},
     {"phos-merge", "joins the shards of a run into the file that the whole run would have made",
      "shards of one run", ".photons, .irradiance"},
@@ -26,14 +26,15 @@ constexpr Program kPrograms[] = {
      ".irradiance, .radiance"},
     {"phos-splat", "renders a scene from its caches", "scene, caches", ".exr"},
     {"phos-sense", "computes illuminance at sensor points, with its standard error", "scene, caches", ".csv"},
-    {"phos-reference", "renders a scene by path tracing, to judge other stages by", "scene", ".exr, .csv"},
-    {"phos-bands", "joins what was computed in bands of wavelength", ".exr, .csv", ".exr, .csv"},
+    {"phos-reference", "renders a scene by path tracing, as a reference for the other stages",
+     "scene, photons", ".exr, .csv"},
+    {"phos-bands", "joins results that were computed in bands of wavelength", ".exr, .csv", ".exr, .csv"},
     {"phos-compare", "measures how far an image is from a reference", ".exr, .hdr", "text, JSON, .exr"},
     {"phos-picture", "makes a picture from an image of light, or a plot from a table or a luminaire",
      ".exr, .hdr, .csv, luminaire", ".png, .hdr, .csv, .svg, video"},
     {"phos-plan", "chooses the pipeline and its settings for an error or a time", "scene", "shell script"},
-    {"phos-study", "measures what settings cost and what error they leave", "study file", ".csv, .html"},
-    {"phos-info", "says what a phos file holds and how it was made", "any phos file",
+    {"phos-study", "measures the time and the error of settings", "study file", ".csv, .html"},
+    {"phos-info", "shows the contents and the origin of a phos file", "any phos file",
      "text, JSON, .csv, .ply"},
 };
 

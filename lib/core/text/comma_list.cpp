@@ -53,7 +53,7 @@ std::vector<std::string> split_known_names(std::string_view words,
   for (std::size_t i = parts.size(); i-- > 0;) {
     std::string name;
     for (std::size_t n = 1; i + n <= parts.size() && n <= kMostCommas + 1 && taken[i] == 0; ++n) {
-      name += (n > 1 ? "," : "") + parts[i + n - 1];
+      name.append(n > 1 ? "," : "").append(parts[i + n - 1]);
       if (taken[i + n] > 0 && known(name)) taken[i] = n;
     }
   }

@@ -12,7 +12,8 @@ struct NamedFile {
 
 /// What help says of commas in them.
 inline constexpr const char* kNamedFileCommas =
-    "a comma parts two only where NAME=FILE follows, and \\, and \\= are always part of a name or file";
+    "a comma separates two of them only where NAME=FILE follows, and \\, and \\= are always part of a name "
+    "or file";
 
 /// The words NAME=FILE in one, comma by comma; the word itself if it is not of that form. Names and files may
 /// hold commas and "=": of several ways to read a word, one whose FILE exists is taken, else NAME ends at the

@@ -10,7 +10,8 @@ std::string wrap(const std::string& s, std::size_t indent, std::size_t width) {
   std::istringstream words(s);
   for (std::string word; words >> word;) {
     if (column > indent && column + 1 + word.size() > width) {
-      out += '\n' + std::string(indent, ' ');
+      out += '\n';
+      out.append(indent, ' ');
       column = indent;
     }
     if (column > indent) out += ' ', ++column;
@@ -22,12 +23,17 @@ std::string wrap(const std::string& s, std::size_t indent, std::size_t width) {
 
 std::string list_entry(const std::string& left, const std::string& right, std::size_t column,
                        std::size_t width) {
-  std::string s = "  " + left;
-  if (s.size() + 2 > column)
-    s += "\n" + std::string(column, ' ');
-  else
+  std::string s(2, ' ');
+  s += left;
+  if (s.size() + 2 > column) {
+    s += '\n';
+    s.append(column, ' ');
+  } else {
     s.resize(column, ' ');
-  return s + wrap(right, column, width) + "\n";
+  }
+  s += wrap(right, column, width);
+  s += '\n';
+  return s;
 }
 
 }  // namespace phos

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "estimate/estimator.h"
 #include "estimate/record_options.h"
+#include "estimate/zone/facing_cells.h"
 #include "estimate/zone/gradients.h"
 #include "estimate/zone/tangent_surface.h"
 #include "photon/photon_map.h"
@@ -36,7 +39,8 @@ inline constexpr float kLeastRise = -1e-4f;
 /// Photons of a zone as they are gathered, and the memory for that.
 struct GatheredPhotons {
   ZonePhotons zone;
-  std::vector<float> height_m;  ///< of each over the tangent plane
+  std::vector<float> height_m;        ///< of each over the tangent plane
+  std::vector<std::uint32_t> family;  ///< of each (Photons::family); empty where the map has none
   std::vector<std::uint32_t> rows, codes;
 };
 
@@ -80,9 +84,13 @@ class ZoneGatherer : public TangentSurface {
   void drop_hidden(const ZonePlace& place, GatheredPhotons& gathered) const;
 
  private:
+  const FacingCells& facing() const;
+
   const PhotonMap& photons_;
   Counted counted_;
   float nearest_m_;  // photons from nearer count as from there
+  mutable std::once_flag once_;
+  mutable std::optional<FacingCells> facing_;  // when it is first needed
 };
 
 }  // namespace phos::inline estimate

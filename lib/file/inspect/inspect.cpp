@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/origin.h"
 #include "core/parallel.h"
+#include "core/text/append_item.h"
 #include "file/kinds/tensor_row.h"
 
 namespace phos::inline file {
@@ -171,7 +172,7 @@ std::string rows(const Json& table, const std::function<std::string(const Json&)
     std::string line;
     for (const auto& [name, value] : row.as_object()) {
       const std::string shown = show(value);
-      if (!shown.empty()) line += (line.empty() ? "" : ", ") + name + ' ' + shown;
+      if (!shown.empty()) append_item(line, name + ' ' + shown);
     }
     out += "\n    " + line;
   }

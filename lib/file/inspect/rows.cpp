@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/origin.h"
+#include "core/text/append_item.h"
 #include "file/inspect/inspect.h"
 #include "file/kinds/shape_pattern.h"
 #include "file/limits.h"
@@ -63,7 +64,7 @@ Column make_column(const Container& file, const std::string& name, bool decode) 
   const auto found = file.tensors().find(name);
   if (found == file.tensors().end()) {
     std::string all;
-    for (const auto& [other, tensor] : file.tensors()) all += (all.empty() ? "" : ", ") + other;
+    for (const auto& [other, tensor] : file.tensors()) append_item(all, other);
     throw Error(ExitCode::usage, file.path(), text("has no tensor \"", name, "\"; it has: ", all));
   }
   const Tensor& tensor = found->second;
@@ -254,7 +255,7 @@ void dump_csv(const Container& file, const std::vector<std::string>& names, bool
       throw Error(ExitCode::usage, file.path(),
                   text("tensors \"", names.front(), "\" and \"", name,
                        "\" have different numbers of rows; dump them apart"));
-    for (const std::string& column : columns.back().names) header += (header.empty() ? "" : ",") + column;
+    for (const std::string& column : columns.back().names) append_item(header, column, ",");
   }
   if (columns.empty()) return;
   for_rows(static_cast<std::size_t>(columns.front().tensor->shape[0]), sink, header + '\n',

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "file/kinds/shape_pattern.h"
 #include "file/kinds/tables.h"
 
@@ -22,8 +23,7 @@ std::vector<std::string_view> words_of(std::string_view list) {
 
 std::string programs(const KindRow& kind) {
   std::string out;
-  for (const std::string_view program : words_of(kind.programs))
-    out += text(out.empty() ? "`" : ", `", program, '`');
+  for (const std::string_view program : words_of(kind.programs)) append_item(out, text('`', program, '`'));
   return out;
 }
 
@@ -62,8 +62,7 @@ std::string section(const KindRow& kind) {
   std::string elsewhere, head = kTableHead;
   for (const TensorGroup& group : kind.groups) {
     if (home_of(group).kind != kind.kind) {
-      for (const TensorRow& row : group.rows)
-        elsewhere += text(elsewhere.empty() ? "`" : ", `", row.name, '`');
+      for (const TensorRow& row : group.rows) append_item(elsewhere, text('`', row.name, '`'));
       continue;
     }
     if (!group.title.empty()) out += text('\n', group.title, '\n');
@@ -85,7 +84,7 @@ std::string kind_line(const KindRow& kind) {
 std::string kind_sections() {
   std::string out;
   for (const KindRow& kind : all_kinds())
-    if (!kind.groups.empty()) out += (out.empty() ? "" : "\n") + section(kind);
+    if (!kind.groups.empty()) append_item(out, section(kind), "\n");
   return out;
 }
 

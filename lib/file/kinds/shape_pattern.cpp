@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline file {
 
@@ -62,10 +63,10 @@ std::string shape_words(const TensorRow& row) {
   for (std::string_view rest = row.shape; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     std::string word(rest.substr(0, comma));
-    if (word == "rgb" || word == "xyz") word = "3";
+    if (word == "rgb" || word == "xyz") word.assign(1, '3');
     if (word.starts_with("K.")) word.erase(0, 2);
     if (word.ends_with("^2")) word.replace(word.size() - 2, 2, "²");
-    out += (out.empty() ? "" : ",") + word;
+    append_item(out, word, ",");
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return text('[', out, ']');
@@ -73,7 +74,7 @@ std::string shape_words(const TensorRow& row) {
 
 std::string shape_words(const Shape& shape) {
   std::string out;
-  for (const std::uint64_t n : shape) out += (out.empty() ? "" : ",") + std::to_string(n);
+  for (const std::uint64_t n : shape) append_item(out, std::to_string(n), ",");
   return text('[', out, ']');
 }
 

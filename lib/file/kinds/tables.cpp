@@ -38,6 +38,9 @@ constexpr TensorRow kPhoton[] = {
      "light by mirrors and glass only; 3: caustic, by flat mirrors in which shadow rays find the light too"},
     {"bounce", Dtype::u8, "n", "1", kAny, "number of surfaces that the photon met before"},
 };
+constexpr TensorRow kFamilies[] = {
+    {"family", Dtype::u32, "n", "1", kAny, "number of its path, the lowest 32 bits"},
+};
 constexpr TensorRow kTree[] = {
     {"kdtree", Dtype::u8, "bytes", kOpaqueUnit, kAny, "the tree, compressed with lz4"},
 };
@@ -51,6 +54,11 @@ constexpr TensorRow kFlights[] = {
 constexpr TensorGroup kPhotonGroups[] = {
     {always, "", kPhoton},
     {always, "", kTree, FileForm::whole, FileForm::shard},
+    {optional,
+     "Light that is scattered outside of rooms goes on through portals in many photons of one path, which "
+     "are "
+     "not independent. This tensor is absent where no path parts so:",
+     kFamilies},
     {optional,
      "Sensors in mid-air need the stretches of caustic light that end at no stored photon. These tensors are "
      "absent where there are no such stretches:",

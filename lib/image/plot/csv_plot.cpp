@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline image {
 
@@ -55,20 +56,23 @@ PlotLine& line_named(std::vector<PlotLine>& lines, const std::string& name) {
 void declare_options(Options& o, CsvPlotOptions& p) {
   o.section("Plots of a table");
   o.text("x", p.x, "COLUMN", "column along the x axis");
-  o.list("y", p.y, "COLUMN", "column along the y axis; several make several lines");
-  o.text("series", p.series, "COLUMN", "a line for each value of this column");
-  o.list("where", p.where, "COLUMN=VALUE", "only rows with this value; of several, all");
+  o.list("y", p.y, "COLUMN", "column along the y axis; several columns make several lines");
+  o.text("series", p.series, "COLUMN", "draw a line for each value of this column");
+  o.list("where", p.where, "COLUMN=VALUE",
+         "draw only rows with this value; several conditions must all hold");
   o.flag("log-x", p.log_x, "logarithmic x axis");
   o.flag("log-y", p.log_y, "logarithmic y axis");
-  o.number("x-min", p.x_min, "X", "left end of the x axis; else from the points");
-  o.number("x-max", p.x_max, "X", "right end of the x axis");
-  o.number("y-min", p.y_min, "Y", "lower end of the y axis");
-  o.number("y-max", p.y_max, "Y", "upper end of the y axis");
-  o.text("title", p.title, "TEXT", "above the plot");
-  o.text("x-label", p.x_label, "TEXT", "below the x axis; else the column's name");
-  o.text("y-label", p.y_label, "TEXT", "beside the y axis; else the columns' names");
-  o.integer("plot-width", p.width, "PIXELS", "width of the plot; a PNG has twice as many", {320, 8192});
-  o.integer("plot-height", p.height, "PIXELS", "its height", {200, 8192});
+  o.number("x-min", p.x_min, "X", "left end of the x axis (default: from the points)");
+  o.number("x-max", p.x_max, "X", "right end of the x axis (default: from the points)");
+  o.number("y-min", p.y_min, "Y", "lower end of the y axis (default: from the points)");
+  o.number("y-max", p.y_max, "Y", "upper end of the y axis (default: from the points)");
+  o.text("title", p.title, "TEXT", "title above the plot (default: none)");
+  o.text("x-label", p.x_label, "TEXT", "label of the x axis (default: the name of the column)");
+  o.text("y-label", p.y_label, "TEXT", "label of the y axis (default: the names of the columns)");
+  o.integer("plot-width", p.width, "PIXELS", "width of the plot; a PNG has twice as many pixels",
+            {320, 8192});
+  o.integer("plot-height", p.height, "PIXELS", "height of the plot; a PNG has twice as many pixels",
+            {200, 8192});
 }
 
 std::string given_plot_option(const Options& options) {
@@ -88,7 +92,7 @@ Plot plot_of(const CsvTable& table, const CsvPlotOptions& o) {
   plot.x = {o.x_label.empty() ? o.x : o.x_label, scale(o.log_x), o.x_min, o.x_max};
   plot.y = {o.y_label, scale(o.log_y), o.y_min, o.y_max};
   if (o.y_label.empty())
-    for (const std::string& y : o.y) plot.y.label += (plot.y.label.empty() ? "" : ", ") + y;
+    for (const std::string& y : o.y) append_item(plot.y.label, y);
   plot.width = static_cast<int>(o.width), plot.height = static_cast<int>(o.height);
 
   for (const std::size_t row : rows_of(table, o.where)) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/options.h"
 #include "hsh/basis.h"
 #include "hsh/limits.h"
 #include "radiance/lobe_dot.h"
@@ -54,22 +55,20 @@ int order_of(std::size_t numbers) {
 
 void declare_options(Options& options, BrdfTableOptions& brdf) {
   options.section("Projection");
-  options.number(
-      "error", brdf.error, "SHARE",
-      "energy of the lobe, integral of (f cos)^2, that the harmonics may leave out; each direction "
-      "takes the lowest order that meets it. 0.05 of the energy is 0.22 of the lobe's rms value, "
-      "0.01 is 0.1",
-      {0, 1});
+  options.number("error", brdf.error, "SHARE",
+                 "share of a lobe's energy, the integral of (f cos)^2, that the harmonics may leave out; "
+                 "each direction takes the lowest order that meets it. A share of 0.05 is 0.22 of the lobe's "
+                 "rms value, 0.01 is 0.1; 0: nothing is left out",
+                 {0, 1});
   options.integer("max-order", brdf.max_order, "N",
-                  "highest order; for directions that need more see --too-sharp",
+                  "highest order of the harmonics; directions that need more follow --too-sharp",
                   {1, kMostOrder.as<double>()});
-  options.choice<TooSharp>(
-      "too-sharp", brdf.too_sharp, {{"trace", TooSharp::trace}, {"cut", TooSharp::cut}},
-      "directions that need a higher order are marked to be traced, or their bands are cut off there, which "
-      "blurs what they reflect");
+  options.choice<TooSharp>("too-sharp", brdf.too_sharp, {{"trace", TooSharp::trace}, {"cut", TooSharp::cut}},
+                           "directions that need a higher order: trace: marked to be traced; cut: cut off at "
+                           "the highest order, which blurs their reflections");
   options.integer("resolution", brdf.resolution, "N",
-                  "directions of view: N x N on the parabolic map, or N angles where the material is "
-                  "isotropic; interpolation errs by 1/N^2",
+                  "number of directions of view: N x N on the parabolic map, or N angles where the material "
+                  "is isotropic; interpolation errs by 1/N^2",
                   {2, 1024});
 }
 

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "core/counters.h"
-#include "core/options.h"
 #include "core/vector.h"
 #include "file/container.h"
 #include "scene/scene.h"
+
+namespace phos {
+class Options;
+}
 
 namespace phos::inline radiance {
 

@@ -23,7 +23,7 @@ DVec3 cross_of(const Scene& scene, std::uint32_t tri) {
 }
 
 void check_indices(const Scene& scene) {
-  if (scene.triangle.empty()) fail(scene, "the scene has no triangles; nothing can be lit");
+  if (scene.triangle.empty()) fail(scene, "the scene has no triangles, and nothing can be lit; add a mesh");
   if (scene.triangle_instance.size() != scene.triangle.size())
     fail(scene, "every triangle needs an instance");
   for (std::size_t i = 0; i < scene.position.size(); ++i) {

@@ -184,7 +184,7 @@ void fill_lights(Scene& scene) {
   for (const Light& light : scene.light) {
     if (is_finite(light.flux_lm)) continue;
     throw Error(ExitCode::bad_input, scene.path,
-                text("light \"", light.name, "\" emits more than numbers can say; give it a finite power"));
+                text("light \"", light.name, "\" emits more than numbers can hold; give it a finite power"));
   }
   std::erase_if(scene.light, [&](const Light& light) {
     if (max_component(light.flux_lm) > 0) return false;

@@ -141,7 +141,7 @@ std::size_t element_count(const GltfDocument& document, int index) {
     for (const std::string& buffer : document.buffer) most += buffer.size();
     if (accessor.count > most) {
       document.fail(text(where, " has no bufferView and a count of ", accessor.count,
-                         ", more than there are bytes in the buffers"));
+                         ", more than the buffers have bytes; export the scene again"));
     }
     return accessor.count;
   }

@@ -68,7 +68,9 @@ Chunks split(const std::string& path, std::string_view bytes) {
 Json parse_document(const std::string& path, std::string_view json) {
   while (!json.empty() && json.back() == '\0') json.remove_suffix(1);
   Json document = parse_json(json, path);
-  if (!document.is_object()) throw Error(ExitCode::bad_input, path, "not a glTF file: its JSON is no object");
+  if (!document.is_object())
+    throw Error(ExitCode::bad_input, path,
+                "is not a glTF file: its JSON is not an object; export the scene again");
   return document;
 }
 
@@ -79,7 +81,7 @@ void check_version(const Json& document, const std::string& path) {
     // glTF 1.0 could leave the version out, and had objects where 2.0 has arrays.
     const Json* nodes = document.find("nodes");
     if (nodes && nodes->is_object()) fail(kVersion1);
-    fail("not a glTF file: asset.version is missing");
+    fail("is not a glTF file: asset.version is missing; export the scene again");
   }
   const std::string v = version->is_string() ? version->as_string() : version->dump();
   if (v.rfind("1.", 0) == 0 || v == "1") fail(kVersion1);
@@ -89,7 +91,8 @@ void check_version(const Json& document, const std::string& path) {
 void check_extensions(const Json& document, const std::string& path) {
   const Json* required = document.find("extensionsRequired");
   if (!required) return;
-  if (!required->is_array()) throw Error(ExitCode::bad_input, path, "extensionsRequired must be an array");
+  if (!required->is_array())
+    throw Error(ExitCode::bad_input, path, "extensionsRequired must be an array; export the scene again");
   for (const Json& name : required->as_array()) {
     const std::string s = name.is_string() ? name.as_string() : name.dump();
     if (!can_be_required(s)) {

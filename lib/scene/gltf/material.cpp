@@ -203,7 +203,7 @@ class MaterialReader {
     check_colour("diffuseTransmissionColorFactor", colour);
     if (share == 0 || find_path(*json_, "extras/phos/brdf")) return;
     if (max_component(colour) > 1)
-      warn("its diffuse transmission colour is above 1: it sends on more light than it gets");
+      warn("its diffuse transmission colour is above 1: it transmits more light than it receives");
     material_.diffuse_transmission = static_cast<float>(share);
     material_.diffuse_transmission_colour = colour;
     material_.diffuse_transmission_map = extension_texture(kDiffuse, "diffuseTransmissionTexture", false);
@@ -254,7 +254,7 @@ class MaterialReader {
     if (thickness_m > 0)
       warn("rough or partial transmission of a solid is not modelled: its surface is read as a thin sheet");
     if (!smooth) {
-      warn("what it transmits passes straight through, not scattered, however rough it is");
+      warn("transmitted light passes straight through without scattering, whatever the roughness");
     } else if (material_.transmission == 1 && !material_.transmission_map.used() && material_.metallic == 0 &&
                material_.specular == 1 && material_.specular_colour == Rgb(1)) {
       become(Model::thin_dielectric);
@@ -356,9 +356,9 @@ class MaterialReader {
     const ModelRow& row = row_of(material_);
     if (row.passes_kt && material_.diffuse_transmission > 0 &&
         max_component(material_.kd + material_.diffuse_transmission_colour) > 1.0001f)
-      warn("kd + kt is above 1: it sends on more light than it gets");
+      warn("kd + kt is above 1: it transmits more light than it receives");
     if (max_component(material_.kd + (row.adds_ks ? material_.ks : Rgb(0))) > 1.0001f)
-      note("kd + ks is above 1: it reflects more light than it gets");
+      note("kd + ks is above 1: it reflects more light than it receives");
   }
 
   const GltfDocument& document_;

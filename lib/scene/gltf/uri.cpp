@@ -68,7 +68,7 @@ std::string read_referred(const std::string& path) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw Error(ExitCode::bad_input, path, "is referred to by a scene, but is no file; put a file there");
+    throw Error(ExitCode::bad_input, path, "is named by a scene, but is not a file; put a file there");
   return read_text(path);
 }
 

@@ -114,7 +114,7 @@ class Reader {
     }
     file_.opening = eulumdat_opening(length, width, 0.25 * sum);
     if (std::any_of(std::begin(height), std::end(height), [&](double h) { return h != most; }))
-      warn(text("the luminous sides have several heights: all are given their mean, ", 0.25 * sum, " m"));
+      warn(text("the luminous sides have different heights: their mean is used for all, ", 0.25 * sum, " m"));
   }
 
   /// Sets are the lamps that the luminaire may be equipped with. A negative number of lamps is absolute

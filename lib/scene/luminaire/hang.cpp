@@ -35,7 +35,8 @@ GivenLuminaires::GivenLuminaires(const LuminaireOptions& options) {
   std::map<std::string, std::shared_ptr<const PhotometricFile>> read;
   for (const NamedFile& w : named_files(options.of_lights, "--luminaire")) {
     if (file_.count(w.name))
-      throw Error(ExitCode::usage, "--luminaire", text("is given twice for the light \"", w.name, "\""));
+      throw Error(ExitCode::usage, "--luminaire",
+                  text("is given twice for the light \"", w.name, "\"; give it once"));
     std::shared_ptr<const PhotometricFile>& file = read[w.file];
     if (!file) file = std::make_shared<const PhotometricFile>(read_photometry(w.file));
     file_[w.name] = file;

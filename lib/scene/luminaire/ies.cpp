@@ -31,7 +31,7 @@ class Numbers {
   void require_ascending(const std::vector<double>& deg, const char* which) const {
     phos::require_ascending(
         deg, which, where_, last_line_,
-        commas_ ? "are its decimals written with commas? Here they part numbers" : kAskTheMaker);
+        commas_ ? "are its decimals written with commas? A comma separates numbers here" : kAskTheMaker);
   }
 
   std::string_view word() {
@@ -185,7 +185,7 @@ class Reader {
     if (!beside_)
       fail_at(where_, line,
               text("TILT= names the file \"", value, "\", which cannot be read here; include its lines"));
-    const std::string bytes = beside_(value), where = value;
+    const std::string bytes = beside_(value), where = text(where_, ": TILT=", value);
     const std::vector<PhotometricLine> lines = photometric_lines(bytes);
     Numbers of_file(lines, 0, where);
     read_tilt_table(of_file);
@@ -276,7 +276,7 @@ class Reader {
       warn(text("the lumens per lamp are ", lm, "; absolute photometry is -1, which is taken"));
     if (!file_.absolute) file_.lamp_lm = std::max(0.0, lamps) * lm;
     if (!std::isfinite(file_.lamp_lm))
-      fail_at(where_, numbers.last_line(), "the lumens of the lamps are beyond what numbers can say");
+      fail_at(where_, numbers.last_line(), "the lumens of the lamps are beyond the range of numbers");
     file_.format = text("LM-63-", edition_, ", type ", "CBA"[type_ - 1]);
   }
 
@@ -298,7 +298,7 @@ class Reader {
                 " has no use for it: it is ignored"));
     }
     if (!std::isfinite(factor_))
-      fail_at(where_, numbers.last_line(), "the factors are beyond what numbers can say");
+      fail_at(where_, numbers.last_line(), "the factors are beyond the range of numbers");
   }
 
   void read_angles(Numbers& numbers) {
@@ -369,7 +369,7 @@ class Reader {
     } else if (first == 90 && last == 270) {
       planes.mirror_at_end();
     } else if (first != 0) {
-      fail_range("of type C they begin at 0 (or run from 90 to 270)");
+      fail_range("type C needs them to begin at 0, or to run from 90 to 270");
     } else if (last == 90) {
       planes.mirror_at_end(), planes.mirror_at_end();
     } else if (last == 180) {
@@ -379,7 +379,7 @@ class Reader {
       for (std::size_t i = 1; i < horizontals_; ++i)
         step = std::max(step, horizontal_deg_[i] - horizontal_deg_[i - 1]);
       if (!(last > 180 && 360 - last >= kLeastStep_deg && 360 - last <= 1.5 * step))
-        fail_range("of type C they end at 0, 90, 180 or 360");
+        fail_range("type C needs them to end at exactly 0, 90, 180 or 360");
       warn(text("horizontal angles end at ", last, ": the plane at 360 is taken to be that at 0"));
       planes.azimuth_deg.push_back(360), planes.row.push_back(0);
     }

@@ -6,19 +6,17 @@
 namespace phos::inline scene {
 
 void declare_options(Options& options, LuminaireOptions& luminaires) {
-  options.named_files(
-      "luminaire", luminaires.of_lights,
-      "gives a point or spot light of the scene, or one of EXT_lights_ies, the measured distribution and "
-      "lumens of a luminaire: IES LM-63 (.ies) or EULUMDAT (.ldt); point lights then hang straight down, "
-      "their C0 along the node's x axis, spots shine where they did; several may be given; give them to "
-      "every stage",
-      Adopted::site);
-  options.choice(
-      "luminaires-as", luminaires.as,
-      {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
-      "what of measured luminaires shines: the luminous opening that the file states (right near by, and "
-      "seen in pictures), or a point",
-      {Recorded::if_given, Adopted::site});
+  options.named_files("luminaire", luminaires.of_lights,
+                      "gives the light NAME of the scene (point, spot or EXT_lights_ies) the measured "
+                      "distribution and lumens of the luminaire FILE: IES LM-63 (.ies) or EULUMDAT (.ldt). A "
+                      "point light then hangs straight down, with C0 along the node's x axis; a spot light "
+                      "keeps its direction. Several may be given; give them to every stage",
+                      Adopted::site);
+  options.choice("luminaires-as", luminaires.as,
+                 {{"openings", LuminairesAs::openings}, {"points", LuminairesAs::points}},
+                 "emitting shape of measured luminaires: openings: the luminous opening that the file "
+                 "states, right near by and seen in pictures; points: a point",
+                 {Recorded::if_given, Adopted::site});
 }
 
 std::vector<std::string> luminaire_files(const LuminaireOptions& options) {

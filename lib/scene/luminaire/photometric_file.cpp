@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "file/atomic_file.h"
 #include "file/lfs_pointer.h"
 #include "scene/gltf/uri.h"
@@ -48,7 +49,7 @@ Format format_of(std::string_view bytes) {
 void check_lumens(PhotometricFile& file) {
   const double lm = file.photometry->flux_lm();
   if (!(lm > 0)) {
-    file.warnings.push_back("all intensities are 0: the luminaire gives no light");
+    file.warnings.emplace_back("all intensities are 0: the luminaire gives no light");
     return;
   }
   // EULUMDAT states the share, and its reader has compared it.
@@ -83,8 +84,8 @@ double TiltTable::factor(double tilt_deg) const {
 
 std::string PhotometricFile::title(const std::string& absent) const {
   std::string out = maker;
-  for (const std::string& part : {luminaire, catalogue})
-    if (!part.empty() && out.find(part) == std::string::npos) out += (out.empty() ? "" : ", ") + part;
+  for (const std::string* part : {&luminaire, &catalogue})
+    if (!part->empty() && out.find(*part) == std::string::npos) append_item(out, *part);
   return out.empty() ? absent : out;
 }
 
@@ -118,7 +119,9 @@ PhotometricFile parse_photometry(std::string_view bytes, const std::string& wher
     throw Error(ExitCode::bad_input, where,
                 text("is neither an IES (LM-63) nor a EULUMDAT file of photometry, but ", kLfsPointer));
   if (format == Format::none)
-    throw Error(ExitCode::bad_input, where, "is neither an IES (LM-63) nor a EULUMDAT file of photometry");
+    throw Error(ExitCode::bad_input, where,
+                "is neither an IES (LM-63) nor a EULUMDAT file of photometry; give the .ies or .ldt file of "
+                "the luminaire");
   PhotometricFile file =
       format == Format::ies ? parse_ies(bytes, where, beside) : parse_eulumdat(bytes, where);
   check_lumens(file);
@@ -129,9 +132,9 @@ PhotometricFile read_photometry(const std::string& path) {
   return parse_photometry(read_text(path), path, [&](const std::string& name) {
     const std::optional<std::string> file = file_below(path, name);
     if (!file)
-      throw Error(
-          ExitCode::bad_input, path,
-          text("TILT= names the file \"", name, "\", which does not lie beside it or below; put it there"));
+      throw Error(ExitCode::bad_input, path,
+                  text("TILT= names the file \"", name,
+                       "\", which lies neither beside this file nor in a folder below; put it there"));
     return read_referred(*file);
   });
 }

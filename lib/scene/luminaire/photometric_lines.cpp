@@ -96,7 +96,7 @@ std::vector<float> CandelaList::finish(double factor, const std::string& where,
   }
   if (!(most * factor <= 1e30))
     throw Error(ExitCode::bad_input, where,
-                text("the greatest intensity, ", most * factor, " cd, is beyond 1e30"));
+                text("the greatest intensity, ", most * factor, " cd, is beyond 1e30; ", kAskTheMaker));
   std::vector<float> out;
   for (const double v : cd) out.push_back(static_cast<float>(std::max(0.0, v) * factor));
   return out;

@@ -393,6 +393,14 @@ void Bsdf::replace_pane(const PaneLayer& pack) {
   if (delta_ == Delta::dielectric) delta_ = Delta::thin;
 }
 
+float Bsdf::total_reflection(const Vec3& wo) const {
+  if (delta_ != Delta::dielectric) return 0;
+  const float eta = front_ ? ior_ : 1 / ior_;
+  float cos_t;
+  const bool total = eta < 1 && fresnel_dielectric(std::fabs(glm::dot(wo, frame_.z)), eta, cos_t) >= 1;
+  return total ? 1 / eta : 0;
+}
+
 int Bsdf::specular_branches(const Vec3& wo, BsdfSample branches[2], TransportMode mode) const {
   if (!has_specular()) return 0;
   const Vec3 o = frame_.to_local(wo);

@@ -102,6 +102,9 @@ class Bsdf {
     return delta_ == Delta::thin || coverage_ < 1 ||
            (delta_ != Delta::dielectric && max_component(sheet_) > 0);
   }
+  /// Refractive index, inside over outside or the inverse, whichever is above 1, of a face of solid glass
+  /// that reflects light along wo totally; 0 where none does.
+  float total_reflection(const Vec3& wo) const;
   /// The shares that pass straight towards -wo and that a delta lobe reflects; 0 for wo below the surface.
   PaneLayer pane(const Vec3& wo) const;
   /// A plate of solid glass whose other face lies `thickness_m` behind the point, parallel to it.

@@ -34,26 +34,66 @@ void each_vertex(const Scene& scene, const Instance& instance, const Visit& visi
     for (const std::uint32_t v : scene.triangle[instance.first_triangle + t].v) visit(scene.position[v]);
 }
 
-bool lies_in_a_plane(const Scene& scene, const std::vector<std::size_t>& instances) {
-  Vec3 normal(0), place(0);
-  float largest_m2 = 0;
-  Bounds box;
-  for (const std::size_t i : instances) {
-    const Instance& instance = scene.instance[i];
-    for (std::uint32_t t = 0; t < instance.triangle_count; ++t) {
-      const std::uint32_t triangle = instance.first_triangle + t;
-      if (const float m2 = area_m2(scene, triangle); m2 > largest_m2)
-        largest_m2 = m2, normal = geometric_normal(scene, triangle),
-        place = scene.position[scene.triangle[triangle].v[0]];
-    }
-    each_vertex(scene, instance, [&](const Vec3& p) { box.include(p); });
+template <class Visit>
+void each_triangle(const Scene& scene, const std::vector<std::size_t>& instances, const Visit& visit) {
+  for (const std::size_t i : instances)
+    for (std::uint32_t t = 0; t < scene.instance[i].triangle_count; ++t)
+      visit(scene.instance[i].first_triangle + t);
+}
+
+/// The largest triangle of a part; its area is 0 where no triangle has one.
+struct Largest {
+  Vec3 normal{0}, place{0};
+  float m2 = 0;
+
+  Largest(const Scene& scene, const std::vector<std::size_t>& instances) {
+    each_triangle(scene, instances, [&](std::uint32_t t) {
+      if (const float own_m2 = area_m2(scene, t); own_m2 > m2)
+        m2 = own_m2, normal = geometric_normal(scene, t), place = scene.position[scene.triangle[t].v[0]];
+    });
   }
+};
+
+bool lies_in_a_plane(const Scene& scene, const std::vector<std::size_t>& instances) {
+  const auto [normal, place, largest_m2] = Largest(scene, instances);
+  Bounds box;
+  for (const std::size_t i : instances)
+    each_vertex(scene, scene.instance[i], [&](const Vec3& p) { box.include(p); });
   bool flat = largest_m2 > 0;
   const float slack_m = kFlat * box.diagonal_m();
   for (const std::size_t i : instances)
     each_vertex(scene, scene.instance[i],
                 [&](const Vec3& p) { flat = flat && std::fabs(glm::dot(p - place, normal)) <= slack_m; });
   return flat;
+}
+
+/// A box without thickness has two faces at one place. Marks one of them, so that it is one pane.
+void mark_second_face(const Scene& scene, const std::vector<std::size_t>& instances,
+                      std::vector<std::uint8_t>& left_out) {
+  const Vec3 normal = Largest(scene, instances).normal;
+  const auto is_behind = [&](std::uint32_t t) { return glm::dot(geometric_normal(scene, t), normal) < 0; };
+  double front_m2 = 0, behind_m2 = 0;
+  each_triangle(scene, instances, [&](std::uint32_t t) {
+    (is_behind(t) ? behind_m2 : front_m2) += static_cast<double>(area_m2(scene, t));
+  });
+  constexpr double kAlike = 1e-4;
+  if (std::fabs(front_m2 - behind_m2) > kAlike * front_m2) return;
+  each_triangle(scene, instances, [&](std::uint32_t t) { left_out[t] = is_behind(t); });
+}
+
+void leave_out(Scene& scene, const std::vector<std::uint8_t>& left_out) {
+  std::uint32_t kept = 0;
+  for (Instance& instance : scene.instance) {
+    const std::uint32_t first = kept;
+    for (std::uint32_t t = instance.first_triangle; t < instance.first_triangle + instance.triangle_count;
+         ++t) {
+      if (left_out[t]) continue;
+      scene.triangle[kept] = scene.triangle[t], scene.triangle_instance[kept] = scene.triangle_instance[t];
+      ++kept;
+    }
+    instance.first_triangle = first, instance.triangle_count = kept - first;
+  }
+  scene.triangle.resize(kept), scene.triangle_instance.resize(kept);
 }
 
 Material thin(const Material& solid) {
@@ -72,6 +112,7 @@ Material thin(const Material& solid) {
 
 void make_sheets_thin(Scene& scene) {
   const std::size_t materials = scene.material.size();
+  std::vector<std::uint8_t> left_out(scene.triangle.size(), 0);
   for (std::size_t material = 0; material < materials; ++material) {
     const Material& m = scene.material[material];
     if (!is_solid_glass(m) || !(m.thickness_m > 0)) continue;
@@ -89,8 +130,11 @@ void make_sheets_thin(Scene& scene) {
     for (std::size_t i = 0; i < scene.instance.size(); ++i)
       if (scene.instance[i].material == material) parts[unions.root(i)].push_back(i);
     std::vector<std::size_t> sheets;
-    for (const auto& [root, instances] : parts)
-      if (lies_in_a_plane(scene, instances)) sheets.insert(sheets.end(), instances.begin(), instances.end());
+    for (const auto& [root, instances] : parts) {
+      if (!lies_in_a_plane(scene, instances)) continue;
+      sheets.insert(sheets.end(), instances.begin(), instances.end());
+      mark_second_face(scene, instances, left_out);
+    }
     if (sheets.empty()) continue;
     scene.warnings.emplace_back(
         Note::Level::info, "loader", "material", m.name,
@@ -107,6 +151,7 @@ void make_sheets_thin(Scene& scene) {
       scene.instance[i].material = static_cast<std::uint32_t>(scene.material.size());
     scene.material.push_back(pane);
   }
+  leave_out(scene, left_out);
 }
 
 }  // namespace phos::inline scene

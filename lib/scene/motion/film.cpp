@@ -31,16 +31,18 @@ bool same_instance(const Scene& a, const Scene& b, std::size_t i) {
 
 void require_one_scene(const Scene& a, const Scene& b) {
   const auto fail = [&](const std::string& what) {
-    throw Error(ExitCode::bad_input, b.path,
-                what + ": these are not two times of one scene; was it exported again meanwhile?");
+    throw Error(
+        ExitCode::bad_input, b.path,
+        what +
+            ": the scene has changed between two of its frames; was it exported again meanwhile? Start anew");
   };
   const std::size_t n = std::min(a.instance.size(), b.instance.size());
   for (std::size_t i = 0; i < n; ++i)
     if (!same_instance(a, b, i)) fail(text("\"", b.instance[i].node, "\" has other triangles"));
   if (a.instance.size() != b.instance.size())
-    fail(text("\"", (a.instance.size() > n ? a : b).instance[n].node, "\" is there at one time only"));
+    fail(text("\"", (a.instance.size() > n ? a : b).instance[n].node, "\" exists in one frame alone"));
   if (a.position.size() != b.position.size() || a.material.size() != b.material.size())
-    fail("the vertices or materials are others");
+    fail("vertices or materials are others");
 }
 
 template <class Visit>
@@ -92,7 +94,7 @@ void require_frames(const Scene& scene, const FrameRange& range) {
   if (range.first >= 0 && range.last <= last) return;
   throw Error(ExitCode::usage, "--frames",
               text(range.first, ":", range.last, " goes beyond the animation of ", scene.path,
-                   ", whose frames are 0:", last));
+                   ", whose frames are 0:", last, "; give frames of that range"));
 }
 
 Scene load_frame(const std::string& path, const SceneOptions& options, std::int64_t frame) {

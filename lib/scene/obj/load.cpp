@@ -117,7 +117,9 @@ class ObjReader {
     if (!read || attrib_.vertices.empty()) {
       const std::string why = one_line(error);
       throw Error(ExitCode::bad_input, scene_.path,
-                  why.empty() ? "neither glTF nor OBJ: it holds no vertices" : "not a valid OBJ: " + why);
+                  why.empty()
+                      ? "is neither glTF nor OBJ: it holds no vertices; give a .glb, .gltf or .obj scene"
+                      : text("is not a valid OBJ: ", why, "; export it again"));
     }
     for (const std::string& name : mtl.missing)
       scene_.warnings.emplace_back("material file not found: " + name);
@@ -278,7 +280,7 @@ class ObjReader {
       if (index < 0 || static_cast<std::size_t>(index) >= floats / width) {
         throw Error(ExitCode::bad_input, scene_.path,
                     text("group \"", name, "\": ", what, " index ", index + 1, " is out of range; there are ",
-                         floats / width));
+                         floats / width, "; export the scene again"));
       }
       return width * static_cast<std::size_t>(index);
     };

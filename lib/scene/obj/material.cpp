@@ -123,7 +123,7 @@ void ObjMaterials::read_reflection(const tinyobj::material_t& from, const MtlSta
     }
     if (max_component(m.kd + m.ks) > 1.0001f)
       scene_.warnings.emplace_back(Note::Level::info, kSaidByLint, "material", m.name,
-                                   "Kd + Ks is above 1: it reflects more light than it gets");
+                                   "Kd + Ks is above 1: it reflects more light than it receives");
   }
   m.base_colour = texture(from.diffuse_texname, from.diffuse_texopt, true);
   // A map stands in for a Kd that exporters leave black.
@@ -144,7 +144,7 @@ bool ObjMaterials::read_glass(const MtlStatements& said, double share, Material&
   }
   if (!whole || said.states("map_d")) {
     warn(m.name, text("illum ", illum,
-                      " and Ni are not used: what d leaves open passes light straight, without "
+                      " and Ni are not used: the share that d leaves open passes light straight, without the "
                       "reflections of glass"));
     return false;
   }

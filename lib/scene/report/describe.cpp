@@ -40,7 +40,7 @@ std::string names_of(const std::vector<const Material*>& materials) {
   constexpr std::size_t kShown = 3;
   std::string out;
   for (std::size_t i = 0; i < std::min(kShown, materials.size()); ++i)
-    out += (i ? ", " : "") + materials[i]->name;
+    out.append(i ? ", " : "").append(materials[i]->name);
   if (materials.size() > kShown) out += text(" and ", materials.size() - kShown, " more");
   return out;
 }
@@ -181,7 +181,7 @@ void add_ways(const std::vector<LightWay>& all, std::vector<Requirement>& out) {
   if (ways.empty()) return;
   std::string why;
   for (std::size_t i = 0; i < std::min(kShown, ways.size()); ++i)
-    why += (i > 0 ? "; " : "") + share_text(ways[i]);
+    why.append(i > 0 ? "; " : "").append(share_text(ways[i]));
   if (ways.size() > kShown) why += text("; and ", ways.size() - kShown, " more such ways");
   out.push_back({kCausticPhotons, why});
 }
@@ -230,7 +230,8 @@ std::vector<Requirement> scene_requirements(const Scene& scene) {
   if (lit && !diffuse.empty()) out.push_back({"irradiance records", "diffuse: " + names_of(diffuse)});
   if (lit && !glossy.empty()) out.push_back({"gloss", "glossy: " + names_of(glossy)});
   if (!specular.empty())
-    out.push_back({"specular tracing", "mirrors, or what light passes straight: " + names_of(specular)});
+    out.push_back(
+        {"specular tracing", "mirrors, or materials that light passes straight: " + names_of(specular)});
   if (!scene.animation.empty()) {
     out.push_back({"temporal data", text("animated over ", scene.frames, " frames")});
   }

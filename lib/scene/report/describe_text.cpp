@@ -113,7 +113,7 @@ std::string moving_values(const Json::Array& targets) {
   constexpr std::size_t kShown = 3;
   std::string out;
   for (std::size_t i = 0; i < std::min(kShown, targets.size()); ++i)
-    out += (i > 0 ? ", " : "") + targets[i].as_string();
+    out.append(i > 0 ? ", " : "").append(targets[i].as_string());
   if (targets.size() > kShown) out += text(" and ", targets.size() - kShown, " more");
   return out;
 }

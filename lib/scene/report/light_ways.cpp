@@ -258,7 +258,7 @@ std::string by_text(const LightWay& way) {
   const std::size_t shown = std::min(kShown, way.by.size());
   std::string out;
   for (std::size_t i = 0; i < shown; ++i)
-    out += (i == 0 ? "" : i + 1 == way.by.size() ? " and " : ", ") + way.by[i];
+    out.append(i == 0 ? "" : i + 1 == way.by.size() ? " and " : ", ").append(way.by[i]);
   if (way.by.size() > shown) out += text(" and ", way.by.size() - shown, " more");
   return out;
 }

@@ -12,6 +12,7 @@
 #include "scene/load.h"
 #include "scene/material/merl.h"
 #include "scene/material/models.h"
+#include "scene/nested_glass.h"
 #include "scene/report/describe.h"
 #include "scene/sky/access.h"
 #include "scene/sky/daylight.h"
@@ -38,7 +39,7 @@ constexpr Mend kMends[] = {
     {kLightIgnored, "give it an area and an intensity, or remove it"},
     {kAboveOne, "lower kd or ks until kd + ks is at most 1"},
     {kAbsorbsNothing, "lower kd or ks; white paint reflects 0.8"},
-    {kReflectsMuch, "lower it unless it is meant"},
+    {kReflectsMuch, "lower the reflectance, unless it is intended"},
     {kMetalByDefault, "give paint, plaster, wood and stone a metallicFactor of 0"},
 };
 
@@ -49,10 +50,13 @@ class Linter {
   std::vector<Finding> run() {
     check_size();
     check_light();
-    if (!scene_.camera.empty()) {
+    const auto& materials = scene_.material;
+    const bool glass = std::any_of(materials.begin(), materials.end(), is_solid_glass);
+    if (glass || !scene_.camera.empty()) {
       const RayScene rays(scene_);
       check_cameras(rays);
-      check_sky(rays);
+      check_nested_glass(rays);
+      if (!scene_.camera.empty()) check_sky(rays);
     }
     check_lamps();
     check_materials();
@@ -121,6 +125,11 @@ class Linter {
     for (const Camera& camera : scene_.camera)
       if (const std::optional<std::string> inside = camera_inside_solid(rays, camera))
         add(Level::warning, "camera-inside", *inside, "put it where there is air");
+  }
+
+  void check_nested_glass(const RayScene& rays) {
+    if (const std::optional<std::string> nested = nested_glass(rays))
+      add(Level::warning, "nested-glass", *nested, "an index of 1 is a part that is not there");
   }
 
   void check_sky(const RayScene& rays) {
@@ -247,10 +256,10 @@ class Linter {
         check_measured("material \"" + name + "\"",
                        *scene_.measured[static_cast<std::size_t>(m.material->measured)]);
       } else if (m.reflectance > 1.0001) {
-        note(Note::Level::warning, kAboveOne, ", more than it gets");
+        note(Note::Level::warning, kAboveOne, ", more than it receives");
       } else if (m.reflectance > kAllReflectance && m.diffuse) {
         note(Note::Level::warning, kAbsorbsNothing,
-             ": in a closed room of it light never ends, and has no finite mean");
+             ": in a closed room of this material light never ends, and has no finite mean");
       } else if (m.reflectance > kHighReflectance && m.diffuse) {
         note(Note::Level::info, kReflectsMuch, "; white paint reflects 0.8");
       }

@@ -53,7 +53,8 @@ std::optional<std::string> closed_to_the_sky(const RayScene& rays) {
         [](int& sum, const int& part) { sum |= part; });
     if (any) return std::nullopt;
   }
-  return text("no light of the sky gets in: of ", kPaths, " paths from each camera none finds it");
+  return text("no light of the sky reaches the view: of ", kPaths,
+              " paths from each camera none finds the sky");
 }
 
 }  // namespace phos::inline scene

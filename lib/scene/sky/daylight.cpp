@@ -42,10 +42,10 @@ std::string degrees_text(double rad) {
 /// Where the sun stands, if the options say.
 std::optional<SunPosition> find_sun(const DaylightOptions& o) {
   if (!o.sun.empty() && (!o.location.empty() || !o.when.empty()))
-    fail("--sun", "says where the sun stands; leave it out, or --location and --when");
+    fail("--sun", "states the position of the sun, and so do --location and --when; give one of the two");
   if (o.location.empty() != o.when.empty())
     fail(o.location.empty() ? "--location" : "--when",
-         "is missing: the sun's position needs both location and time");
+         "is missing: the sun's position needs both --location and --when; give both");
   SunPosition sun;
   if (!o.sun.empty()) {
     const auto [azimuth, elevation] = read_pair("--sun", o.sun, "AZIMUTH,ELEVATION in degrees, like 180,45");
@@ -65,8 +65,8 @@ std::optional<SunPosition> find_sun(const DaylightOptions& o) {
   }
   if (!(sun.elevation_rad > 0))
     fail(o.sun.empty() ? "--when" : "--sun", text("the sun is ", degrees_text(-sun.elevation_rad),
-                                                  " degrees below the horizon; these skies are of the day: "
-                                                  "give a time or a position at which it is up"));
+                                                  " degrees below the horizon; skies are for daytime: give a "
+                                                  "time or a position with the sun above the horizon"));
   return sun;
 }
 
@@ -81,8 +81,7 @@ int sky_type(const std::string& name) {
     const auto [next, error] = std::from_chars(name.data() + 4, end, type);
     if (error == std::errc() && next == end && type >= 1 && type <= 16) return type;
   }
-  fail("--sky",
-       text("there is no sky \"", name, "\"; there are overcast, clear, cie:1 to cie:16, and perez"));
+  fail("--sky", text("\"", name, "\" is not a sky; give overcast, clear, cie:1 to cie:16, or perez"));
 }
 
 enum class Cover { overcast, partly, clear };
@@ -109,9 +108,9 @@ void check_belongs(const DaylightOptions& o) {
     if (given) fail(option, why);
   };
   const bool sky = !o.sky.empty(), perez = o.sky == "perez", sun = !o.sun.empty() || !o.location.empty();
-  const char *needs_sky = "is of a sky; give --sky",
-             *needs_sun = "is of the sun; give --sun, or --location and --when",
-             *needs_perez = "is for --sky perez alone";
+  const char *needs_sky = "needs a sky; give --sky",
+             *needs_sun = "needs the sun; give --sun, or --location and --when",
+             *needs_perez = "needs --sky perez; leave it out, or give that sky";
   only(!sky && o.sky_lx.has_value(), "--sky-illuminance", needs_sky);
   only(!sun && o.sun_lx.has_value(), "--sun-illuminance", needs_sun);
   only(!sun && o.sun_diameter_deg.has_value(), "--sun-diameter", needs_sun);
@@ -126,7 +125,7 @@ void check_belongs(const DaylightOptions& o) {
 void resolve_perez(const DaylightOptions& o, const SunPosition& sun, Daylight& d) {
   if (!o.direct_w_m2 || !o.diffuse_w_m2)
     fail(o.direct_w_m2 ? "--diffuse-irradiance" : "--direct-irradiance",
-         "is missing: --sky perez is made from direct normal and diffuse horizontal irradiance");
+         "is missing: --sky perez needs direct normal and diffuse horizontal irradiance; give both");
   const PerezSky perez = perez_sky(
       {*o.direct_w_m2, *o.diffuse_w_m2, sun.elevation_rad, sun.distance_au, o.dew_point_c.value_or(11)});
   d.sky = perez.shape, d.sky_lx = o.sky_lx.value_or(perez.sky_lx), d.sun_lx = o.sun_lx.value_or(perez.sun_lx);
@@ -221,9 +220,9 @@ Daylight resolve(const DaylightOptions& o) {
   if (!o.any()) return d;
   check_against_space(o, sun ? sun->distance_au : 1, d);
   if (!(d.sky_lx > 0) && !(d.sun_lx > 0))
-    fail("--sky", "gives no light: neither sky nor sun has any illuminance");
+    fail("--sky", "gives no light: neither sky nor sun has any illuminance; give one above 0");
   if (!std::isfinite(static_cast<float>(d.sky_lx)) || !(d.sun_lx < 1e30))
-    fail("--sky-illuminance", "is more than numbers can say");
+    fail("--sky-illuminance", "is beyond the range of numbers; give a smaller value");
   d.ground_albedo = o.ground_albedo.value_or(0.2);
   d.recipe = recipe_of(d);
   return d;

@@ -11,18 +11,18 @@ struct TextOption {
 };
 constexpr TextOption kTexts[] = {
     {"sky", "SKY",
-     "light of a sky: overcast ((1 + 2 sin elevation) / 3, the traditional one), clear (CIE type 12), cie:1 "
-     "to "
-     "cie:15 (CIE S 011 / ISO 15469; cie:16 is overcast) or perez (from irradiances); up is +Y. What "
-     "is not given of sky, sun, place and time, bands and portals is taken from the photons or caches that a "
-     "stage reads; files are to be given to every stage",
+     "light of a sky: overcast (luminance as (1 + 2 sin elevation) / 3, the traditional CIE sky), clear (CIE "
+     "type 12), cie:1 to cie:15 (CIE S 011 / ISO 15469), cie:16 (the same as overcast) or perez (from "
+     "irradiances). Up is +Y. A stage that reads photons or caches takes from them the options of sky, sun, "
+     "place, time, bands and portals that are not given; files are to be given to every stage",
      &DaylightOptions::sky},
     {"sun", "AZIMUTH,ELEVATION",
-     "where the sun stands, in degrees: clockwise from north, and above the horizon", &DaylightOptions::sun},
+     "position of the sun in degrees: azimuth clockwise from north, and elevation above the horizon",
+     &DaylightOptions::sun},
     {"location", "LAT,LON",
-     "where the scene is, in degrees, north and east above 0: with --when, instead of --sun",
+     "latitude and longitude of the scene in degrees, north and east above 0; with --when, instead of --sun",
      &DaylightOptions::location},
-    {"when", "TIME", "date, time and zone for --location, like 2026-06-21T14:00+02:00",
+    {"when", "TIME", "date, time and time zone for --location, like 2026-06-21T14:00+02:00",
      &DaylightOptions::when}};
 
 struct NumberOption {
@@ -32,34 +32,40 @@ struct NumberOption {
 };
 const NumberOption kNumbers[] = {
     {"sky-illuminance", "LUX",
-     "on the ground in the open, by the sky alone (default: overcast types 1-6 and 16 300 + 21000 sin "
-     "elevation, or 10000 where no sun is given; partly cloudy, 7-10, 300 + 45000 sin elevation; clear, "
-     "11-15, "
-     "800 + 15500 sqrt(sin elevation); perez by its luminous efficacy)",
+     "illuminance of open, level ground by the sky alone (default: overcast types 1 to 6 and cie:16: 300 + "
+     "21000 sin elevation, or 10000 where no sun is given; partly cloudy types 7 to 10: 300 + 45000 sin "
+     "elevation; clear types 11 to 15: 800 + 15500 sqrt(sin elevation); perez: --diffuse-irradiance times "
+     "its luminous efficacy)",
      &DaylightOptions::sky_lx, kPositive},
     {"sun-illuminance", "LUX",
-     "by the sun alone, on a surface that faces it (default, with s = sin elevation: 127500 exp(-0.21 / s) "
-     "under clear skies and without --sky, 127500 exp(-0.8 / s) under partly cloudy ones, 0 under overcast "
-     "ones; perez by its luminous efficacy)",
+     "illuminance by the sun alone of a surface that faces it; 0: no sunlight (default, with s = sin "
+     "elevation: 127500 exp(-0.21 / s) under clear skies and without --sky; 127500 exp(-0.8 / s) under "
+     "partly cloudy skies; 0 under overcast skies; perez: --direct-irradiance times its luminous efficacy)",
      &DaylightOptions::sun_lx, kNotNegative},
-    {"sun-diameter", "DEGREES", "as seen (default: 0.533)", &DaylightOptions::sun_diameter_deg, {0.001, 90}},
-    {"direct-irradiance", "W/m2", "for --sky perez: of the sun, on a surface that faces it",
+    {"sun-diameter",
+     "DEGREES",
+     "angular diameter of the sun's disc (default: 0.533)",
+     &DaylightOptions::sun_diameter_deg,
+     {0.001, 90}},
+    {"direct-irradiance", "W/m2",
+     "required with --sky perez: irradiance by the sun of a surface that faces it; 0: no sunlight",
      &DaylightOptions::direct_w_m2, kNotNegative},
-    {"diffuse-irradiance", "W/m2", "for --sky perez: of the sky alone, on the ground in the open",
+    {"diffuse-irradiance", "W/m2",
+     "required with --sky perez: irradiance of open, level ground by the sky alone",
      &DaylightOptions::diffuse_w_m2, kPositive},
     {"dew-point",
      "CELSIUS",
-     "for --sky perez: of the air, for its luminous efficacy (default: 11)",
+     "with --sky perez: dew point of the air, which sets the luminous efficacy (default: 11)",
      &DaylightOptions::dew_point_c,
      {-80, 60}},
     {"ground-albedo",
      "SHARE",
-     "below the horizon lies ground that reflects so much of what falls on it in the open (default: 0.2)",
+     "reflectance of the ground below the horizon, which is lit as open ground; 0: black (default: 0.2)",
      &DaylightOptions::ground_albedo,
      {0, 1}},
     {"north",
      "DEGREES",
-     "where north is: clockwise from -Z seen from above, so that 90 is +X (default: 0)",
+     "direction of north: clockwise from -Z seen from above; 90 is +X (default: 0)",
      &DaylightOptions::north_deg,
      {-360, 360}}};
 

@@ -30,8 +30,9 @@ std::vector<int> order_of(const BandParts& parts, const std::function<BandTriple
   const auto at = [&](int triplet) -> int& { return order[static_cast<std::size_t>(triplet - 1)]; };
   for (const int dark : parts.dark) {
     if (dark < 1 || dark > triplets)
-      throw Error(ExitCode::usage, "--dark",
-                  text(dark, " is not there: ", number, " bands are ", triplets, " triplets"));
+      throw Error(
+          ExitCode::usage, "--dark",
+          text("is ", dark, ", but ", number, " bands have ", triplets, " triplets; give 1 to ", triplets));
     at(dark) = -1;
   }
   for (std::size_t i = 0; i < parts.paths.size(); ++i) {
@@ -40,12 +41,14 @@ std::vector<int> order_of(const BandParts& parts, const std::function<BandTriple
       mismatch(parts.paths[i], text("is of ", t.number, " bands, ", parts.paths[0], " of ", number,
                                     "; give parts of one run"));
     if (t.triplet < 1 || t.triplet > triplets)
-      mismatch(parts.paths[i], text("says it is triplet ", t.triplet, " of ", triplets));
+      mismatch(parts.paths[i], text("says it is triplet ", t.triplet, " of ", triplets, "; make it again"));
     if (at(t.triplet) == -1)
-      mismatch(parts.paths[i], text("is triplet ", t.triplet, ", which --dark says is dark"));
+      mismatch(parts.paths[i],
+               text("is triplet ", t.triplet, ", which --dark calls dark; leave one of the two out"));
     if (at(t.triplet) >= 0)
-      mismatch(parts.paths[i], text("is triplet ", t.triplet, " too, like ",
-                                    parts.paths[static_cast<std::size_t>(at(t.triplet))]));
+      mismatch(parts.paths[i],
+               text("is triplet ", t.triplet, ", and so is ",
+                    parts.paths[static_cast<std::size_t>(at(t.triplet))], "; give each once"));
     at(t.triplet) = static_cast<int>(i);
   }
   std::vector<int> missing;

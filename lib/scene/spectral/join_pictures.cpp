@@ -150,7 +150,9 @@ JoinedPicture join_pictures(const BandParts& parts) {
     const Image part = read_image(path);
     if (!joiner) joiner.emplace(bands, width = part.width(), height = part.height()), first = path;
     if (part.width() != width || part.height() != height)
-      throw Error(ExitCode::mismatch, path, text("is not ", width, " x ", height, " pixels like ", first));
+      throw Error(
+          ExitCode::mismatch, path,
+          text("is not ", width, " x ", height, " pixels like ", first, "; give pictures of one size"));
     joiner->add(part, static_cast<int>(k) + 1);
     if (!joiner->differs().empty())
       throw Error(ExitCode::mismatch, path,

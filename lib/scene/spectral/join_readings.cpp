@@ -53,7 +53,8 @@ double number_in(const CsvTable& table, std::size_t row, std::size_t column) {
   const bool left_out = table.columns[column] == kStandardError && table.rows[row][column].empty();
   if (!std::isfinite(v) && !left_out)
     throw Error(ExitCode::bad_input, table.where,
-                text("line ", table.line[row], ": ", table.columns[column], " is not a number"));
+                text("line ", table.line[row], ": ", table.columns[column],
+                     " is not a number; give the table as phos-sense wrote it"));
   return v;
 }
 

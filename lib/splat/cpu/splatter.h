@@ -26,7 +26,7 @@ struct SplatBuffer {
 float splat_unit_lx(std::span<const IrradianceRecord> records);
 
 /// Every record's weight (record_weight at `accuracy`) and extrapolated irradiance, summed. Tiled,
-/// vectorised, same bytes for any number of threads. The oracle for the OSMesa splatter.
+/// vectorised, same bytes for any number of threads. The oracle for OpenGL.
 SplatBuffer splat_on_cpu(std::span<const IrradianceRecord> records, double accuracy, const GBuffer& gbuffer,
                          const Camera& camera);
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/float_traps.h"
+#include "splat/gl/kinds.h"
 
 namespace phos::inline splat {
 
@@ -65,11 +66,11 @@ struct Gl {
 #undef PHOS_GL_POINTER
 };
 
-/// A context of its own, current in the thread that made it. The seam for other ways of having one (EGL).
+/// A context of its own, current in the thread that made it.
 class GlContext {
  public:
-  /// Throws Error(bad_input) where no 4.5 core context can be had.
-  GlContext();
+  /// Throws NoGl where no 4.5 core context can be had.
+  explicit GlContext(GlBy by = chosen_gl());
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
@@ -83,8 +84,11 @@ class GlContext {
   void check(const char* doing) const;
 
  private:
-  struct Native;
-  std::unique_ptr<Native> native_;
+  void start();
+  void release() const;  // if it is current
+
+  GlBy by_;
+  std::unique_ptr<GlNative> native_;
   Gl gl_;
   std::string description_;
   int largest_texture_ = 0;

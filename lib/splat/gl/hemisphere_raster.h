@@ -4,11 +4,22 @@
 #include <cstdint>
 #include <memory>
 
-#include "estimate/gather.h"
+#include "estimate/estimator.h"
+#include "estimate/gather_source.h"
+
+
+namespace phos::inline estimate {
+struct Hemisphere;
+struct RecordOptions;
+}  // namespace phos::inline estimate
+namespace phos::inline scene {
+class Luminaires;
+class RayScene;
+}  // namespace phos::inline scene
 
 namespace phos::inline splat {
 
-/// The scene drawn by OpenGL (OSMesa) from the record's place onto one plane above it, of raster_side pixels
+/// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels
 /// each way (raster_plane.h); the place that a pixel shows is lit like the place where a gathered ray lands.
 /// Without noise but for the lamps' samples: stderr_lx does not contain the light between pixels. The near
 /// plane lies at the rounding of positions, so that walls which touch the record are drawn as far as they are

@@ -19,8 +19,8 @@ void main() { colour = vec4(gl_FragCoord.xy, 0.25, 1e6); }
 
 }  // namespace
 
-std::string try_gl() {
-  const GlContext context;
+std::string try_gl(GlBy by) {
+  const GlContext context(by);
   const Gl& gl = context.gl();
   const GlObject picture = make_texture(gl, GL_RGBA32F, kSide, kSide);
   const GlObject framebuffer = make_framebuffer(gl, {picture.id()}, 0);
@@ -39,8 +39,7 @@ std::string try_gl() {
     for (int x = 0; x < kSide; ++x)
       if (pixels[static_cast<std::size_t>(y * kSide + x)] !=
           Vec4(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.25f, 1e6f))
-        throw Error(ExitCode::bad_input, "",
-                    text("OSMesa (", context.description(), ") draws a wrong picture; pass --splat cpu"));
+        no_context(by, text("it draws a wrong picture (", context.description(), ")"));
   return context.description();
 }
 

@@ -1,4 +1,4 @@
-// Drawing over a G-buffer through OSMesa: pictures, irradiance and radiance records, shadow maps.
+// Drawing over a G-buffer by OpenGL: pictures, irradiance and radiance records, shadow maps.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@
 
 namespace phos::inline splat {
 
-/// OpenGL 4.5 core through OSMesa (llvmpipe). One context per object, used from the thread that made it.
+/// OpenGL 4.5 core of the library that choose_gl() says. One context per object, used from the thread that
+/// made it.
 class GlRenderer {
  public:
   /// Throws Error(bad_input) if no context can be had; the message names the missing part, and --splat cpu,

@@ -22,7 +22,7 @@ void fit(RadianceRecord& r, const std::vector<int>& wanted, bool allow_mismatch)
   if (next == wanted.end() || *next == r.order()) return;
   if (!allow_mismatch)
     throw Error(ExitCode::mismatch, "",
-                text("radiance records of order ", r.order(), ", where lobes want ", *next,
+                text("radiance records of order ", r.order(), ", and lobes need ", *next,
                      ": they were made with other lobes; give the .brdf file that phos-radiance read, rerun "
                      "phos-radiance, or pass --allow-mismatch to cut the lobes"));
   lengthen(r, *next);

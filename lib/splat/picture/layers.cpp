@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/text/append_item.h"
 
 namespace phos::inline splat {
 namespace {
@@ -54,7 +55,7 @@ bool LayerSet::show_light() const {
 
 std::string LayerSet::names() {
   std::string all;
-  for (const char* name : kNames) all += (all.empty() ? "" : ", ") + std::string(name);
+  for (const char* name : kNames) append_item(all, name);
   return all;
 }
 

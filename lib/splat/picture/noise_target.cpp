@@ -98,7 +98,7 @@ void require_one_choice(const Options& given, const RenderOptions& render) {
     if (given.given(name))
       throw Error(ExitCode::usage, "--noise", text("chooses the number of rays; leave out --", name));
   if (render.direct == DirectBy::shadow_map)
-    throw Error(ExitCode::usage, "--noise", "is of shadow rays; give --direct traced or interleaved");
+    throw Error(ExitCode::usage, "--noise", "needs shadow rays; give --direct traced or interleaved");
 }
 
 }  // namespace phos::inline splat

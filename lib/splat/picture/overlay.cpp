@@ -181,8 +181,7 @@ void paint(std::vector<Mark>& marks, const OverlayColourRow& row, const DrawnRec
     double t = 0;
     if (static_cast<double>(m.value) > drawn.least && drawn.most > drawn.least)
       t = std::log(static_cast<double>(m.value) / drawn.least) / std::log(drawn.most / drawn.least);
-    m.colour = scene_colour(m.lasting ? Colour8{255, 255, 255} : overlay_colour(row, std::min(t, 1.0)),
-                            drawn.key_cd_m2);
+    m.colour = scene_colour(m.lasting ? Colour8{255, 255, 255} : row.at(std::min(t, 1.0)), drawn.key_cd_m2);
   }
 }
 
@@ -193,8 +192,17 @@ const OverlayColourRow& row_of(OverlayColour colour) {
                        [colour](const OverlayColourRow& row) { return row.colour == colour; });
 }
 
-Colour8 overlay_colour(const OverlayColourRow& row, double t) {
-  return palette_colour(Palette::turbo, row.least_at + (row.most_at - row.least_at) * t);
+Colour8 blue_to_red(double t) { return palette_colour(Palette::turbo, 0.1 + 0.76 * t); }
+
+Colour8 red_to_green(double t) {
+  // Dark enough that no picture shows them as white.
+  constexpr double kStops[3][3] = {{215, 40, 30}, {215, 150, 20}, {20, 140, 50}};
+  const int from = t < 0.5 ? 0 : 1;
+  Colour8 colour;
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(
+        std::lerp(kStops[from][c], kStops[from + 1][c], std::clamp(2 * t - from, 0.0, 1.0)) + 0.5);
+  return colour;
 }
 
 Rgb scene_colour(const Colour8& code, double key_cd_m2) {

@@ -20,21 +20,23 @@ enum class OverlayColour {
   life,     ///< frames between the birth of a record of a film and its end
 };
 
+/// Colours at t in 0 .. 1, from the least to the greatest value.
+Colour8 blue_to_red(double t);
+Colour8 red_to_green(double t);
+
 struct OverlayColourRow {
   OverlayColour colour;
   const char *name, *title, *unit;  ///< the option's value; words of legend and report
   double per_unit;                  ///< units that the value 1 is
-  double least_at, most_at;         ///< places of the first and the last colour in Palette::turbo
-  const char *least, *most;         ///< their names
+  Colour8 (*at)(double t);
+  const char *least, *most;  ///< names of the first and the last colour
 };
 inline constexpr OverlayColourRow kOverlayColours[] = {
-    {OverlayColour::radius, "radius", "radius", "m", 1, 0.1, 0.86, "blue", "red"},
-    {OverlayColour::stderr_, "stderr", "standard error", "%", 100, 0.1, 0.86, "blue", "red"},
-    {OverlayColour::life, "life", "life", "frames", 1, 0.86, 0.46, "red", "green"},
+    {OverlayColour::radius, "radius", "radius", "m", 1, blue_to_red, "blue", "red"},
+    {OverlayColour::stderr_, "stderr", "standard error", "%", 100, blue_to_red, "blue", "red"},
+    {OverlayColour::life, "life", "life", "frames", 1, red_to_green, "red", "green"},
 };
 const OverlayColourRow& row_of(OverlayColour colour);
-/// t in 0 .. 1, from the least to the greatest value.
-Colour8 overlay_colour(const OverlayColourRow& row, double t);
 
 /// The records drawn, and the meaning of their colours.
 struct DrawnRecords {

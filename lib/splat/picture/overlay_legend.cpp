@@ -29,7 +29,7 @@ Picture legend_of(const DrawnRecords& drawn, const OverlayColourRow& row, int le
   write(margin, gap + line / 2, text(row.title, ", ", row.unit), Align::left);
   const double top = gap + line;
   for (int x = 0; x < static_cast<int>(bar); ++x)
-    canvas.fill(margin + x, top, 1, line, overlay_colour(row, one ? 0 : (x + 0.5) / bar));
+    canvas.fill(margin + x, top, 1, line, row.at(one ? 0 : (x + 0.5) / bar));
   const std::vector<double> marks = one ? std::vector<double>{range.lo} : scale_marks(range, kMarks);
   for (const double v : marks) {
     const double x = margin + (one ? 0.5 : std::log(v / range.lo) / std::log(range.hi / range.lo)) * bar;

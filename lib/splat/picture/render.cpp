@@ -83,43 +83,48 @@ void spread(std::vector<Miss>& misses, std::uint64_t seed, std::size_t most) {
 
 void declare_options(Options& options, RenderOptions& r) {
   options.section("Picture");
-  options.text("camera", r.camera, "NAME", "camera of the scene; the first one if not given");
-  options.integer("width", r.width, "PIXELS", "width; 0: from the height and the camera's aspect",
+  options.text("camera", r.camera, "NAME", "camera of the scene (default: the first one)");
+  options.integer("width", r.width, "PIXELS",
+                  "width of the picture; 0: from the height and the camera's aspect",
                   {0, kMostPictureSide.as<double>()});
-  options.integer("height", r.height, "PIXELS", "height; 0: from the width; both 0: 1000 on the longer side",
+  options.integer("height", r.height, "PIXELS",
+                  "height of the picture; 0: from the width; both 0: 1000 on the longer side",
                   {0, kMostPictureSide.as<double>()});
-  options.integer("pixel-samples", r.pixel_samples, "N", "samples per pixel, averaged (anti-aliasing)",
-                  {1, 4096});
-  options.integer("edge-samples", r.edge_samples, "N",
-                  "more samples of the pixels in which surfaces meet (anti-aliasing where it shows, at a "
-                  "fraction of --pixel-samples' time); they lie in pairs about the centre: give "
-                  "an even number",
-                  {0, 4096});
+  options.integer("pixel-samples", r.pixel_samples, "N",
+                  "number of samples per pixel, averaged (anti-aliasing)", {1, 4096});
+  options.integer(
+      "edge-samples", r.edge_samples, "N",
+      "number of further samples of the pixels in which surfaces meet (anti-aliasing at edges, in a fraction "
+      "of the time of --pixel-samples); 0: none. Samples lie in pairs about the centre: give an even number",
+      {0, 4096});
   options.list("layers", r.layers, "all|LAYER,...",
                "layers to write: " + LayerSet::names() + " (fewer are faster)");
-  options.choice<Overlay>("overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
-                          "draw the visible records into the beauty: a dot at each, and the outline of the "
-                          "zone it lights; other layers stay as they are");
+  options.choice<Overlay>(
+      "overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
+      "marks that are drawn into the beauty layer: records: a dot at each visible record, and the outline of "
+      "the zone that it lights; other layers stay as they are");
   Names<OverlayColour> colours;
   for (const OverlayColourRow& row : kOverlayColours) colours.emplace_back(row.name, row.colour);
   options.choice<OverlayColour>(
       "overlay-colour", r.overlay_colour, colours,
-      "what the records' colours tell: radius, or standard error over irradiance (logarithmic, blue is "
-      "least); or, of a film, the frames that each lives (logarithmic, red is one frame, green the longest "
-      "life)");
+      "with --overlay records: quantity that the colours show: radius, or standard error over irradiance "
+      "(logarithmic; blue is the least); or, of a film, the number of frames that a record lives "
+      "(logarithmic; "
+      "red is one frame, green the longest life)");
   options.section("Light from the cache");
   options.number("accuracy", r.accuracy, "A",
-                 "how far a record reaches: error allowed between records (smaller: fewer, closer records "
-                 "are blended; more noise, more misses); if not given, 2.5 times what the cache was placed "
-                 "with, but no more than 0.5 (radiance records: 0.6)",
+                 "error allowed in interpolation, which sets the reach of a record; smaller: fewer, closer "
+                 "records are blended, with more noise and more misses (default: 2.5 times the accuracy of "
+                 "the cache, but at most 0.5; for radiance records at most 0.6)",
                  kPositive);
-  options.choice<SplatBy>("splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
-                          "draw the records with OpenGL (OSMesa) or on the CPU (same picture to 1e-4)");
-  options.choice<LeakTest>(
-      "leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
-      "ray: a record lights a point only if the two can see each other (records are looked up, a ray for "
-      "each, instead of drawn)");
-  options.integer("max-misses", r.max_misses, "N", "at most this many points go into --misses", kNotNegative,
+  options.choice<SplatBy>(
+      "splat", r.splat, {{"gl", SplatBy::gl}, {"cpu", SplatBy::cpu}},
+      "renderer of the records: gl: OpenGL (--gl); cpu: the processor. Both give the same picture to 1e-4");
+  options.choice<LeakTest>("leak-test", r.leak_test, {{"none", LeakTest::none}, {"ray", LeakTest::ray}},
+                           "ray: a record lights a point only if the two see each other (records are looked "
+                           "up, with a ray for each, instead of drawn); none: no test");
+  options.integer("max-misses", r.max_misses, "N",
+                  "largest number of points that --misses and --gloss-misses write; 0: none", kNotNegative,
                   Recorded::no);
   options.section("Direct light, gloss, mirrors and glass");
   options.choice<DirectBy>(
@@ -128,42 +133,46 @@ void declare_options(Options& options, RenderOptions& r) {
        {"interleaved", DirectBy::interleaved},
        {"shadow-map", DirectBy::shadow_map},
        {"none", DirectBy::none}},
-      "direct light: by shadow rays; by shadow rays of which 4 x 4 pixels of one diffuse surface share "
-      "theirs, at edges too, and more of them only where a lamp is seen in part (a fraction of the time; "
-      "blurs shadows over up to 4 pixels, less with more rays, not at all with 64; of the sky and other "
-      "lamps "
-      "of uneven light or many faces faint shadows alone, until 4096); by shadow maps (fast preview, diffuse "
-      "only); or left out");
+      "method for direct light: traced: by shadow rays; interleaved: by shadow rays that 4 x 4 pixels of one "
+      "diffuse surface share, also at edges, with more rays only where a lamp is partly hidden (a fraction "
+      "of the time; shadows blur over up to 4 pixels, less with more rays, not with 64 rays; for the sky and "
+      "other lamps of uneven light or many faces only faint shadows blur, up to 4096 rays); shadow-map: by "
+      "shadow maps (a fast preview of diffuse surfaces alone); none: no direct light");
   options.integer("light-samples", r.light_samples, "N",
-                  "shadow rays per area light (or environment) and pixel, shared among its samples (one each "
-                  "at least); or "
-                  "shadow maps per area light (or environment)",
+                  "number of shadow rays from a pixel to each area light or environment, shared among the "
+                  "samples of the pixel (at least one for each); with --direct shadow-map: number of shadow "
+                  "maps of each area light or environment",
                   {1, 65536});
-  options.number("noise", r.noise, "FRACTION",
-                 "chooses --light-samples and --gloss-samples: as many as it takes for a root mean square "
-                 "noise of direct light and gloss of this part of the pixel's light, or of a tenth of the "
-                 "picture's mean where that is more (0.02: 2 %), as two small pictures tell; 64 (fewer to "
-                 "each of many lamps) to 4096",
-                 {1e-4, 1}, Recorded::if_given);
+  options.number(
+      "noise", r.noise, "FRACTION",
+      "root mean square noise of direct light and gloss to reach, as a share of the pixel's light, or of a "
+      "tenth of the picture's mean where that is more (0.02: 2 %). Two small pictures tell how many "
+      "--light-samples and --gloss-samples reach it: 64 (fewer to each of many lamps) to 4096",
+      {1e-4, 1}, Recorded::if_given);
   options.choice<EnvironmentBy>(
       "environment-mode", r.environment,
       {{"traced", EnvironmentBy::traced}, {"hsh", EnvironmentBy::hsh}, {"sh", EnvironmentBy::sh}},
-      "light of the environment on what is seen: by rays; or by hemispherical harmonics, without noise and "
-      "WITHOUT SHADOWS, as in an open place (where the tables of a .brdf file, or those made here, say that "
-      "a "
-      "lobe is too sharp, it is traced); or by spherical ones, to compare");
-  options.integer("environment-order", r.environment_order, "N",
-                  "bands of those harmonics: N x N coefficients", {1, kMostOrder.as<double>()});
-  options.integer("shadow-map-size", r.shadow_map_size, "PIXELS", "side of a shadow map", {16, 8192});
+      "method for the light of the environment on seen surfaces: traced: by rays; hsh: by hemispherical "
+      "harmonics, without noise and WITHOUT SHADOWS, as in an open place (lobes that are too sharp for the "
+      "tables of a .brdf file, or for tables made here, are traced); sh: by spherical harmonics, for "
+      "comparison");
+  options.integer(
+      "environment-order", r.environment_order, "N",
+      "with --environment-mode hsh or sh: number of bands of the harmonics, with N x N coefficients",
+      {1, kMostOrder.as<double>()});
+  options.integer("shadow-map-size", r.shadow_map_size, "PIXELS",
+                  "with --direct shadow-map: side of a shadow map", {16, 8192});
   declare_options(options, r.gloss);
-  options.choice<SplatBy>(
-      "gloss-splat", r.gloss_splat, {{"cpu", SplatBy::cpu}, {"gl", SplatBy::gl}},
-      "draw radiance records on the CPU or with OpenGL (same picture to 1e-4; OSMesa takes "
-      "many times as long)");
+  options.choice<SplatBy>("gloss-splat", r.gloss_splat, {{"cpu", SplatBy::cpu}, {"gl", SplatBy::gl}},
+                          "renderer of radiance records: cpu: the processor; gl: OpenGL (OSMesa takes many "
+                          "times as long). Both give the same picture to 1e-4");
   options.integer("gloss-samples", r.gloss_samples, "N",
-                  "rays per pixel on a glossy surface whose gloss is traced, shared among its samples",
+                  "number of rays from a pixel on a glossy surface whose reflection is traced, shared among "
+                  "the samples of the pixel; 0: no traced reflection",
                   {0, 65536});
-  options.integer("specular-depth", r.specular_depth, "N", "longest chain of mirrors and glass", {0, 1000});
+  options.integer("specular-depth", r.specular_depth, "N",
+                  "largest number of mirrors and glass surfaces in a row; 0: mirrors and glass stay black",
+                  {0, 1000});
   declare_isa(options, r.isa);
 }
 
@@ -174,12 +183,12 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
   if (!r.accuracy) r.accuracy = reading_accuracy(cache.accuracy);
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
-    throw Error(ExitCode::usage, "--overlay", "is drawn into the beauty; give --layers beauty too");
+    throw Error(ExitCode::usage, "--overlay", "is drawn into the layer beauty; give --layers beauty too");
   if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
     throw Error(ExitCode::usage, "--edge-samples",
-                "sends rays for direct light too; give --direct traced or interleaved");
+                "needs shadow rays for direct light; give --direct traced or interleaved");
   if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
-    throw Error(ExitCode::usage, "--environment-mode", "by harmonics is for --direct traced alone");
+    throw Error(ExitCode::usage, "--environment-mode", "hsh and sh need --direct traced; leave --direct out");
 }
 
 namespace {

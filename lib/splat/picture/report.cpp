@@ -33,9 +33,10 @@ void tell_of_misses(const Tool& tool, const Rendering& r, const std::string& pat
   if (!path.empty()) {
     tool.say(text(path, ": ", r.misses.size(), " points without a record"));
   } else if (r.missed > 0) {
-    tool.warn(text(percent(r.missed, r.looked_up),
-                   " of the visible points have no record near enough (farther ones light them); write them "
-                   "with --misses, fill them with phos-irradiance --at, or raise --accuracy"));
+    tool.warn(
+        text(percent(r.missed, r.looked_up),
+             " of the visible points have no record near enough (farther records light them); write these "
+             "points with --misses and fill them with phos-irradiance --at, or raise --accuracy"));
   }
 }
 
@@ -44,8 +45,8 @@ void tell_of_gloss_misses(const Tool& tool, const Rendering& r, const std::strin
     tool.say(text(path, ": ", r.gloss_misses.size(), " glossy points without a radiance record"));
   } else if (r.gloss.missed > 0) {
     tool.warn(text(percent(r.gloss.missed, r.gloss.looked_up),
-                   " of the glossy points have no radiance record near enough (they are traced); write them "
-                   "with --gloss-misses, fill them with phos-radiance --at"));
+                   " of the glossy points have no radiance record near enough (their reflections are "
+                   "traced); write these points with --gloss-misses and fill them with phos-radiance --at"));
   }
 }
 

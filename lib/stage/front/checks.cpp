@@ -69,10 +69,10 @@ MachineCheck check_programs() {
   return check;
 }
 
-MachineCheck check_osmesa() {
-  const ChildResult drawn = in_child([] { std::cout << try_gl(); }, kPatience_s);
-  return {"OSMesa", drawn.done, true, drawn.done ? drawn.said + "; draws" : drawn.said,
-          "apt-get install libosmesa6; or phos-splat --splat cpu"};
+MachineCheck check_gl(const GlKind& kind) {
+  const ChildResult drawn = in_child([&] { std::cout << try_gl(kind.by); }, kPatience_s);
+  return {kind.name, drawn.done, kind.required, drawn.done ? drawn.said + "; draws" : drawn.said,
+          kind.remedy};
 }
 
 MachineCheck check_instructions() {
@@ -179,8 +179,10 @@ MachineCheck check_locale() {
 }  // namespace
 
 std::vector<MachineCheck> check_machine() {
-  std::vector<MachineCheck> all{check_programs(), check_osmesa(), check_instructions(),
-                                check_cores(),    check_memory(), check_temporary_folder()};
+  std::vector<MachineCheck> all{check_programs()};
+  for (const GlKind& kind : gl_kinds()) all.push_back(check_gl(kind));
+  for (const auto check : {check_instructions, check_cores, check_memory, check_temporary_folder})
+    all.push_back(check());
   for (const Helper& helper : helpers()) all.push_back(check_helper(helper));
   all.push_back(check_locale());
   for (MachineCheck& check : all)

@@ -14,8 +14,8 @@ struct MachineCheck {
   std::string remedy;     ///< where not ok: a command, or words
 };
 
-/// Every check, in the order in which they are printed. Starts programs and, in a process of its own, OSMesa.
-/// Call it while this process has one thread.
+/// Every check, in the order in which they are printed. Starts programs and, in processes of their own,
+/// OSMesa and EGL. Call it while this process has one thread.
 std::vector<MachineCheck> check_machine();
 
 }  // namespace phos::stage

@@ -37,10 +37,11 @@ Json described(const std::vector<MachineCheck>& checks, bool ready) {
 
 ExitCode run_doctor(int argc, const char* const* argv) {
   bool json = false;
-  Options options("phos doctor", "says what this machine has of what phos needs",
-                  "Checks programs, OpenGL (a picture is drawn), threads, memory, the temporary folder, "
-                  "programs of others that pipelines use, and the locale. One line for each: ok, or missing "
-                  "with the command that mends it. Exit code 1 where something that is required is missing.");
+  Options options(
+      "phos doctor", "checks that this machine has all that phos needs",
+      "Checks the programs, OpenGL (by drawing a picture), threads, memory, the temporary folder, the other "
+      "programs that pipelines use, and the locale. Each check prints one line: ok, or missing with the "
+      "command that mends it. The exit code is 1 if a requirement is missing.");
   options.flag("json", json, "print JSON instead of text", Recorded::no);
   options.example("phos doctor", "all checks, one line each");
   if (!options.parse(argc, argv)) return ExitCode::done;

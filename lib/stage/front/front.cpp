@@ -32,11 +32,12 @@ std::string passes(const Program& program) { return text(program.reads, " -> ", 
 std::string overview() {
   std::size_t width = 0;
   for (const Program& program : all_programs()) width = std::max(width, passes(program).size());
-  std::string s = text(kName, ' ', version(), " - ", kSummary,
-                       "\n\nUsage: phos PROGRAM [ARGUMENT]...     phos splat is phos-splat"
-                       "\n       phos help [PROGRAM | TOPIC]"
-                       "\n       phos doctor [--json]            what this machine has of what phos needs"
-                       "\n\nPrograms, in the order of a study, with what they read and make:\n");
+  std::string s =
+      text(kName, ' ', version(), " - ", kSummary,
+           "\n\nUsage: phos PROGRAM [ARGUMENT]...     phos splat is phos-splat"
+           "\n       phos help [PROGRAM | TOPIC]"
+           "\n       phos doctor [--json]            checks that this machine has all that phos needs"
+           "\n\nPrograms, in the order of a study, with their inputs and outputs:\n");
   for (const Program& program : all_programs()) {
     std::string line = "  " + short_name(program);
     line.resize(14, ' ');
@@ -55,11 +56,11 @@ void parse_own(int argc, const char* const* argv) {
   std::string names;
   for (const Program& program : all_programs()) names += text(names.empty() ? "" : ", ", short_name(program));
   Options options(kName, kSummary,
-                  text("phos PROGRAM is phos-PROGRAM: it is looked for beside phos, then on PATH, gets all "
-                       "arguments, and phos ends with its exit code. Programs: ",
+                  text("phos PROGRAM runs phos-PROGRAM with all further arguments, and ends with its exit "
+                       "code. The program is looked for beside phos, then on PATH. Programs: ",
                        names,
-                       ". phos help lists them with what they read and make, and explains one, or a topic. "
-                       "phos doctor says what this machine has of what phos needs."));
+                       ". phos help lists the programs with their inputs and outputs, and explains a program "
+                       "or a topic. phos doctor checks that this machine has all that phos needs."));
   std::vector<std::string> words;
   options.inputs("COMMAND", words, "a program, help or doctor, and its arguments", false);
   options.example("phos splat room.glb room.irradiance -o room.exr", "runs phos-splat");

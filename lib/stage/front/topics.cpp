@@ -36,7 +36,7 @@ std::string exit_codes() {
 }
 
 std::string limits() {
-  std::string s = "Numbers that programs stop at. Each option's own range is in its program's --help.\n";
+  std::string s = "Limits at which programs stop. The --help of a program has the range of each option.\n";
   std::string_view title;
   for (const LimitGroup& group : all_limits()) {
     if (group.title != title) s += text('\n', title = group.title, ":\n");
@@ -53,12 +53,12 @@ std::string allowed(const Event& event) {
 }
 
 std::string events() {
-  std::string s = wrap(
-                      "Numerical events are counted, and stand in the file (phos-info) and in --stats. A "
-                      "program ends with "
-                      "code 5 where one comes more often than chance allows for its share.",
-                      0) +
-                  "\n\n";
+  std::string s =
+      wrap(
+          "Numerical events are counted; the counts stand in the file (phos-info) and in --stats. A program "
+          "ends with code 5 if an event comes more often than chance allows for its share.",
+          0) +
+      "\n\n";
   for (const Event* event : all_events()) {
     std::string words = allowed(*event);
     if (!event->remedy.empty()) words += text("; else ", event->remedy);
@@ -71,17 +71,17 @@ std::string units() {
   std::string s;
   for (const auto& [quantity, words] : {
            std::pair{"lengths", "metres"},
-           {"angles", "degrees, but where a name says otherwise"},
+           {"angles", "degrees, unless a name says otherwise"},
            {"times", "seconds; frames are counted from 0"},
-           {"axes", "+Y is up, as in glTF; north is -Z where --north does not turn it"},
+           {"axes", "+Y is up, as in glTF; north is -Z unless --north turns it"},
            {"flux of lamps, photons", "lumens (lm)"},
            {"intensity", "candela (cd)"},
            {"illuminance, irradiance", "lux (lx)"},
            {"luminance, radiance", "cd/m2"},
            {"colours", "linear Rec.709, with Y = 0.2126 R + 0.7152 G + 0.0722 B in the unit of the quantity"},
-           {"Radiance .hdr files", "W/(m2 sr); 179 lm/W, read and written so"},
+           {"Radiance .hdr files", "W/(m2 sr), read and written with 179 lm/W"},
            {"errors",
-            "standard errors of one sigma, in the unit of the quantity; relative ones as fractions"},
+            "standard errors (one sigma) in the unit of the quantity; relative errors as fractions"},
            {"memory", "MiB and GiB, powers of 1024"},
        })
     s += list_entry(quantity, words, 28);
@@ -94,7 +94,7 @@ struct FileKind {
 
 constexpr FileKind kFileKinds[] = {
     {".photons", "photons where they landed, and a kd-tree over them"},
-    {".irradiance", "irradiance records with gradients and errors; those of a film, too"},
+    {".irradiance", "irradiance records with gradients and errors, of a scene or of a film"},
     {".radiance", "radiance records: light by direction, on glossy surfaces"},
     {".brdf", "glossy lobes as hemispherical harmonics"},
     {".exr", "pictures with layers"},
@@ -125,7 +125,7 @@ std::string options() {
   const std::string help = tool.options().help();
   const std::size_t from = help.find("Common options:"), to = help.find("\nExit codes:");
   PHOS_CHECK(from != std::string::npos && to != std::string::npos, help);
-  return "Options that programs share; a program's --help has its own, too.\n\n" +
+  return "Options that programs share; the --help of a program has all its options.\n\n" +
          help.substr(from, to - from);
 }
 
@@ -133,9 +133,9 @@ constexpr HelpTopic kTopics[] = {
     {"options", "options that programs share", options},
     {"files", "kinds of files", files},
     {"units", "units of numbers, in and out", units},
-    {"exit-codes", "the code that a program ends with", exit_codes},
+    {"exit-codes", "codes with which programs end", exit_codes},
     {"events", "numerical events that are counted", events},
-    {"limits", "sizes that programs stop at", limits},
+    {"limits", "limits at which programs stop", limits},
 };
 
 }  // namespace

@@ -119,9 +119,9 @@ void doubt(const StudyResults& results, std::optional<Summary> PointResult::*kin
     if (s.error.mean > 0) worst = std::max(worst, *s.resolution / s.error.mean);
   }
   if (unknown > 0)
-    sentences.push_back(
-        text("the reference of ", name,
-             " does not say how noisy it is: errors hold its noise; give a second one of another seed"));
+    sentences.push_back(text(
+        "the reference of ", name,
+        " does not state its noise, and errors include this noise; give a second reference of another seed"));
   if (broken > 0)
     sentences.push_back(text("the ", name, " results of ", broken, " of ", all,
                              " settings have values that are not finite; they are left out of errors"));

@@ -1,6 +1,7 @@
 #include "study/spec/keys.h"
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "core/text/likeness.h"
 
 namespace phos::inline study {
@@ -104,7 +105,7 @@ void StudyKeys::finish(std::vector<std::string> known) const {
   known.insert(known.end(), taken_.begin(), taken_.end());
   for (const std::string& key : rest()) {
     std::string all;
-    for (const std::string& name : taken_) all += (all.empty() ? "" : ", ") + name;
+    for (const std::string& name : taken_) append_item(all, name);
     const std::string guess = did_you_mean(key, known);
     refuse(key, "is unknown" + (guess.empty() ? "; there are: " + all : guess));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "core/text/likeness.h"
 #include "study/spec/stages.h"
 #include "study/spec/tools.h"
@@ -129,7 +130,7 @@ void require_known_sections(const TomlFile& file) {
   for (const auto& [section, value] : file.root.as_object()) {
     if (std::find(known.begin(), known.end(), section) != known.end()) continue;
     std::string all;
-    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+    for (const std::string& name : known) append_item(all, name);
     const std::string guess = did_you_mean(section, known);
     throw Error(ExitCode::usage, file.where(section),
                 text("[", section, "] is unknown", guess.empty() ? "; there are: " + all : guess));

@@ -140,7 +140,7 @@ std::string existing_file(StudyFile& study, const std::string& name, const std::
   std::error_code too_long;
   if (!std::filesystem::is_regular_file(path, too_long))
     throw Error(ExitCode::bad_input, where,
-                text("there is no file ", path, " (names count from the study's own folder)"));
+                text("there is no file ", path, " (paths begin at the folder of the study file)"));
   study.files.insert(path);
   return path;
 }

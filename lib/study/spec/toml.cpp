@@ -116,10 +116,10 @@ TomlFile parse_toml(std::string_view text_of_file, const std::string& path) {
           file.line[section + "." + std::string(name.str())] = name.source().begin.line;
     }
   } catch (const TomlSurprise&) {
-    throw Error(ExitCode::bad_input, path, "is no TOML; check the brackets and the keys after them");
+    throw Error(ExitCode::bad_input, path, "is not TOML; check the brackets and the keys after them");
   } catch (const toml::parse_error& e) {
     throw Error(ExitCode::bad_input, phos::text(path, ":", e.source().begin.line),
-                phos::text("is no TOML: ", one_line(std::string(e.description()))));
+                phos::text("is not TOML: ", one_line(std::string(e.description()))));
   }
   return file;
 }

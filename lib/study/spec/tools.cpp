@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/text/append_item.h"
 #include "core/text/likeness.h"
 #include "file/json_parse.h"
 
@@ -26,7 +27,7 @@ ToolOption option_from(const Json& o) {
 
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
-  for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
+  for (const std::string& w : words) append_item(all, w);
   return all;
 }
 

@@ -13,7 +13,7 @@ void require_frame(const Container& file, const FilmInfo& film, std::int64_t fra
   throw Error(ExitCode::mismatch, file.path(),
               text("is a film of frames ", film.frames.first, " to ", film.frames.last,
                    ", and the scene is at frame ", frame,
-                   "; choose one of those with --frame, or make more of them with phos-temporal"));
+                   "; choose a frame of the film with --frame, or make more frames with phos-temporal"));
 }
 
 void require_same_frame(const Container& file, const FilmInfo& film, const Scene& scene) {
@@ -24,9 +24,9 @@ void require_same_frame(const Container& file, const FilmInfo& film, const Scene
   const bool between = std::fabs(exactly - static_cast<double>(frame)) > 1e-6;
   throw Error(ExitCode::mismatch, file.path(),
               between ? text("is a film of whole frames, and the scene is at ", exactly,
-                             "; choose a whole one with --frame, or pass --allow-mismatch")
-                      : text("was made from another scene than ", scene.path, " is at frame ", frame,
-                             "; rerun phos-temporal, or pass --allow-mismatch"));
+                             "; choose a whole frame with --frame, or pass --allow-mismatch")
+                      : text("was made from another scene (", scene.path, " has changed at frame ", frame,
+                             "); rerun phos-temporal, or pass --allow-mismatch"));
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ void require_same_film(const Container& file, const FilmSurvey& survey) {
                 frames.first, " to ", frames.last, " are asked for"));
   for (std::int64_t f = frames.first; f <= frames.last; ++f)
     if (film.scene_hash[static_cast<std::size_t>(f - film.frames.first)] != survey.hash_of(f))
-      refuse(text("was made from another scene than this one is at frame ", f));
+      refuse(text("was made from another scene, or the scene has changed at frame ", f));
 }
 
 IrradianceCache read_irradiance_at(const Container& file, const Scene& scene) {

@@ -8,41 +8,41 @@ void declare_options(Options& options, FilmOptions& f) {
   options.section("Time");
   options.number(
       "temporal-accuracy", f.temporal_accuracy, "FRACTION",
-      "relative change of a place's light over time that may be missed; smaller computes it at more frames",
+      "relative change of light over time that may be missed; smaller: light is computed at more frames",
       {1e-6, 10});
   options.integer("max-life", f.max_life, "FRAMES",
-                  "frames after which a place's light is computed anew at the latest", {1, 1 << 20});
-  options.choice<Lives>(
-      "lives", f.lives, {{"midpoint", Lives::midpoint}, {"rate", Lives::rate}},
-      "what decides when a place's light is computed anew: midpoint: at the ends of each --max-life, and in "
-      "the middle of "
-      "any two such frames where what is interpolated proves wrong; rate: as soon as the change that the "
-      "next frame "
-      "promises adds up to the accuracy (Gautron 2006; frame after frame, without looking back)");
-  options.choice<TemporalGradients>("temporal-gradients", f.gradients,
-                                    {{"interpolated", TemporalGradients::interpolated},
-                                     {"extrapolated", TemporalGradients::extrapolated},
-                                     {"none", TemporalGradients::none}},
-                                    "how light changes from one record of a place to the next: straight to "
-                                    "that one; as the first frame promised (with "
-                                    "--lives rate); or not at all");
+                  "largest number of frames between two computations of the light at a place", {1, 1 << 20});
+  options.choice<Lives>("lives", f.lives, {{"midpoint", Lives::midpoint}, {"rate", Lives::rate}},
+                        "rule for the frames at which the light at a place is computed: midpoint: at the "
+                        "ends of each --max-life, and in the middle of two such frames where interpolation "
+                        "proves wrong; rate: as soon as the change that the next frame predicts adds up to "
+                        "the accuracy (Gautron 2006; frame after frame, without looking back)");
+  options.choice<TemporalGradients>(
+      "temporal-gradients", f.gradients,
+      {{"interpolated", TemporalGradients::interpolated},
+       {"extrapolated", TemporalGradients::extrapolated},
+       {"none", TemporalGradients::none}},
+      "change of light from one record of a place to the next: interpolated: straight to the next record; "
+      "extrapolated: as the first frame predicted (with --lives rate); none: no change");
   options.choice<LookAhead>(
       "look-ahead", f.look_ahead,
       {{"reproject", LookAhead::reproject}, {"trace", LookAhead::trace}, {"none", LookAhead::none}},
-      "with --lives rate: how the next frame's light is expected: what rays saw, moved (photons are counted "
-      "again instead); by the same rays, or the same drawing, in that frame (the default of --estimate "
-      "raster); or as it is");
-  options.integer(
-      "checks", f.checks, "N",
-      "with --lives midpoint: halvings of --max-life that are made whatever they show; of radiance, "
-      "whose noise hides its changes, 2 unless given",
-      {0, 20});
+      "with --lives rate: method that predicts the light of the next frame: reproject: the hits of the rays, "
+      "moved (photons are counted again instead); trace: the same rays, or the same drawing, in that frame "
+      "(the default of --estimate raster); none: the light of this frame");
+  options.integer("checks", f.checks, "N",
+                  "with --lives midpoint: halvings of --max-life that are always made; 0: none. Radiance has "
+                  "2 unless given, as its noise hides its changes",
+                  {0, 20});
   options.integer("fade", f.fade, "FRAMES",
-                  "in which the first record of a place fades in and the last one out", {0, 1000});
-  options.integer("photons", f.photons, "N", "paths from the lights, wherever photons are traced", {0, 1e12});
+                  "number of frames over which the first record of a place fades in and the last one fades "
+                  "out; 0: no fading",
+                  {0, 1000});
+  options.integer("photons", f.photons, "N",
+                  "number of paths from the lights, each time that photons are traced", {0, 1e12});
   options.integer("source-life", f.source_life, "FRAMES",
-                  "with --estimate gather and raster: frames between those at which photons are traced; "
-                  "between them, what they show is interpolated",
+                  "with --estimate gather or raster: frames from one tracing of photons to the next; light "
+                  "of the photons is interpolated between",
                   {1, 1 << 20});
 }
 
@@ -52,7 +52,9 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   };
   if (estimate == Estimate::raster) {
     if (of_radiance)
-      refuse("--estimate", "raster makes irradiance records alone; leave --kind radiance out, or give --estimate gather or hull");
+      refuse("--estimate",
+             "raster makes irradiance records alone; leave --kind radiance out, or give --estimate gather or "
+             "hull");
     if (look_ahead == LookAhead::reproject) {
       if (given.given("look-ahead"))
         refuse(
@@ -64,17 +66,18 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   if (lives == Lives::midpoint) {
     if (gradients == TemporalGradients::extrapolated)
       refuse("--temporal-gradients",
-             "extrapolated goes with --lives rate, which looks one frame ahead; add that");
+             "extrapolated needs --lives rate, which looks one frame ahead; add that option");
     if (gradients == TemporalGradients::none)
       refuse("--temporal-gradients",
-             "none goes with --lives rate: midpoints are judged by what is interpolated; add that");
+             "none needs --lives rate, as --lives midpoint judges by interpolation; add --lives rate");
     if (given.given("look-ahead"))
-      refuse("--look-ahead", "goes with --lives rate alone; add that, or leave it out");
+      refuse("--look-ahead", "needs --lives rate; add that option, or leave this one out");
   } else if (given.given("checks")) {
-    refuse("--checks", "goes with --lives midpoint alone; leave it out");
+    refuse("--checks", "needs --lives midpoint; leave it out");
   }
   if (gradients == TemporalGradients::extrapolated && look_ahead == LookAhead::none)
-    refuse("--look-ahead", "none knows no gradients; use reproject or trace, or --temporal-gradients none");
+    refuse("--look-ahead",
+           "none has no gradients to extrapolate; use reproject or trace, or --temporal-gradients none");
   if (of_radiance && !given.given("checks")) checks = 2;
 }
 

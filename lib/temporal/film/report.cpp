@@ -66,7 +66,7 @@ void tell_of_records(Tool& tool, const FilmJob& job, const FilmReport& r) {
                     "--temporal-accuracy or --max-life to compute fewer"));
   }
   if (r.records == 0)
-    tool.warn("no place wants a record (see --place, --camera): the file is empty");
+    tool.warn("no place needs a record (see --place, --camera): the file is empty");
   else if (r.uncovered > 0)
     tool.say(text(r.uncovered, " places are left uncovered by neighbour clamping; raise --passes"));
 }
