@@ -146,7 +146,7 @@ TEST(Overlay, ColoursTellLives) {
   EXPECT_NEAR(white.x, white.z, 1e-5f);
 }
 
-/// Letters of 13 pixels: the scale is 156 pixels wide, 19.5 from the left, and 24 to 41 above the bottom.
+/// Letters of 13 pixels: the scale is 156 pixels wide, 20 from the left, and 24 to 41 above the bottom.
 TEST(Overlay, LegendInTheCorner) {
   Image image(400, 400);
   image.set_rgb("", std::vector<Rgb>(image.pixels(), Rgb(1)));
@@ -160,7 +160,7 @@ TEST(Overlay, LegendInTheCorner) {
   const auto at = [&](int x, int y) { return picture[static_cast<std::size_t>(y * 400 + x)]; };
   const OverlayColourRow& row = row_of(OverlayColour::radius);
   for (const int x : {25, 97, 170}) {
-    const Rgb told = scene_colour(row.at((x - 19.5 + 0.5) / 156), 1);
+    const Rgb told = scene_colour(row.at((x - 20 + 0.5) / 156), 1);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(x, 367)[c], told[c], 0.05f * max_component(told)) << x;
   }
   EXPECT_EQ(at(300, 350), Rgb(1));

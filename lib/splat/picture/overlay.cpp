@@ -196,7 +196,7 @@ Colour8 blue_to_red(double t) { return palette_colour(Palette::turbo, 0.1 + 0.76
 
 Colour8 red_to_green(double t) {
   // Dark enough that no picture shows them as white.
-  constexpr double kStops[3][3] = {{215, 40, 30}, {215, 150, 20}, {20, 140, 50}};
+  constexpr double kStops[3][3] = {{160, 28, 22}, {160, 108, 12}, {14, 104, 36}};
   const int from = t < 0.5 ? 0 : 1;
   Colour8 colour;
   for (std::size_t c = 0; c < 3; ++c)

@@ -20,14 +20,14 @@ Picture legend_of(const DrawnRecords& drawn, const OverlayColourRow& row, int le
   const double line = letters * 4.0 / 3, gap = letters / 2.0;
   const FalseColourRange range{Scale::logarithmic, drawn.least * row.per_unit, drawn.most * row.per_unit};
   const bool one = !(range.hi > range.lo);
-  const double bar = 12.0 * letters, margin = 1.5 * letters;
+  const double bar = 12.0 * letters, margin = std::round(1.5 * letters);
   const int width = static_cast<int>(bar + 2 * margin), height = static_cast<int>(3 * line + 2 * gap);
   Canvas canvas = Canvas::pixels(width, height, kGround);
   const auto write = [&](double x, double y, const std::string& words, Align align) {
     canvas.write({x, y}, words, {.colour = kWords, .size = static_cast<double>(letters), .align = align});
   };
   write(margin, gap + line / 2, text(row.title, ", ", row.unit), Align::left);
-  const double top = gap + line;
+  const double top = std::round(gap + line);
   for (int x = 0; x < static_cast<int>(bar); ++x)
     canvas.fill(margin + x, top, 1, line, row.at(one ? 0 : (x + 0.5) / bar));
   const std::vector<double> marks = one ? std::vector<double>{range.lo} : scale_marks(range, kMarks);
