@@ -3,6 +3,8 @@
 #   pipelines/hsh-figures.sh FOLDER [MODEL [ENVIRONMENT]] [--order N] [--exponent E] [--width W] [--samples N] [--rays N]
 #                            [--photons N]
 # FOLDER/bases.csv, bases-*.svg   the accuracy of five bases over their number of coefficients, for the lobes Phong cos^5 and Ward 0.2 / 0.5
+# FOLDER/discs-*.png              for the same lobes, from all directions of view: energy that the functions leave out, and their order;
+#                                 and the functions themselves (Krivanek et al. 2005, figure 2; Gautron et al. 2004, figure 10)
 # FOLDER/errors.csv, *.png        MODEL (an .obj, made glossy with Phong exponent E) lit by ENVIRONMENT (an equirectangular map) through HSH and
 #                                 spherical harmonics (SH) of order N. The errors are differences from many more bands (the loss by the order) and
 #                                 from rays (the loss of shadows too).
@@ -37,6 +39,10 @@ plot phong 'Phong cos^5' none 'cos^5, mean over directions of view'
 plot phong-cosine 'Phong cos^5' cosine 'cos^5 times cosine, mean over directions of view'
 plot ward 'Ward 0.2 / 0.5' none 'Ward 0.2 / 0.5, mean over directions of view'
 plot ward-cosine 'Ward 0.2 / 0.5' cosine 'Ward 0.2 / 0.5 times cosine, mean over directions of view'
+
+for discs in error order harmonics; do
+  phos-picture --discs "$discs" "$folder/lobes.brdf" --quiet -o "$folder/discs-$discs.png"
+done
 
 # 2. The model with a glossy material, and a camera that sees the whole model.
 scene=$folder/model.obj

@@ -1,4 +1,5 @@
-// phos-picture: makes a picture for people from an image of light, or a plot from a table or a luminaire.
+// phos-picture: makes a picture for people from an image of light, or a plot from a table, a luminaire or a
+// .brdf file.
 #include "stage/picture.h"
 
 namespace {
@@ -15,7 +16,8 @@ constexpr const char* kDescription =
     "sequence is shown with the exposure of the first frame that is not black, as pictures or, where ffmpeg "
     "is installed, as a video (.mp4, .mkv, .webm). With --goniometric the luminous intensities of a "
     "luminaire, from IES LM-63 (.ies) or EULUMDAT (.ldt), become a polar plot with lumens, maximum, and beam "
-    "and field angles (within which half and a tenth of the plane's maximum are reached).";
+    "and field angles (within which half and a tenth of the plane's maximum are reached). "
+    "With --discs the tables of glossy reflection of a .brdf file become discs of colours.";
 
 }  // namespace
 
@@ -25,10 +27,10 @@ int main(int argc, char** argv) {
   tool.output_has_no_key();
   stage::PictureCommand asked;
   Options& options = tool.options();
-  options.input(
-      "INPUT", asked.sequence.input,
-      "OpenEXR, Radiance .hdr, a table (CSV), or photometry (.ies, .ldt); with --frames, a folder or a name "
-      "with %04d");
+  options.input("INPUT", asked.sequence.input,
+                "OpenEXR, Radiance .hdr, a table (CSV), photometry (.ies, .ldt), or a .brdf file; with "
+                "--frames, a folder "
+                "or a name with %04d");
   declare_options(options, asked.picture);
   declare_options(options, asked.picture.contours);
   options.section("Sequences");
@@ -41,6 +43,7 @@ int main(int argc, char** argv) {
   options.flag("goniometric", asked.goniometric,
                "draw the polar plot of INPUT, a luminaire's photometry (.ies, .ldt): planes C0-C180 and "
                "C90-C270, in candela; OUTPUT ends in .png or .svg");
+  declare_options(options, asked.discs);
   options.example("phos-picture room.exr -o room.png", "as a camera would see it");
   options.example("phos-picture room.exr -o lux.png --layer illuminance --false-colour --max 1000",
                   "lux on every surface");
@@ -55,6 +58,8 @@ int main(int argc, char** argv) {
       "phos-picture errors.csv --x seconds --y rmse --series method --log-x --log-y -o errors.svg",
       "a line for each method");
   options.example("phos-picture --goniometric lamp.ies -o lamp.png", "the polar plot of a luminaire");
+  options.example("phos-picture --discs error room.brdf -o errors.png",
+                  "how well harmonics hold each glossy material, from all directions of view");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -59,12 +59,6 @@ std::string number(double v) {
   return s;
 }
 
-struct LegendText {
-  std::string title, unit;
-  std::vector<std::string> figures;  ///< lines below the palette
-  bool steady = false;               ///< room for any figures, so that every legend is of one size
-};
-
 /// "mean 17.2" and the extremes of the finite values, which the palette may not reach.
 std::vector<std::string> figures_of(std::span<const float> values) {
   double sum = 0, lo = kInfinity, hi = -kInfinity;
@@ -103,7 +97,24 @@ Picture side_by_side(const Picture& left, const Picture& right) {
   return out;
 }
 
-/// Copies `picture` on a larger one with a legend beside it. `colour` gives the palette at a position 0 .. 1.
+Picture coloured(std::span<const float> values, int width, int height, const FalseColourRange& range,
+                 const std::function<Colour8(double)>& colour) {
+  constexpr int kSteps = 1024;
+  std::vector<Colour8> table;
+  for (int i = 0; i <= kSteps; ++i) table.push_back(colour(static_cast<double>(i) / kSteps));
+  Picture out = make_picture(width, height, kNotFinite);
+  PHOS_CHECK(out.rgb.size() == 3 * values.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    const double t = std::clamp(position(range, values[i]), 0.0, 1.0);
+    const Colour8& c = table[static_cast<std::size_t>(t * kSteps + 0.5)];
+    std::copy(c.begin(), c.end(), out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+  return out;
+}
+
+}  // namespace
+
 Picture with_legend(const Picture& picture, const FalseColourRange& range, const LegendText& words,
                     const std::function<Colour8(double)>& colour) {
   // Letters grow with the picture. A line of words takes `line` pixels.
@@ -146,24 +157,6 @@ Picture with_legend(const Picture& picture, const FalseColourRange& range, const
     write(gap, height - footer - gap + static_cast<int>(i) * line + line / 2, words.figures[i], kFaint);
   return side_by_side(picture, legend.finish_picture());
 }
-
-Picture coloured(std::span<const float> values, int width, int height, const FalseColourRange& range,
-                 const std::function<Colour8(double)>& colour) {
-  constexpr int kSteps = 1024;
-  std::vector<Colour8> table;
-  for (int i = 0; i <= kSteps; ++i) table.push_back(colour(static_cast<double>(i) / kSteps));
-  Picture out = make_picture(width, height, kNotFinite);
-  PHOS_CHECK(out.rgb.size() == 3 * values.size(), values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) continue;
-    const double t = std::clamp(position(range, values[i]), 0.0, 1.0);
-    const Colour8& c = table[static_cast<std::size_t>(t * kSteps + 0.5)];
-    std::copy(c.begin(), c.end(), out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
-  }
-  return out;
-}
-
-}  // namespace
 
 double round_up_125(double v) {
   const double power = std::pow(10.0, std::floor(std::log10(v)));

@@ -52,6 +52,16 @@ Picture false_colour(std::span<const float> values, int width, int height, const
 Picture difference_picture(std::span<const float> values, int width, int height, double range,
                            const std::string& title, const std::string& unit);
 
+struct LegendText {
+  std::string title, unit;
+  std::vector<std::string> figures;  ///< lines below the palette
+  bool steady = false;               ///< room for any figures, so that every legend is of one size
+};
+
+/// The picture on a larger one with a legend at its right. `colour` gives the palette at a position 0 .. 1.
+Picture with_legend(const Picture& picture, const FalseColourRange& range, const LegendText& words,
+                    const std::function<Colour8(double)>& colour);
+
 /// Values for the numbers of a scale: round ones, between lo and hi, about `wanted` of them.
 std::vector<double> scale_marks(const FalseColourRange& range, int wanted);
 /// 1, 2 or 5 times a power of ten, not below v (up) or not above it. v > 0.

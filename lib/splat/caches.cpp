@@ -1,7 +1,10 @@
 #include "splat/caches.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "radiance/brdf/file.h"
+#include "temporal/film/file.h"
 #include "temporal/film/inputs.h"
 
 namespace phos::inline splat {
@@ -42,14 +45,28 @@ void add(RadianceCache& all, RadianceCache more) {
   }
 }
 
+/// The lives of `n` records more, which a file gave.
+void add(RecordLives& all, const Container& file, const Scene& scene, std::size_t n) {
+  if (!is_film(file)) {
+    all.frames.insert(all.frames.end(), n, 0);
+    return;
+  }
+  const FilmInfo film = read_film_info(file);
+  const std::vector<std::int32_t> lives = lives_at(file, frame_of(scene), scene);
+  PHOS_CHECK(lives.size() == n, lives.size(), " lives of ", n, " records");
+  all.frames.insert(all.frames.end(), lives.begin(), lives.end());
+  all.most = std::max(all.most, std::min(film.max_life, film.frames.count()));
+}
+
 }  // namespace
 
 bool is_radiance(const Container& file) { return file.kind() == FileKind::radiance; }
 
-SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy) {
+SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene, bool glossy, bool lives) {
   SplatCaches caches;
   Joined all(caches.irradiance);
   for (const Container& file : files) {
+    const std::size_t before = caches.irradiance.records.size();
     if (is_brdf(file)) {
       for (BrdfTable& table : read_brdf(file)) caches.brdf.push_back(std::move(table));
     } else if (!is_radiance(file)) {
@@ -58,6 +75,8 @@ SplatCaches read_caches(const std::vector<Container>& files, const Scene& scene,
       all.add(file, irradiance_of(more));
       add(caches.radiance, std::move(more));
     }
+    if (const std::size_t n = caches.irradiance.records.size() - before; lives && n > 0)
+      add(caches.lives, file, scene, n);
   }
   return caches;
 }

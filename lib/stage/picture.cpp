@@ -3,9 +3,11 @@
 #include <filesystem>
 
 #include "file/atomic_file.h"
+#include "file/container.h"
 #include "file/frames.h"
 #include "image/events.h"
 #include "image/video.h"
+#include "radiance/brdf/file.h"
 #include "scene/luminaire/goniometric.h"
 
 namespace phos::stage {
@@ -81,6 +83,27 @@ void draw_goniometric(Tool& tool, const std::string& input) {
   write_plot(tool.output(), goniometric_plot(file, name), polar_plot_svg, polar_plot_picture);
 }
 
+void draw_discs(Tool& tool, const std::string& input, BrdfDiscs which) {
+  const Options& options = tool.options();
+  constexpr const char* kWhat = "drawn as discs";
+  if (!tool.output().ends_with(".png"))
+    throw Error(ExitCode::usage, "--output", "discs are drawn as pixels; the name must end in .png");
+  refuse_given(given_picture_option(options), "images", input, kWhat);
+  refuse_given(given_plot_option(options), "tables", input, kWhat);
+  refuse_given(given_contour_option(options), "images and tables", input, kWhat);
+  const Container file = Container::open(input);
+  if (file.kind() != FileKind::brdf)
+    throw Error(
+        ExitCode::bad_input, input,
+        text("holds ", name_of(file.kind()), ", and --discs draws a .brdf file; phos-brdf makes one"));
+  const std::vector<BrdfTable> tables = read_brdf(file);
+  try {
+    write_png(tool.output(), disc_plot_picture(discs_of(tables, which)));
+  } catch (const Error& e) {
+    throw e.where().empty() ? Error(e.code(), input, e.what()) : e;
+  }
+}
+
 void check_usage(const Options& options, const std::string& output, const PictureSequence& s,
                  const LayerPictureOptions& picture) {
   const auto refuse = [](const char* option, const std::string& why) {
@@ -111,14 +134,21 @@ void run(Tool& tool, const PictureCommand& asked) {
   const LayerPictureOptions& picture = asked.picture;
   const std::string& input = sequence.input;
   const std::string& output = tool.output();
-  if (asked.goniometric)
-    refuse_given(tool.options().first_given({"frames", "fps"}), "sequences", input, "a luminaire");
+  const bool discs = asked.discs != BrdfDiscs::none;
+  if (discs && asked.goniometric)
+    throw Error(ExitCode::usage, "--goniometric", "draws a luminaire, --discs a .brdf file; leave one out");
+  if (asked.goniometric || discs)
+    refuse_given(tool.options().first_given({"frames", "fps"}), "sequences", input,
+                 discs ? "drawn as discs" : "a luminaire");
   check_usage(tool.options(), output, sequence, picture);
   if (!sequence.frames.empty()) check_usage(picture.contours, false);
   if (!sequence.frames.empty()) return show_sequence(tool, sequence, picture);
   require_writable(output);
   tool.add_input("input", input);
   if (asked.goniometric) return draw_goniometric(tool, input);
+  if (discs) return draw_discs(tool, input, asked.discs);
+  if (is_container(input) && Container::open(input).kind() == FileKind::brdf)
+    throw Error(ExitCode::usage, input, "holds tables of glossy reflection; pass --discs error to draw them");
   const std::string bytes = read_text(input);
   if (looks_like_photometry(bytes))
     throw Error(ExitCode::usage, input, "is a luminaire's photometry; pass --goniometric to draw it");

@@ -4,6 +4,7 @@
 #include "file/tool.h"
 #include "image/plot/csv_plot.h"
 #include "image/show.h"
+#include "radiance/brdf/discs.h"
 
 namespace phos::stage {
 
@@ -15,6 +16,7 @@ struct PictureCommand {
   LayerPictureOptions picture;
   CsvPlotOptions plot;
   bool goniometric = false;
+  BrdfDiscs discs = BrdfDiscs::none;
 };
 
 /// The body of the program: `asked` holds the values that the options of `tool` are declared to set.

@@ -21,6 +21,7 @@
 #include "splat/picture/report.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
+#include "temporal/film/file.h"
 
 namespace phos::stage {
 namespace {
@@ -34,6 +35,11 @@ void tell_of_files(const Tool& tool, const std::vector<Container>& files, const 
   if (render.gloss == GlossBy::cached && !radiance)
     throw Error(ExitCode::usage, "--gloss cached",
                 "reads radiance records, and none are given; make them with phos-radiance");
+  const bool lives = render.overlay != Overlay::none && render.overlay_colour == OverlayColour::life;
+  if (lives && std::none_of(files.begin(), files.end(), is_film))
+    throw Error(
+        ExitCode::usage, "--overlay-colour life",
+        "tells how long the records of a film live, and no film is given; make one with phos-temporal");
   if (radiance && !glossy) tool.say("the scene has no gloss: radiance records are not used");
   if (brdf && !(radiance && glossy) && render.environment == EnvironmentBy::traced)
     tool.say("the .brdf file is not used: it serves radiance records, and --environment-mode hsh");
@@ -84,7 +90,7 @@ void run(Tool& tool, SplatCommand& asked) {
   const bool stated = tell_unsampled_in(tool, files).empty();
   const bool glossy = !glossy_materials(scene).empty();
   tell_of_files(tool, files, render, glossy);
-  SplatCaches caches = read_caches(files, scene, glossy);
+  SplatCaches caches = read_caches(files, scene, glossy, render.overlay_colour == OverlayColour::life);
   if (caches.irradiance.quantity == Quantity::all)
     tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
   resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
@@ -109,8 +115,8 @@ void run(Tool& tool, SplatCommand& asked) {
   report_noise(
       tool, render,
       choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));
-  Rendering rendering =
-      render_scene(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr);
+  Rendering rendering = render_scene(rays, caches.irradiance, render, caches.brdf,
+                                     gloss.cache ? &*gloss.cache : nullptr, caches.lives);
   require_finite(rendering.image);
   if (!stated) rendering.image = without_errors(rendering.image);
   if (!scene.animation.empty()) rendering.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);

@@ -81,6 +81,11 @@ TEST_F(SplatOptions, DrawsRecords) {
   const test::Run without = splat({"--overlay", "records", "--layers", "direct", "-o", path("no.exr")});
   EXPECT_EQ(without.code, 2);
   EXPECT_TRUE(is_one_line(without.err)) << without.err;
+  const test::Run still = splat({"--overlay", "records", "--overlay-colour", "life", "-o", path("no.exr")});
+  EXPECT_EQ(still.code, 2);
+  EXPECT_TRUE(is_one_line(still.err)) << still.err;
+  EXPECT_NE(still.err.find("no film is given"), std::string::npos) << still.err;
+  EXPECT_FALSE(std::filesystem::exists(path("no.exr")));
 }
 
 TEST_F(SplatOptions, EdgeSamplesAndLeakTest) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "splat/picture/overlay.h"
+#include "splat/picture/overlay_legend.h"
 #include "support/scenes.h"
 
 namespace phos::test {
@@ -53,11 +54,11 @@ struct Marked {
 };
 
 Marked draw(const FloorAndSheet& s, const std::vector<IrradianceRecord>& records,
-            OverlayColour colour = OverlayColour::radius, float light = 1) {
+            OverlayColour colour = OverlayColour::radius, float light = 1, const RecordLives& lives = {}) {
   Image image = grey_picture(light);
   const RayScene rays(s.scene);
   Marked m;
-  m.drawn = draw_records(image, records, 0.2, rays, s.camera, colour);
+  m.drawn = draw_records(image, records, 0.2, rays, s.camera, colour, lives);
   m.picture = image.rgb("");
   return m;
 }
@@ -121,6 +122,54 @@ TEST(Overlay, AnyBrightness) {
   EXPECT_EQ(black.drawn.count, 1u);
   for (const Rgb& c : black.picture) ASSERT_TRUE(is_finite(c));
   EXPECT_GT(max_component(black.at(150, 100)), 0);
+}
+
+/// Lives of 1, 4 and 16 frames of at most 16: the ends of the scale and its middle; a record of a cache that
+/// is no film is white.
+TEST(Overlay, ColoursTellLives) {
+  const FloorAndSheet s;
+  std::vector<IrradianceRecord> records;
+  for (const float z : {-1.5f, -0.5f, 0.5f, 1.5f}) records.push_back(record({1, 0, z}, {0, 1, 0}, 0.1f));
+  const Marked m = draw(s, records, OverlayColour::life, 1, {.frames = {1, 4, 16, 0}, .most = 16});
+  EXPECT_EQ(m.drawn.least, 1);
+  EXPECT_EQ(m.drawn.most, 16);
+  const OverlayColourRow& row = row_of(OverlayColour::life);
+  for (int i = 0; i < 3; ++i) {
+    const Rgb told = scene_colour(row.at(0.5 * i), m.drawn.key_cd_m2);
+    const Rgb seen = m.at(150, 25 + 50 * i);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], told[c], 1e-5) << i;
+  }
+  EXPECT_GT(m.at(150, 25).x, 2 * m.at(150, 25).y) << "red";
+  EXPECT_GT(m.at(150, 125).y, m.at(150, 125).x) << "green";
+  const Rgb white = m.at(150, 175);
+  EXPECT_NEAR(white.x, white.y, 1e-5f);
+  EXPECT_NEAR(white.x, white.z, 1e-5f);
+}
+
+/// Letters of 13 pixels: the scale is 156 pixels wide, 20 from the left, and 24 to 41 above the bottom.
+TEST(Overlay, LegendInTheCorner) {
+  Image image(400, 400);
+  image.set_rgb("", std::vector<Rgb>(image.pixels(), Rgb(1)));
+  const Image before = image;
+  DrawnRecords drawn;
+  draw_legend(image, drawn, OverlayColour::radius);
+  EXPECT_EQ(image.rgb(""), before.rgb("")) << "no record is drawn";
+  drawn.count = 2, drawn.least = 0.01, drawn.most = 1;
+  draw_legend(image, drawn, OverlayColour::radius);
+  const std::vector<Rgb> picture = image.rgb("");
+  const auto at = [&](int x, int y) { return picture[static_cast<std::size_t>(y * 400 + x)]; };
+  const OverlayColourRow& row = row_of(OverlayColour::radius);
+  for (const int x : {25, 97, 170}) {
+    const Rgb told = scene_colour(row.at((x - 20 + 0.5) / 156), 1);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(x, 367)[c], told[c], 0.05f * max_component(told)) << x;
+  }
+  EXPECT_EQ(at(300, 350), Rgb(1));
+  EXPECT_EQ(at(25, 300), Rgb(1));
+  Image small(100, 100);
+  small.set_rgb("", std::vector<Rgb>(small.pixels(), Rgb(1)));
+  draw_legend(small, drawn, OverlayColour::radius);
+  EXPECT_EQ(small.rgb("")[0], Rgb(1));
+  EXPECT_EQ(small.rgb("")[99 * 100], Rgb(1)) << "no room";
 }
 
 }  // namespace

@@ -259,7 +259,15 @@ TEST(CacheAt, OfAFileIsTheSame) {
     const RadianceFilm lobes = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, gradients);
     write_film(l, lobes, test::radiance_provenance());
     const Container irradiance = Container::open(e), radiance = Container::open(l);
+    const auto lives = [](const auto& records, std::int64_t at) {
+      std::vector<std::int32_t> all;
+      for (const auto& r : records)
+        if (r.life.birth <= at && at < r.life.end) all.push_back(r.life.end - r.life.birth);
+      return all;
+    };
     for (std::int64_t frame = 9; frame < 31; ++frame) {
+      EXPECT_EQ(lives_at(irradiance, frame, scene), lives(film.records, frame)) << frame;
+      EXPECT_EQ(lives_at(radiance, frame, scene), lives(lobes.records, frame)) << frame;
       const IrradianceCache a = cache_at(film, frame, scene), b = read_film_at(irradiance, frame, scene);
       ASSERT_EQ(a.records.size(), b.records.size());
       EXPECT_EQ(a.quantity, b.quantity);

@@ -43,6 +43,7 @@ struct Mark {
   PixelRect zone;
   Vec2 pixel;  // of its place, in pixels from the top left corner
   float value;
+  bool lasting = false;  // without a life, where lives are told
   Rgb colour{0};
 };
 
@@ -156,44 +157,81 @@ float value_of(const IrradianceRecord& r, OverlayColour colour) {
   return light > 0 ? luminance(r.stderr_lx) / light : 0;
 }
 
-/// Colours from least to most, but for a few outliers that look like these. Values without a logarithm are
-/// least.
-DrawnRecords paint(std::vector<Mark>& marks, float key_cd_m2) {
+/// Values of the first and last colour.
+DrawnRecords scale_of(const std::vector<Mark>& marks, OverlayColour colour, const RecordLives& lives) {
+  DrawnRecords drawn{.count = marks.size()};
+  if (colour == OverlayColour::life) {
+    drawn.least = 1, drawn.most = static_cast<double>(lives.most);
+    return drawn;
+  }
   std::vector<double> values;
   for (const Mark& m : marks)
     if (m.value > 0) values.push_back(static_cast<double>(m.value));
   std::sort(values.begin(), values.end());
-  DrawnRecords drawn{marks.size()};
   if (!values.empty()) {
     const auto out = static_cast<std::size_t>(kOutliers * static_cast<double>(values.size()));
     drawn.least = values[out], drawn.most = values[values.size() - 1 - out];
   }
+  return drawn;
+}
+
+/// Colours from least to most; values beyond look like these. Values without a logarithm are least.
+void paint(std::vector<Mark>& marks, const OverlayColourRow& row, const DrawnRecords& drawn) {
   for (Mark& m : marks) {
     double t = 0;
     if (static_cast<double>(m.value) > drawn.least && drawn.most > drawn.least)
       t = std::log(static_cast<double>(m.value) / drawn.least) / std::log(drawn.most / drawn.least);
-    const Colour8 code = palette_colour(Palette::turbo, 0.1 + 0.76 * std::min(t, 1.0));
-    const Rgb screen(srgb_to_linear(code[0]), srgb_to_linear(code[1]), srgb_to_linear(code[2]));
-    m.colour = screen * (scene_luminance(luminance(screen), key_cd_m2) / luminance(screen));
+    m.colour = scene_colour(m.lasting ? Colour8{255, 255, 255} : row.at(std::min(t, 1.0)), drawn.key_cd_m2);
   }
-  return drawn;
 }
 
 }  // namespace
 
+const OverlayColourRow& row_of(OverlayColour colour) {
+  return *std::find_if(std::begin(kOverlayColours), std::end(kOverlayColours),
+                       [colour](const OverlayColourRow& row) { return row.colour == colour; });
+}
+
+Colour8 blue_to_red(double t) { return palette_colour(Palette::turbo, 0.1 + 0.76 * t); }
+
+Colour8 red_to_green(double t) {
+  // Dark enough that no picture shows them as white.
+  constexpr double kStops[3][3] = {{160, 28, 22}, {160, 108, 12}, {14, 104, 36}};
+  const int from = t < 0.5 ? 0 : 1;
+  Colour8 colour;
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(
+        std::lerp(kStops[from][c], kStops[from + 1][c], std::clamp(2 * t - from, 0.0, 1.0)) + 0.5);
+  return colour;
+}
+
+Rgb scene_colour(const Colour8& code, double key_cd_m2) {
+  const Rgb screen(srgb_to_linear(code[0]), srgb_to_linear(code[1]), srgb_to_linear(code[2]));
+  const float y = luminance(screen);
+  return y > 0 ? screen * (scene_luminance(y, static_cast<float>(key_cd_m2)) / y) : Rgb(0);
+}
+
 DrawnRecords draw_records(Image& image, std::span<const IrradianceRecord> records, double accuracy,
-                          const RayScene& rays, const Camera& camera, OverlayColour colour) {
+                          const RayScene& rays, const Camera& camera, OverlayColour colour,
+                          const RecordLives& lives) {
+  PHOS_CHECK(colour != OverlayColour::life || lives.frames.size() == records.size(), lives.frames.size(),
+             " lives of ", records.size(), " records");
   const int width = image.width(), height = image.height();
   const Drawing drawing(width, height, accuracy, rays, camera);
   const std::vector<PixelRect> zones = record_bounds(records, accuracy, camera, width, height);
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    Mark mark{&records[i], zones[i], {}, value_of(records[i], colour)};
+    const bool told = colour == OverlayColour::life;
+    Mark mark{
+        &records[i], zones[i], {}, told ? static_cast<float>(lives.frames[i]) : value_of(records[i], colour)};
+    mark.lasting = told && lives.frames[i] == 0;
     if (drawable(records[i]) && drawing.place(records[i], mark.pixel)) marks.push_back(mark);
   }
   std::vector<Rgb> picture = image.rgb("");
   const double key = tone_map(picture, width, height, {}).key_cd_m2;
-  const DrawnRecords drawn = paint(marks, key > 0 ? static_cast<float>(key) : 1.f);
+  DrawnRecords drawn = scale_of(marks, colour, lives);
+  drawn.key_cd_m2 = key > 0 ? key : 1;
+  paint(marks, row_of(colour), drawn);
   for (Rgb& under : picture) under = kDimmed * glm::mix(under, Rgb(luminance(under)), kGrey);
   drawing.draw_zones(marks, picture);
   drawing.draw_dots(marks, picture);

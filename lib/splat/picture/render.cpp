@@ -21,6 +21,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/picture/edge_shader.h"
 #include "splat/picture/edges.h"
+#include "splat/picture/overlay_legend.h"
 #include "splat/picture/pixel_shader.h"
 
 namespace phos::inline splat {
@@ -102,10 +103,14 @@ void declare_options(Options& options, RenderOptions& r) {
       "overlay", r.overlay, {{"none", Overlay::none}, {"records", Overlay::records}},
       "marks that are drawn into the beauty layer: records: a dot at each visible record, and the outline of "
       "the zone that it lights; other layers stay as they are");
-  options.choice<OverlayColour>("overlay-colour", r.overlay_colour,
-                                {{"radius", OverlayColour::radius}, {"stderr", OverlayColour::stderr_}},
-                                "with --overlay records: quantity that the colours show: radius, or standard "
-                                "error over irradiance (logarithmic; blue is the least)");
+  Names<OverlayColour> colours;
+  for (const OverlayColourRow& row : kOverlayColours) colours.emplace_back(row.name, row.colour);
+  options.choice<OverlayColour>(
+      "overlay-colour", r.overlay_colour, colours,
+      "with --overlay records: quantity that the colours show: radius, or standard error over irradiance "
+      "(logarithmic; blue is the least); or, of a film, the number of frames that a record lives "
+      "(logarithmic; "
+      "red is one frame, green the longest life)");
   options.section("Light from the cache");
   options.number("accuracy", r.accuracy, "A",
                  "error allowed in interpolation, which sets the reach of a record; smaller: fewer, closer "
@@ -413,12 +418,14 @@ class Painter {
 }  // namespace
 
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-                       std::span<const BrdfTable> brdfs, const GlossCache* gloss) {
+                       std::span<const BrdfTable> brdfs, const GlossCache* gloss, const RecordLives& lives) {
   Rendering result;
   Painter(rays, cache, options, brdfs, gloss, result).make();
-  if (options.overlay == Overlay::records)
+  if (options.overlay == Overlay::records) {
     result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
-                                find_camera(rays.scene(), options.camera), options.overlay_colour);
+                                find_camera(rays.scene(), options.camera), options.overlay_colour, lives);
+    draw_legend(result.image, result.drawn, options.overlay_colour);
+  }
   return result;
 }
 

@@ -56,12 +56,12 @@ void tell_of_records(Tool& tool, const RenderOptions& render, const Rendering& r
   tool.stat("overlay.records", drawn.count);
   tool.stat("overlay.least", drawn.least);
   tool.stat("overlay.most", drawn.most);
-  const bool radius = render.overlay_colour == OverlayColour::radius;
+  const OverlayColourRow& row = row_of(render.overlay_colour);
   const auto value = [&](double v) {
-    return radius ? shortest(static_cast<float>(v)) + " m" : shortest(static_cast<float>(100 * v)) + " %";
+    return text(shortest(static_cast<float>(row.per_unit * v)), " ", row.unit);
   };
-  tool.say(text(drawn.count, " records drawn; ", radius ? "radius" : "standard error", " from ",
-                value(drawn.least), " (blue) to ", value(drawn.most), " (red), logarithmic"));
+  tool.say(text(drawn.count, " records drawn; ", row.title, " from ", value(drawn.least), " (", row.least,
+                ") to ", value(drawn.most), " (", row.most, "), logarithmic"));
 }
 
 }  // namespace

@@ -202,6 +202,17 @@ Cache shown(const AnyFilm& film, const Wanted& wanted, std::int64_t frame, const
   return cache;
 }
 
+/// The frames that each record of shown() lives.
+template <class AnyFilm>
+std::vector<std::int32_t> lives_shown(const AnyFilm& film, const Wanted& wanted, std::int64_t frame,
+                                      const Scene& scene) {
+  std::vector<std::int32_t> lives;
+  for (std::size_t k = 0; k < film.records.size(); ++k)
+    if (at_frame(film.records[k], wanted.alive[k].share, film.info, frame, scene))
+      lives.push_back(film.records[k].life.end - film.records[k].life.birth);
+  return lives;
+}
+
 /// The columns that a film has more than a cache.
 template <class AnyFilm>
 LifeColumns lives_of(const AnyFilm& film) {
@@ -269,6 +280,12 @@ IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Sc
 RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene) {
   const Wanted wanted(file, frame);
   return shown<RadianceCache>(read_radiance(file, wanted), wanted, frame, scene);
+}
+
+std::vector<std::int32_t> lives_at(const Container& file, std::int64_t frame, const Scene& scene) {
+  const Wanted wanted(file, frame);
+  return file.kind() == FileKind::radiance ? lives_shown(read_radiance(file, wanted), wanted, frame, scene)
+                                           : lives_shown(read(file, wanted), wanted, frame, scene);
 }
 
 }  // namespace phos::inline temporal

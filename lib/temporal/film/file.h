@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "file/container.h"
 #include "temporal/film/cache.h"
@@ -27,5 +28,7 @@ RadianceFilm read_radiance_film(const Container& file);
 /// cache_at() of a film's file: its radiance records are read, and looked at, only where they are alive.
 IrradianceCache read_film_at(const Container& file, std::int64_t frame, const Scene& scene);
 RadianceCache read_radiance_film_at(const Container& file, std::int64_t frame, const Scene& scene);
+/// The frames that each record of these caches lives, in their order: at least 1. Throws as they do.
+std::vector<std::int32_t> lives_at(const Container& file, std::int64_t frame, const Scene& scene);
 
 }  // namespace phos::inline temporal
