@@ -162,7 +162,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response_.set(http::field::cache_control, "no-store");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
-    response_.set("Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'");
+    response_.set("Content-Security-Policy",
+                  "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'");
     if (status == http::status::method_not_allowed) response_.set(http::field::allow, "GET, HEAD");
     const bool head = request.method() == http::verb::head;
     response_.body() = {file.bytes.data(), head ? 0 : file.bytes.size()};

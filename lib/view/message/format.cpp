@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/json.h"
+#include "splat/direct/lamp_samples.h"
 
 namespace phos::inline view {
 namespace {
@@ -43,7 +44,7 @@ constexpr MessageField kSceneFields[] = {
     {"lamp", "name_end", u32, 1, "", "end of its name in lamp_name, which begins where the one before ends"},
     {"lamp_name", "utf8", u8, 1, "", ""},
     {"sample", "lamp", u32, 1, "", "lamp that shines from here", false, false, "lamp"},
-    {"sample", "shape", u32, 1, "", "SampleShape"},
+    {"sample", "shape", u32, 1, "", "SampleShape: 0 area, 1 point, 2 spot, 3 directional, 4 map, 5 area_map"},
     {"sample", "position", f32, 3, "m", "directional: unused"},
     {"sample", "forward", f32, 3, "",
      "unit; of an area the normal, of a spot the axis, of a directional lamp "
@@ -53,9 +54,11 @@ constexpr MessageField kSceneFields[] = {
     {"sample", "two_sided", u32, 1, "", "1: an area shines from both sides"},
     {"sample", "distribution", u32, 1, "", "of SampleShape::map and area_map", false, false, "distribution"},
     {"distribution", "axes", f32, 9, "", "rows: the luminaire's x, y and up in the scene"},
-    {"distribution", "share", f32, kShareColumns* kShareRows, "",
+    {"distribution", "share", f32, ShareMap::kWidth* ShareMap::kHeight, "",
      "of the sample's colour, by degrees of azimuth (fastest) and from straight down"},
-    {"camera", "to_world", f32, 16, "m", "by columns; it looks along -z, +y is up"},
+    {"camera", "position", f32, 3, "m", ""},
+    {"camera", "right", f32, 3, "", "unit"},
+    {"camera", "up", f32, 3, "", "unit, at right angles to right"},
     {"camera", "perspective", u32, 1, "", "1; 0: orthographic"},
     {"camera", "half_height", f32, 1, "", "of the picture: tangent, or m where orthographic"},
     {"camera", "aspect", f32, 1, "", "width over height"},

@@ -47,23 +47,14 @@ struct MessageField {
 /// Of a field that refers to a table: to none of its rows.
 inline constexpr std::uint32_t kNoRow = 0xffffffff;
 
-// Values of fields.
-enum class SampleShape : std::uint32_t {
-  area = 0,
-  point = 1,
-  spot = 2,
-  directional = 3,
-  map = 4,
-  area_map = 5
-};
+// Values of fields. The shape of a sample is a SampleShape (splat/direct/lamp_samples.h).
 enum MaterialFlag : std::uint32_t {
   kTwoSidedEmission = 1,
   kMasked = 2,  ///< alpha below the cutoff is a hole
   kClear = 4,   ///< light passes straight: not drawn, and throws no shadow
 };
-/// Side of the table of a luminaire's distribution, degrees: azimuth 0 to 360, and 0 to 180 from straight
-/// down.
-inline constexpr unsigned kShareColumns = 361, kShareRows = 181;
+/// Sides of the table of the sky.
+inline constexpr unsigned kSkyColumns = 256, kSkyRows = 128;
 
 struct MessageLayout {
   MessageKind kind;
