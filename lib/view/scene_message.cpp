@@ -7,8 +7,9 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/material/bsdf.h"
 #include "scene/texture/texture.h"
-#include "splat/direct/lamp_samples.h"
+#include "splat/direct/lamp_places.h"
 #include "splat/projection.h"
+#include "splat/sight_range.h"
 #include "view/message/writer.h"
 
 namespace phos::inline view {
@@ -192,14 +193,14 @@ int places_of(const Scene& scene, const Light& light, int light_samples) {
       std::count_if(scene.light.begin(), scene.light.end(), [](const Light& l) { return l.extended(); });
   const int fair = std::max(1, kMostSamples / std::max(1, static_cast<int>(extended)));
   const bool environment = light.kind == Light::Kind::environment;
-  return sample_count(light, std::min(fair, environment ? 4 * light_samples : light_samples));
+  return place_count(light, std::min(fair, environment ? 4 * light_samples : light_samples));
 }
 
 void add_lamps(const Scene& scene, int light_samples, MessageWriter& message) {
   const Luminaires luminaires(scene);
   NameList names;
   Numbers lamp, shape, two_sided, distribution;
-  Floats position, forward, colour, cone, axes, share;
+  Floats position, nearest, forward, colour, cone, axes, share;
   std::uint32_t distributions = 0;
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     const Light& light = scene.light[i];
@@ -214,10 +215,13 @@ void add_lamps(const Scene& scene, int light_samples, MessageWriter& message) {
     }
     const int count = places_of(scene, light, light_samples);
     for (int k = 0; k < count; ++k) {
-      const auto sample = lamp_sample(scene, luminaires, i, k, count, map);
+      const auto sample = lamp_place(scene, luminaires, i, k, count, map);
       if (!sample || max_component(sample->colour) <= 0) continue;
       lamp.push_back(static_cast<std::uint32_t>(i));
       shape.push_back(static_cast<std::uint32_t>(sample->shape));
+      const bool near = sample->shape != PlaceShape::directional;
+      nearest.push_back(near ? static_cast<float>(nearest_m(scene, sample->position, sample->instance))
+                             : 0.f);
       add(position, sample->position), add(forward, sample->forward), add(colour, sample->colour);
       cone.push_back(static_cast<float>(sample->cos_outer)),
           cone.push_back(static_cast<float>(sample->cos_inner));
@@ -230,6 +234,7 @@ void add_lamps(const Scene& scene, int light_samples, MessageWriter& message) {
   message.add("sample", "lamp", lamp);
   message.add("sample", "shape", shape);
   message.add("sample", "position", position);
+  message.add("sample", "nearest", nearest);
   message.add("sample", "forward", forward);
   message.add("sample", "colour", colour);
   message.add("sample", "cone", cone);

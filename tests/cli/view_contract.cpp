@@ -99,7 +99,7 @@ TEST(ViewTool, LightUnderTheCursorIsThatOfSense) {
   client.send(handshake(""));
   ASSERT_EQ(status(client.read_to("\r\n\r\n")), 101);
   int hits = 0;
-  for (const auto& [x, z] : {std::pair(0.1f, -0.1f), {0.3f, -0.05f}, {0.45f, -0.4f}, {5.f, 5.f}}) {
+  for (const auto& [x, z] : {std::pair(0.1f, 0.1f), {0.3f, 0.05f}, {0.45f, 0.4f}, {5.f, 5.f}}) {
     client.send(frame(question({x, 0.54f, z}, {0, -3, 0}), 2));
     const std::string head = client.read(4);
     ASSERT_EQ(head.substr(0, 2), "\x82\x7e");

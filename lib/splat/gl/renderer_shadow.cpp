@@ -10,16 +10,17 @@
 #include "core/progress.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/shading_frame.h"
-#include "splat/direct/lamp_samples.h"
+#include "splat/direct/lamp_places.h"
 #include "splat/gl/renderer.h"
 #include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
+#include "splat/sight_range.h"
 
 namespace phos::inline splat {
 namespace {
 
 /// A place that light comes from, with the views that its shadow map is made of.
-struct ShadowSample : LampSample {
+struct ShadowSample : LampPlace {
   const ShareMap* map = nullptr;
   std::vector<GlView> faces;
   float bias = 0;
@@ -76,17 +77,17 @@ void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sampl
 
 /// Adds the views of a shadow map. Cones up to 50 degrees off the axis have one map, a little wider than they
 /// are.
-ShadowSample with_views(const Scene& scene, const GBuffer& gbuffer, const LampSample& lamp,
+ShadowSample with_views(const Scene& scene, const GBuffer& gbuffer, const LampPlace& lamp,
                         const ShareMap& map, int map_size) {
   ShadowSample sample{lamp, &map, {}, 0};
-  if (lamp.shape == SampleShape::directional) {
+  if (lamp.shape == PlaceShape::directional) {
     add_parallel_view(scene, gbuffer, sample, map_size);
     return sample;
   }
   std::size_t faces = 6;
   double half_opening = 1;
-  if (lamp.shape == SampleShape::area && !lamp.two_sided) faces = 5;
-  if (lamp.shape == SampleShape::spot && lamp.cos_outer > 0.64) {
+  if (lamp.shape == PlaceShape::area && !lamp.two_sided) faces = 5;
+  if (lamp.shape == PlaceShape::spot && lamp.cos_outer > 0.64) {
     const double cosine = std::min(lamp.cos_outer, 1 - 1e-6);
     faces = 1, half_opening = 1.02 * std::sqrt(1 - cosine * cosine) / cosine;
   }
@@ -192,8 +193,7 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
 
   const Luminaires luminaires(scene);
   std::size_t total = 0;
-  for (const Light& light : scene.light)
-    total += static_cast<std::size_t>(sample_count(light, light_samples));
+  for (const Light& light : scene.light) total += static_cast<std::size_t>(place_count(light, light_samples));
   Progress progress("shadow maps", total, "maps");
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     const Light& light = scene.light[i];
@@ -202,10 +202,10 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
       map = share_map(scene, light);
       pass.take(map);
     }
-    const int count = sample_count(light, light_samples);
+    const int count = place_count(light, light_samples);
     for (int k = 0; k < count; ++k) {
       throw_if_interrupted();
-      if (const auto sample = lamp_sample(scene, luminaires, i, k, count, map))
+      if (const auto sample = lamp_place(scene, luminaires, i, k, count, map))
         pass.add(with_views(scene, gbuffer, *sample, map, size));
       progress.advance();
     }

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/json.h"
-#include "splat/direct/lamp_samples.h"
+#include "splat/direct/lamp_places.h"
 
 namespace phos::inline view {
 namespace {
@@ -44,15 +44,16 @@ constexpr MessageField kSceneFields[] = {
     {"lamp", "name_end", u32, 1, "", "end of its name in lamp_name, which begins where the one before ends"},
     {"lamp_name", "utf8", u8, 1, "", ""},
     {"sample", "lamp", u32, 1, "", "lamp that shines from here", false, false, "lamp"},
-    {"sample", "shape", u32, 1, "", "SampleShape: 0 area, 1 point, 2 spot, 3 directional, 4 map, 5 area_map"},
+    {"sample", "shape", u32, 1, "", "PlaceShape: 0 area, 1 point, 2 spot, 3 directional, 4 map, 5 area_map"},
     {"sample", "position", f32, 3, "m", "directional: unused"},
+    {"sample", "nearest", f32, 1, "m", "nothing that throws a shadow is nearer; directional: unused"},
     {"sample", "forward", f32, 3, "",
      "unit; of an area the normal, of a spot the axis, of a directional lamp "
      "the way of the light"},
     {"sample", "colour", f32, 3, "cd", "on the axis; directional: lx on a surface that faces it"},
     {"sample", "cone", f32, 2, "", "of a spot: cosines of the outer and inner half angle"},
     {"sample", "two_sided", u32, 1, "", "1: an area shines from both sides"},
-    {"sample", "distribution", u32, 1, "", "of SampleShape::map and area_map", false, false, "distribution"},
+    {"sample", "distribution", u32, 1, "", "of PlaceShape::map and area_map", false, false, "distribution"},
     {"distribution", "axes", f32, 9, "", "rows: the luminaire's x, y and up in the scene"},
     {"distribution", "share", f32, ShareMap::kWidth* ShareMap::kHeight, "",
      "of the sample's colour, by degrees of azimuth (fastest) and from straight down"},

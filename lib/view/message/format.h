@@ -47,7 +47,7 @@ struct MessageField {
 /// Of a field that refers to a table: to none of its rows.
 inline constexpr std::uint32_t kNoRow = 0xffffffff;
 
-// Values of fields. The shape of a sample is a SampleShape (splat/direct/lamp_samples.h).
+// Values of fields. The shape of a sample is a PlaceShape (splat/direct/lamp_places.h).
 enum MaterialFlag : std::uint32_t {
   kTwoSidedEmission = 1,
   kMasked = 2,  ///< alpha below the cutoff is a hole

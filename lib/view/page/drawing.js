@@ -68,7 +68,7 @@ export class Drawing {
     const far = Math.hypot(...eye.position.map((p, k) => p - this.centre[k])) + this.size;
     return {
       eye: eye.position, axes: eye.axes(), half_size: half, perspective: eye.perspective,
-      lens: [1 / half[0], 1 / half[1], 0, 0], range: [1e-5 * this.size, far],
+      lens: [1 / half[0], 1 / half[1], 0, 0], range: [1e-3 * this.size, far],
       margin: [2 / this.canvas.width, 2 / this.canvas.height], backward: eye.backward(),
     };
   }

@@ -11,7 +11,7 @@
 
 namespace phos::inline splat {
 
-enum class SampleShape : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
+enum class PlaceShape : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
 
 /// Shares of a colour by degrees: of azimuth, and from straight down. Rows of `axes` are a luminaire's x, y,
 /// up.
@@ -24,8 +24,8 @@ struct ShareMap {
 /// Of a light that has a fitting.
 ShareMap share_map(const Scene& scene, const Light& light);
 
-struct LampSample {
-  SampleShape shape = SampleShape::point;
+struct LampPlace {
+  PlaceShape shape = PlaceShape::point;
   Vec3 position{0};                     ///< m; directional: unused
   Vec3 forward{0, 0, -1};               ///< normal of an area, axis of a spot, way of directional light
   Rgb colour{0};                        ///< cd on the axis; directional: lx on a surface that faces it
@@ -35,10 +35,10 @@ struct LampSample {
 };
 
 /// Places that stand for a light: `samples` for an extended one, else 1.
-int sample_count(const Light& light, int samples);
+int place_count(const Light& light, int samples);
 /// The k-th of `count` places of light `i`, which fill it evenly. `map`: share_map() of a light that has a
 /// fitting. Nothing where it is dark.
-std::optional<LampSample> lamp_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
-                                      int count, const ShareMap& map);
+std::optional<LampPlace> lamp_place(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
+                                    int count, const ShareMap& map);
 
 }  // namespace phos::inline splat

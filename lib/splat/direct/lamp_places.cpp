@@ -1,4 +1,4 @@
-#include "splat/direct/lamp_samples.h"
+#include "splat/direct/lamp_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@ bool is_solid(const Scene& scene, const Light& light) {
   return light.kind == Light::Kind::area && !scene.fitting[static_cast<std::size_t>(light.fitting)].flat();
 }
 
-std::optional<LampSample> area_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
-                                      int count) {
+std::optional<LampPlace> area_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
+                                     int count) {
   const Vec3 u = even_point(k, count);
   const EmissionPoint point = luminaires.sample_point(i, u.z, Vec2(u));
-  LampSample sample;
-  sample.shape = SampleShape::area;
+  LampPlace sample;
+  sample.shape = PlaceShape::area;
   sample.forward = point.normal;
   sample.two_sided = scene.material_of(point.triangle).double_sided;
   const double per_sample = static_cast<double>(point.density) * count;
@@ -37,12 +37,12 @@ std::optional<LampSample> area_sample(const Scene& scene, const Luminaires& lumi
 }
 
 /// A luminaire's light from the k-th of `count` places on its opening; from a point there is one.
-std::optional<LampSample> luminaire_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i,
-                                           int k, int count, const ShareMap& map) {
+std::optional<LampPlace> luminaire_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i,
+                                          int k, int count, const ShareMap& map) {
   const Light& light = scene.light[i];
   const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
-  LampSample sample;
-  sample.shape = SampleShape::map;
+  LampPlace sample;
+  sample.shape = PlaceShape::map;
   sample.colour = Rgb(DVec3(fitting.peak_cd()) * static_cast<double>(map.greatest));
   sample.position = light.position;
   if (light.kind == Light::Kind::area) {
@@ -50,7 +50,7 @@ std::optional<LampSample> luminaire_sample(const Scene& scene, const Luminaires&
     const EmissionPoint point = luminaires.sample_point(i, u.z, Vec2(u));
     if (!(point.density > 0)) return std::nullopt;
     const bool solid = is_solid(scene, light);
-    if (solid) sample.shape = SampleShape::area_map;
+    if (solid) sample.shape = PlaceShape::area_map;
     sample.forward = point.normal;
     sample.colour = Rgb(DVec3(sample.colour) / (count * (solid ? static_cast<double>(point.density) : 1.0)));
     const bool two_sided = scene.material_of(point.triangle).double_sided;
@@ -60,25 +60,25 @@ std::optional<LampSample> luminaire_sample(const Scene& scene, const Luminaires&
   return sample;
 }
 
-LampSample punctual_sample(const Light& light) {
-  LampSample sample;
+LampPlace punctual_sample(const Light& light) {
+  LampPlace sample;
   sample.colour = light.intensity;
   sample.position = light.position;
-  if (light.kind == Light::Kind::directional) sample.shape = SampleShape::directional;
+  if (light.kind == Light::Kind::directional) sample.shape = PlaceShape::directional;
   if (light.kind == Light::Kind::spot) {
-    sample.shape = SampleShape::spot;
+    sample.shape = PlaceShape::spot;
     sample.cos_outer = light.cos_outer, sample.cos_inner = light.cos_inner;
   }
-  if (sample.shape != SampleShape::point) sample.forward = light.direction;
+  if (sample.shape != PlaceShape::point) sample.forward = light.direction;
   return sample;
 }
 
 /// The environment's light from the k-th of `count` directions.
-std::optional<LampSample> environment_sample(const Scene& scene, int k, int count) {
+std::optional<LampPlace> environment_sample(const Scene& scene, int k, int count) {
   const Environment::Sample part = scene.environment->sample(Vec2(even_point(k, count)));
   if (!(part.density > 0)) return std::nullopt;
-  LampSample sample;
-  sample.shape = SampleShape::directional;
+  LampPlace sample;
+  sample.shape = PlaceShape::directional;
   sample.forward = -part.direction;
   sample.colour = part.luminance / (part.density * static_cast<float>(count));
   return sample;
@@ -104,10 +104,10 @@ ShareMap share_map(const Scene& scene, const Light& light) {
   return map;
 }
 
-int sample_count(const Light& light, int samples) { return light.extended() ? samples : 1; }
+int place_count(const Light& light, int samples) { return light.extended() ? samples : 1; }
 
-std::optional<LampSample> lamp_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
-                                      int count, const ShareMap& map) {
+std::optional<LampPlace> lamp_place(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
+                                    int count, const ShareMap& map) {
   const Light& light = scene.light[i];
   if (light.fitting >= 0) return luminaire_sample(scene, luminaires, i, k, count, map);
   if (light.kind == Light::Kind::area) return area_sample(scene, luminaires, i, k, count);
