@@ -7,7 +7,7 @@ packages=(g++ cmake ninja-build pkg-config
   libembree-dev libtbb-dev librandom123-dev libcli11-dev nlohmann-json3-dev libxxhash-dev libglm-dev
   libopenexr-dev libpng-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libflann-dev liblz4-dev libdeflate-dev libcgal-dev
   libcairo2-dev fonts-dejavu-core libosmesa6-dev libegl-dev libtomlplusplus-dev libboost-dev libeigen3-dev jq)
-[[ ${1:-} == --tests ]] && packages+=(libgtest-dev libbenchmark-dev man-db dpkg-dev lintian mmdebstrap)
+[[ ${1:-} == --tests ]] && packages+=(libgtest-dev libbenchmark-dev man-db dpkg-dev lintian mmdebstrap chromium)
 
 missing=()
 for package in "${packages[@]}"; do

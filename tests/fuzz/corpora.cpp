@@ -18,6 +18,7 @@
 #include "support/run.h"
 #include "temporal/film/file.h"
 #include "temporal/journal.h"
+#include "view/message/writer.h"
 
 namespace phos {
 namespace {
@@ -70,7 +71,7 @@ void irradiance(const std::string& to) {
   }
 }
 
-void radiance(const std::string& to) {
+void radiance_files(const std::string& to) {
   write_radiance(to + "none.radiance", test::random_radiance(0, 3), test::radiance_provenance());
   write_radiance(to + "same.radiance", test::random_radiance(3, 2), test::radiance_provenance());
   write_radiance(to + "orders.radiance", test::random_radiance({1, 3, 2}), test::radiance_provenance());
@@ -249,6 +250,24 @@ void merl(const std::string& to) {
   test::spill(to + "full", bytes + std::string(reinterpret_cast<const char*>(samples), sizeof samples));
 }
 
+/// Of each kind, with one row in every table, and with none.
+void messages(const std::string& to) {
+  for (const MessageLayout& layout : message_layouts()) {
+    MessageWriter filled(layout.kind);
+    for (const MessageField& field : layout.fields) {
+      if (field.table == "distribution") continue;  // a quarter of a megabyte
+      if (field.type == FieldType::f32)
+        filled.add(field.table, field.name, std::vector<float>(field.components, 0.5f));
+      else if (field.type == FieldType::u32)
+        filled.add(field.table, field.name, std::vector<std::uint32_t>(field.components, 0));
+      else
+        filled.add(field.table, field.name, std::vector<std::uint8_t>(field.components, 'a'));
+    }
+    test::spill(text(to, layout.name), filled.message());
+    test::spill(text(to, layout.name, ".empty"), MessageWriter(layout.kind).message());
+  }
+}
+
 }  // namespace
 }  // namespace phos
 
@@ -257,8 +276,8 @@ int main(int argc, char** argv) {
   const std::string root = argv[1];
   using namespace phos;
   photons(folder(root, "photons")), irradiance(folder(root, "irradiance")),
-      radiance(folder(root, "radiance"));
+      radiance_files(folder(root, "radiance"));
   brdf(folder(root, "brdf")), films(folder(root, "film")), journals(folder(root, "journal")),
       scenes(folder(root, "gltf"));
-  images(root), texts(root), merl(folder(root, "merl"));
+  images(root), texts(root), merl(folder(root, "merl")), messages(folder(root, "message"));
 }

@@ -10,7 +10,7 @@ seconds=${1:-600}
 [ $# -gt 0 ] && shift
 build=${FUZZ_BUILD:-build/fuzz}
 work=${FUZZ_WORK:-$build/fuzz}
-all="container photons irradiance radiance brdf film journal gltf obj texture exr hdr png environment merl ies ldt csv json toml options"
+all="container photons irradiance radiance brdf film journal gltf obj texture exr hdr png environment merl ies ldt csv json toml options message"
 fuzzers=${*:-$all}
 
 [ -f "$build/build.ninja" ] || cmake --preset fuzz -B "$build" >/dev/null

@@ -73,6 +73,8 @@ class Process {
     }
   }
   void signal(int number) const { kill(pid_, number); }
+  /// What it has printed so far.
+  std::string out() const { return slurp(files_ + "/out"); }
   Run wait() const {
     int status = 0;
     waitpid(pid_, &status, 0);

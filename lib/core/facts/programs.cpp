@@ -26,6 +26,7 @@ constexpr Program kPrograms[] = {
      ".irradiance, .radiance"},
     {"phos-splat", "renders a scene from its caches", "scene, caches", ".exr"},
     {"phos-sense", "computes illuminance at sensor points, with its standard error", "scene, caches", ".csv"},
+    {"phos-view", "shows a lit scene in a browser, to walk through", "scene, caches", "web page"},
     {"phos-reference", "renders a scene by path tracing, as a reference for the other stages",
      "scene, photons", ".exr, .csv"},
     {"phos-bands", "joins results that were computed in bands of wavelength", ".exr, .csv", ".exr, .csv"},

@@ -9,6 +9,7 @@
 #include "estimate/registry.h"
 #include "splat/gl/raster.h"
 #include "splat/gl/raster_plane.h"
+#include "splat/sight_range.h"
 
 namespace phos::inline splat {
 namespace {

@@ -17,12 +17,6 @@ struct GlView {
   bool perspective = true;
 };
 
-/// Distance from `eye` to the farthest corner of the bounds, m.
-double farthest_m(const Scene& scene, const Vec3& eye);
-/// A distance such that nothing of the scene is nearer to `eye`, except triangles of `but_instance` (-1:
-/// none). Never below 1e-6 of farthest_m, nor above it.
-double nearest_m(const Scene& scene, const Vec3& eye, std::int64_t but_instance);
-
 class GlMesh {
  public:
   GlMesh(const Gl& gl, const Scene& scene);

@@ -12,6 +12,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/gl/renderer_impl.h"
 #include "splat/projection.h"
+#include "splat/sight_range.h"
 
 namespace phos::inline splat {
 namespace {

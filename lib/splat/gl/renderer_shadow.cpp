@@ -9,35 +9,19 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "scene/lamp/luminaires.h"
-#include "scene/luminaire/photometry.h"
 #include "scene/shading_frame.h"
-#include "scene/sky/environment.h"
+#include "splat/direct/lamp_places.h"
 #include "splat/gl/renderer.h"
 #include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
+#include "splat/sight_range.h"
 
 namespace phos::inline splat {
 namespace {
 
-enum class SampleKind : int { area = 0, point = 1, spot = 2, directional = 3, map = 4, area_map = 5 };
-
-/// Shares of a colour by degrees: of azimuth, and from straight down. Rows of `axes` are a luminaire's x, y,
-/// up.
-struct ShareMap {
-  static constexpr int kWidth = 361, kHeight = 181;
-  std::vector<float> share;  // 1 at most
-  float greatest = 0;        // the value of 1, in shares of the peak intensity (of solids, per m2)
-  Mat3 axes{1};
-};
-
-/// One position that light comes from, with the views that its shadow map is made of.
-struct ShadowSample {
-  SampleKind kind = SampleKind::point;
-  Vec3 forward{0, 0, -1};
-  Rgb colour{0};  // as the shader wants it
-  Vec2 cone{0, 1};
+/// A place that light comes from, with the views that its shadow map is made of.
+struct ShadowSample : LampPlace {
   const ShareMap* map = nullptr;
-  bool two_sided = false;
   std::vector<GlView> faces;
   float bias = 0;
 };
@@ -91,105 +75,24 @@ void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sampl
   sample.faces.push_back(view);
 }
 
-/// The k-th of `count` points that fill the cube evenly: steps of 1/count, and of two numbers that multiples
-/// of each other never come near to (golden ratio; Roberts 2018).
-Vec3 even_point(int k, int count) {
-  const double y = 0.5 + 0.6180339887498949 * k, z = 0.5 + 0.7548776662466927 * k;
-  return Vec3((k + 0.5) / count, y - std::floor(y), z - std::floor(z));
-}
-
-ShadowSample area_sample(const Scene& scene, const Luminaires& luminaires, std::size_t light, int k,
-                         int count, int map_size) {
-  const Vec3 u = even_point(k, count);
-  const EmissionPoint point = luminaires.sample_point(light, u.z, Vec2(u));
-  ShadowSample sample;
-  sample.kind = SampleKind::area;
-  sample.forward = point.normal;
-  sample.two_sided = scene.material_of(point.triangle).double_sided;
-  const double per_sample = static_cast<double>(point.density) * count;
-  if (!(per_sample > 0) || max_component(point.luminance) <= 0) return sample;
-  sample.colour = Rgb(glm::dvec3(point.luminance) / per_sample);
-  const Vec3 eye = sample.two_sided ? point.position : point.position + point.error_m * point.normal;
-  add_views(scene, sample, eye, sample.two_sided ? 6 : 5, 1, scene.light[light].instance, map_size);
-  return sample;
-}
-
-/// Of a solid opening, its luminance; of a flat one or a point, the intensity.
-ShareMap share_map(const Fitting& fitting, bool solid) {
-  ShareMap map;
-  map.axes = glm::transpose(fitting.axes());
-  for (int y = 0; y < ShareMap::kHeight; ++y) {
-    for (int x = 0; x < ShareMap::kWidth; ++x) {
-      const Vec3 d = fitting.axes() * c_gamma_direction(x, y);
-      const float area_m2 = solid ? fitting.projected_area_m2(d) : 1.f;
-      map.share.push_back(area_m2 > 0 ? fitting.share(d) / area_m2 : 0.f);
-    }
-  }
-  map.greatest = *std::max_element(map.share.begin(), map.share.end());
-  for (float& v : map.share) v = map.greatest > 0 ? v / map.greatest : 0.f;
-  return map;
-}
-
-bool is_solid(const Scene& scene, const Light& light) {
-  return light.kind == Light::Kind::area && !scene.fitting[static_cast<std::size_t>(light.fitting)].flat();
-}
-
-/// A luminaire's light from the k-th of `count` places on its opening; from a point there is one.
-ShadowSample luminaire_sample(const Scene& scene, const Luminaires& luminaires, std::size_t i, int k,
-                              int count, int map_size, const ShareMap& map) {
-  const Light& light = scene.light[i];
-  const Fitting& fitting = scene.fitting[static_cast<std::size_t>(light.fitting)];
-  ShadowSample sample;
-  sample.kind = SampleKind::map;
-  sample.map = &map;
-  sample.colour = Rgb(DVec3(fitting.peak_cd()) * static_cast<double>(map.greatest));
-  Vec3 eye = light.position;
-  std::int64_t instance = -1;
-  if (light.kind == Light::Kind::area) {
-    const Vec3 u = even_point(k, count);
-    const EmissionPoint point = luminaires.sample_point(i, u.z, Vec2(u));
-    if (!(point.density > 0)) return {};
-    const bool solid = is_solid(scene, light);
-    if (solid) sample.kind = SampleKind::area_map;
-    sample.forward = point.normal;
-    sample.colour = Rgb(DVec3(sample.colour) / (count * (solid ? static_cast<double>(point.density) : 1.0)));
-    const bool two_sided = scene.material_of(point.triangle).double_sided;
-    eye = two_sided ? point.position : point.position + point.error_m * point.normal;
-    instance = light.instance;
-  }
-  add_views(scene, sample, eye, 6, 1, instance, map_size);
-  return sample;
-}
-
-ShadowSample punctual_sample(const Scene& scene, const GBuffer& gbuffer, const Light& light, int map_size) {
-  ShadowSample sample;
-  sample.colour = light.intensity;
-  sample.forward = light.direction;
-  if (light.kind == Light::Kind::directional) {
-    sample.kind = SampleKind::directional;
+/// Adds the views of a shadow map. Cones up to 50 degrees off the axis have one map, a little wider than they
+/// are.
+ShadowSample with_views(const Scene& scene, const GBuffer& gbuffer, const LampPlace& lamp,
+                        const ShareMap& map, int map_size) {
+  ShadowSample sample{lamp, &map, {}, 0};
+  if (lamp.shape == PlaceShape::directional) {
     add_parallel_view(scene, gbuffer, sample, map_size);
     return sample;
   }
-  const bool spot = light.kind == Light::Kind::spot;
-  if (spot) sample.kind = SampleKind::spot, sample.cone = Vec2(light.cos_outer, light.cos_inner);
-  if (!spot) sample.forward = Vec3(0, 0, -1);
-  // Cones up to 50 degrees off the axis in one map, a little wider than they are.
-  const bool narrow = spot && light.cos_outer > 0.64;
-  const double cosine = std::min(light.cos_outer, 1 - 1e-6);
-  const double half_opening = narrow ? 1.02 * std::sqrt(1 - cosine * cosine) / cosine : 1.0;
-  add_views(scene, sample, light.position, narrow ? 1 : 6, half_opening, -1, map_size);
+  std::size_t faces = 6;
+  double half_opening = 1;
+  if (lamp.shape == PlaceShape::area && !lamp.two_sided) faces = 5;
+  if (lamp.shape == PlaceShape::spot && lamp.cos_outer > 0.64) {
+    const double cosine = std::min(lamp.cos_outer, 1 - 1e-6);
+    faces = 1, half_opening = 1.02 * std::sqrt(1 - cosine * cosine) / cosine;
+  }
+  add_views(scene, sample, lamp.position, faces, half_opening, lamp.instance, map_size);
   return sample;
-}
-
-/// The environment's light from the k-th of `count` directions.
-ShadowSample environment_sample(const Scene& scene, const GBuffer& gbuffer, int k, int count, int map_size) {
-  const Environment::Sample part = scene.environment->sample(Vec2(even_point(k, count)));
-  if (!(part.density > 0)) return {};
-  Light sun;
-  sun.kind = Light::Kind::directional;
-  sun.direction = -part.direction;
-  sun.intensity = part.luminance / (part.density * static_cast<float>(count));
-  return punctual_sample(scene, gbuffer, sun, map_size);
 }
 
 /// Geometric normal of the surface in each pixel, on the side that is seen.
@@ -251,12 +154,12 @@ struct GlRenderer::ShadowPass {
     program.set("depth", view.depth);
     program.set("perspective", view.perspective ? 1 : 0);
     program.set("bias", sample.bias);
-    program.set("kind", static_cast<int>(sample.kind));
+    program.set("kind", static_cast<int>(sample.shape));
     program.set("two_sided", sample.two_sided ? 1 : 0);
     program.set("colour", sample.colour);
     program.set("forward", sample.forward);
-    program.set("cone", sample.cone);
-    if (sample.map) program.set("luminaire_axes", std::span(&sample.map->axes, 1));
+    program.set("cone", Vec2(sample.cos_outer, sample.cos_inner));
+    if (!sample.map->share.empty()) program.set("luminaire_axes", std::span(&sample.map->axes, 1));
     program.use();
     impl.bind_for_sum(target);
     gl.BindTextureUnit(3, maps.id());
@@ -290,24 +193,20 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
 
   const Luminaires luminaires(scene);
   std::size_t total = 0;
-  for (const Light& light : scene.light) {
-    total += light.extended() ? static_cast<std::size_t>(light_samples) : 1;
-  }
+  for (const Light& light : scene.light) total += static_cast<std::size_t>(place_count(light, light_samples));
   Progress progress("shadow maps", total, "maps");
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     const Light& light = scene.light[i];
     ShareMap map;
     if (light.fitting >= 0) {
-      map = share_map(scene.fitting[static_cast<std::size_t>(light.fitting)], is_solid(scene, light));
+      map = share_map(scene, light);
       pass.take(map);
     }
-    for (int k = 0; k < (light.extended() ? light_samples : 1); ++k) {
+    const int count = place_count(light, light_samples);
+    for (int k = 0; k < count; ++k) {
       throw_if_interrupted();
-      pass.add(light.fitting >= 0 ? luminaire_sample(scene, luminaires, i, k, light_samples, size, map)
-               : light.kind == Light::Kind::area ? area_sample(scene, luminaires, i, k, light_samples, size)
-               : light.kind == Light::Kind::environment
-                   ? environment_sample(scene, gbuffer, k, light_samples, size)
-                   : punctual_sample(scene, gbuffer, light, size));
+      if (const auto sample = lamp_place(scene, luminaires, i, k, count, map))
+        pass.add(with_views(scene, gbuffer, *sample, map, size));
       progress.advance();
     }
   }

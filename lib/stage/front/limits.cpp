@@ -12,6 +12,7 @@
 #include "sense/limits.h"
 #include "splat/limits.h"
 #include "study/limits.h"
+#include "view/limits.h"
 
 namespace phos::stage {
 namespace {
@@ -25,6 +26,7 @@ constexpr LimitGroup kGroups[] = {
     {"Light", kReferenceLimits},
     {"Sensors", kSenseLimits},
     {"Studies", kStudyLimits},
+    {"Views", kViewLimits},
     {"Files", kFileLimits},
     {"Command lines", kCoreLimits},
 };

@@ -1,0 +1,153 @@
+#include "view/message/format.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/json.h"
+#include "splat/direct/lamp_places.h"
+
+namespace phos::inline view {
+namespace {
+
+using enum FieldType;
+
+constexpr MessageField kSceneFields[] = {
+    {"scene", "bounds_lo", f32, 3, "m", "lower corner of the bounds"},
+    {"scene", "bounds_hi", f32, 3, "m", "upper corner of the bounds"},
+    {"scene", "origin", f32, 3, "m", "place in the world that all positions are counted from"},
+    {"vertex", "position", f32, 3, "m", ""},
+    {"vertex", "normal", f32, 3, "", "unit"},
+    {"vertex", "uv", f32, 4, "", "texture coordinates of set 0 and of set 1; absent: 0", true},
+    {"vertex", "colour", f32, 4, "", "linear, with alpha; absent: 1", true},
+    {"triangle", "corner", u32, 3, "", "counter-clockwise", false, false, "vertex"},
+    {"part", "first_triangle", u32, 1, "", "of a run of triangles of one material"},
+    {"part", "triangle_count", u32, 1, "", ""},
+    {"part", "material", u32, 1, "", "", false, false, "material"},
+    {"material", "diffuse", f32, 4, "", "diffuse reflectance, and alpha; multiplied by colour_texture"},
+    {"material", "gloss", f32, 3, "", "mean reflectance of gloss and mirrors, drawn as if it were diffuse"},
+    {"material", "emission", f32, 3, "cd/m2", "multiplied by emission_texture"},
+    {"material", "flags", u32, 1, "", "MaterialFlag"},
+    {"material", "cutoff", f32, 1, "", "least alpha that is there"},
+    {"material", "colour_texture", u32, 1, "", "", false, false, "texture"},
+    {"material", "colour_set", u32, 1, "", "set of texture coordinates, 0 or 1"},
+    {"material", "colour_place", f32, 6, "", "offset, and the two columns of the matrix of coordinates"},
+    {"material", "emission_texture", u32, 1, "", "", false, false, "texture"},
+    {"material", "emission_set", u32, 1, "", "set of texture coordinates, 0 or 1"},
+    {"material", "emission_place", f32, 6, "", "as colour_place"},
+    {"texture", "width", u32, 1, "", ""},
+    {"texture", "height", u32, 1, "", ""},
+    {"texture", "wrap", u32, 2, "", "along u and v: 0 repeat, 1 clamp, 2 mirror"},
+    {"texture", "nearest", u32, 1, "", "1: no interpolation"},
+    {"texture", "srgb", u32, 1, "", "1: colours are sRGB; 0: linear"},
+    {"texture", "first_texel", u32, 1, "", "the first of width x height, from v = 0"},
+    {"texel", "rgba", u8, 4, "", ""},
+    {"lamp", "name_end", u32, 1, "", "end of its name in lamp_name, which begins where the one before ends"},
+    {"lamp_name", "utf8", u8, 1, "", ""},
+    {"sample", "lamp", u32, 1, "", "lamp that shines from here", false, false, "lamp"},
+    {"sample", "shape", u32, 1, "", "PlaceShape: 0 area, 1 point, 2 spot, 3 directional, 4 map, 5 area_map"},
+    {"sample", "position", f32, 3, "m", "directional: unused"},
+    {"sample", "nearest", f32, 1, "m", "nothing that throws a shadow is nearer; directional: unused"},
+    {"sample", "forward", f32, 3, "",
+     "unit; of an area the normal, of a spot the axis, of a directional lamp "
+     "the way of the light"},
+    {"sample", "colour", f32, 3, "cd", "on the axis; directional: lx on a surface that faces it"},
+    {"sample", "cone", f32, 2, "", "of a spot: cosines of the outer and inner half angle"},
+    {"sample", "two_sided", u32, 1, "", "1: an area shines from both sides"},
+    {"sample", "distribution", u32, 1, "", "of PlaceShape::map and area_map", false, false, "distribution"},
+    {"distribution", "axes", f32, 9, "", "rows: the luminaire's x, y and up in the scene"},
+    {"distribution", "share", f32, ShareMap::kWidth* ShareMap::kHeight, "",
+     "of the sample's colour, by degrees of azimuth (fastest) and from straight down"},
+    {"camera", "position", f32, 3, "m", ""},
+    {"camera", "right", f32, 3, "", "unit"},
+    {"camera", "up", f32, 3, "", "unit, at right angles to right"},
+    {"camera", "perspective", u32, 1, "", "1; 0: orthographic"},
+    {"camera", "half_height", f32, 1, "", "of the picture: tangent, or m where orthographic"},
+    {"camera", "aspect", f32, 1, "", "width over height"},
+    {"camera", "name_end", u32, 1, "", "as of lamps, in camera_name"},
+    {"camera_name", "utf8", u8, 1, "", ""},
+    {"sky", "luminance", f32, 3, "cd/m2",
+     "256 x 128 directions: row 0 at the zenith (+y), azimuth "
+     "atan2(z, x) from -180 degrees"},
+};
+
+constexpr MessageField kRecordFields[] = {
+    {"cache", "accuracy", f32, 1, "", "a of the weight"},
+    {"cache", "holds_direct", u32, 1, "", "1: records hold all light; 0: indirect light"},
+    {"record", "position", f32, 3, "m", ""},
+    {"record", "inverse_radius", f32, 1, "1/m", ""},
+    {"record", "normal", f32, 3, "", "unit"},
+    {"record", "front_limit", f32, 1, "m", "of weight_if_lit()"},
+    {"record", "irradiance", f32, 3, "lx", ""},
+    {"record", "weight", f32, 1, "", "its share among others"},
+    {"record", "stderr", f32, 3, "lx", "standard error of irradiance"},
+    {"record", "over_limit", f32, 1, "m", "of weight_if_lit()"},
+    {"record", "turn", f32, 9, "lx/rad", "by colour: g_r x n, whose product with n' - n is the change"},
+    {"record", "translation", f32, 9, "lx/m", "by colour: the gradient along the surface"},
+};
+
+constexpr MessageField kQuestionFields[] = {
+    {"ray", "number", u32, 1, "", "which the reading repeats"},
+    {"ray", "origin", f32, 3, "m", ""},
+    {"ray", "direction", f32, 3, "", "of any length but 0"},
+};
+
+constexpr MessageField kReadingFields[] = {
+    {"reading", "number", u32, 1, "", "of the ray"},
+    {"reading", "hit", u32, 1, "", "1; 0: the ray meets nothing, and all numbers are 0"},
+    {"reading", "position", f32, 3, "m", "where the ray lands"},
+    {"reading", "normal", f32, 3, "", "unit, on the side that the ray comes from"},
+    {"reading", "illuminance", f32, 1, "lx", ""},
+    {"reading", "illuminance_stderr", f32, 1, "lx", "standard error", false, true},
+    {"reading", "direct", f32, 1, "lx", "straight from lamps", false, true},
+    {"reading", "indirect", f32, 1, "lx", "", false, true},
+    {"reading", "luminance", f32, 1, "cd/m2",
+     "towards the origin of the ray, of emission and of diffuse "
+     "reflection"},
+    {"reading", "luminance_stderr", f32, 1, "cd/m2", "standard error", false, true},
+    {"reading", "has_gloss", u32, 1, "",
+     "1: the surface also reflects or passes light that `luminance` lacks"},
+};
+
+constexpr MessageLayout kLayouts[] = {{MessageKind::scene, "scene", kSceneFields},
+                                      {MessageKind::records, "records", kRecordFields},
+                                      {MessageKind::question, "question", kQuestionFields},
+                                      {MessageKind::reading, "reading", kReadingFields}};
+
+std::string_view name_of_type(FieldType type) { return type == u8 ? "u8" : type == u32 ? "u32" : "f32"; }
+
+}  // namespace
+
+std::span<const MessageLayout> message_layouts() { return kLayouts; }
+
+const MessageLayout& layout_of(MessageKind kind) {
+  const auto* const found = std::find_if(std::begin(kLayouts), std::end(kLayouts),
+                                         [&](const MessageLayout& l) { return l.kind == kind; });
+  PHOS_CHECK(found != std::end(kLayouts), "kind ", static_cast<int>(kind));
+  return *found;
+}
+
+std::size_t bytes_of(FieldType type) { return type == u8 ? 1 : 4; }
+
+std::string message_format_json() {
+  Json kinds = Json::Array{};
+  for (const MessageLayout& layout : kLayouts) {
+    Json fields = Json::Array{};
+    for (const MessageField& field : layout.fields) {
+      Json row = Json::Object{};
+      row["table"] = std::string(field.table), row["name"] = std::string(field.name);
+      row["type"] = std::string(name_of_type(field.type));
+      row["components"] = static_cast<double>(field.components);
+      fields.push_back(row);
+    }
+    Json row = Json::Object{};
+    row["kind"] = static_cast<double>(layout.kind), row["name"] = std::string(layout.name);
+    row["fields"] = fields;
+    kinds.push_back(row);
+  }
+  Json format = Json::Object{};
+  format["version"] = static_cast<double>(kMessageVersion);
+  format["kinds"] = kinds;
+  return format.dump();
+}
+
+}  // namespace phos::inline view

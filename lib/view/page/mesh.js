@@ -1,0 +1,79 @@
+// The triangles of the scene, with their materials.
+import {attribute} from './gl.js';
+import {row} from './vector.js';
+
+const NONE = 0xffffffff;
+const TWO_SIDED = 1, MASKED = 2, CLEAR = 4;  // MaterialFlag
+
+export class Mesh {
+  constructor(gl, scene) {
+    this.gl = gl;
+    this.array = gl.createVertexArray();
+    gl.bindVertexArray(this.array);
+    attribute(gl, 0, scene.vertex.position, 3);
+    attribute(gl, 1, scene.vertex.normal, 3);
+    if (scene.vertex.uv.length) attribute(gl, 2, scene.vertex.uv, 4);
+    if (scene.vertex.colour.length) attribute(gl, 3, scene.vertex.colour, 4);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, scene.triangle.corner, gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
+    this.textures = this.#makeTextures(scene);
+    this.materials = Array.from({length: scene.material.rows}, (_, i) => this.#material(scene.material, i));
+    this.parts = Array.from({length: scene.part.rows}, (_, i) => ({
+      first: scene.part.first_triangle[i], count: scene.part.triangle_count[i], material: scene.part.material[i],
+    })).filter((part) => !this.materials[part.material].clear);
+  }
+
+  #makeTextures({texture, texel}) {
+    const gl = this.gl;
+    const wraps = [gl.REPEAT, gl.CLAMP_TO_EDGE, gl.MIRRORED_REPEAT];
+    return Array.from({length: texture.rows}, (_, i) => {
+      const id = gl.createTexture(), width = texture.width[i], height = texture.height[i];
+      gl.bindTexture(gl.TEXTURE_2D, id);
+      gl.texImage2D(gl.TEXTURE_2D, 0, texture.srgb[i] ? gl.SRGB8_ALPHA8 : gl.RGBA8, width, height, 0, gl.RGBA,
+                    gl.UNSIGNED_BYTE, texel.rgba.subarray(4 * texture.first_texel[i], 4 * (texture.first_texel[i] + width * height)));
+      const nearest = texture.nearest[i];
+      if (!nearest) gl.generateMipmap(gl.TEXTURE_2D);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, nearest ? gl.NEAREST : gl.LINEAR_MIPMAP_LINEAR);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, nearest ? gl.NEAREST : gl.LINEAR);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, wraps[texture.wrap[2 * i]]);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wraps[texture.wrap[2 * i + 1]]);
+      return id;
+    });
+  }
+
+  // The uniforms of holes.glsl and gbuffer.frag.glsl.
+  #material(m, i) {
+    const flags = m.flags[i], colour = m.colour_texture[i], emission = m.emission_texture[i];
+    const map = (unit, texture) => ({unit, target: this.gl.TEXTURE_2D, id: texture === NONE ? null : this.textures[texture]});
+    return {
+      clear: (flags & CLEAR) !== 0,
+      masked: (flags & MASKED) !== 0,
+      uniforms: {
+        masked: (flags & MASKED) !== 0, two_sided: (flags & TWO_SIDED) !== 0, cutoff: m.cutoff[i],
+        diffuse: row(m.diffuse, i, 4), gloss: row(m.gloss, i), emission: row(m.emission, i),
+        colour_textured: colour !== NONE, colour_set: m.colour_set[i], colour_place: row(m.colour_place, i, 6),
+        colour_map: map(0, colour),
+        emission_textured: emission !== NONE, emission_set: m.emission_set[i],
+        emission_place: row(m.emission_place, i, 6), emission_map: map(1, emission),
+      },
+    };
+  }
+
+  draw(program, view) {
+    const gl = this.gl;
+    gl.bindVertexArray(this.array);
+    gl.vertexAttrib4f(2, 0, 0, 0, 0);
+    gl.vertexAttrib4f(3, 1, 1, 1, 1);
+    gl.enable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    program.use(view);
+    let last = -1;
+    for (const part of this.parts) {
+      if (part.material !== last) program.use(this.materials[last = part.material].uniforms);
+      gl.drawElements(gl.TRIANGLES, 3 * part.count, gl.UNSIGNED_INT, 12 * part.first);
+    }
+    gl.bindVertexArray(null);
+    gl.disable(gl.DEPTH_TEST);
+  }
+}

@@ -1,0 +1,45 @@
+#include "view/records_message.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "splat/cpu/splatter_kernel.h"
+#include "view/message/writer.h"
+
+namespace phos::inline view {
+
+std::string records_message(const IrradianceCache& cache, double accuracy) {
+  PHOS_CHECK(!any_footprint(cache.records), "records with footprints");
+  std::vector<float> position, inverse_radius, normal, front_limit, irradiance, weight, stderr_lx, over_limit,
+      turn, translation;
+  const auto add = [](std::vector<float>& values, const auto& array) {
+    values.insert(values.end(), std::begin(array), std::end(array));
+  };
+  for (const IrradianceRecord& record : cache.records) {
+    if (!(record.radius_m > 0)) continue;  // serves nothing
+    const PackedRecord p = pack_record(record);
+    add(position, p.position), add(normal, p.normal), add(irradiance, p.irradiance),
+        add(stderr_lx, p.stderr_lx);
+    inverse_radius.push_back(p.inverse_radius), front_limit.push_back(p.front_limit_m);
+    weight.push_back(p.weight);
+    over_limit.push_back(std::min(p.over_limit_m, std::numeric_limits<float>::max()));
+    for (int c = 0; c < 3; ++c) add(turn, p.turn[c]), add(translation, p.translation[c]);
+  }
+  MessageWriter message(MessageKind::records);
+  message.add("cache", "accuracy", std::vector<float>{static_cast<float>(accuracy)});
+  message.add("cache", "holds_direct", std::vector<std::uint32_t>{cache.quantity == Quantity::all ? 1u : 0u});
+  message.add("record", "position", position);
+  message.add("record", "inverse_radius", inverse_radius);
+  message.add("record", "normal", normal);
+  message.add("record", "front_limit", front_limit);
+  message.add("record", "irradiance", irradiance);
+  message.add("record", "weight", weight);
+  message.add("record", "stderr", stderr_lx);
+  message.add("record", "over_limit", over_limit);
+  message.add("record", "turn", turn);
+  message.add("record", "translation", translation);
+  return message.message();
+}
+
+}  // namespace phos::inline view
