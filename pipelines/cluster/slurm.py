@@ -24,9 +24,12 @@ def ask(*words):
 
 def check(folder):
     """Throws Problem where Slurm does not answer, or a node does not see the folder."""
-    answer = ask("scontrol", "ping")
-    if "UP" not in answer:
-        raise Problem(f"Slurm's controller does not answer ({answer.strip()}); start slurmctld, or use --profile local", 3)
+    if shutil.which("scontrol") is None:
+        ask("scontrol")
+    answer = subprocess.run(["scontrol", "ping"], capture_output=True, text=True, check=False)
+    if " UP" not in answer.stdout:
+        said = (answer.stdout.strip() or answer.stderr.strip() or "scontrol ping said nothing").splitlines()[0]
+        raise Problem(f"Slurm's controller does not answer ({said}); start slurmctld, or use --profile local or parallel", 3)
     see = "test \"$(cat \"$0\" 2>/dev/null)\" = \"$1\" || { echo unseen by $(hostname -s):$SLURMD_NODENAME; }"
     probe = ["srun", "--quiet", "--immediate=20", "--chdir=/", "--ntasks=1", "--mem=16", "sh", "-c", see, str(folder / ".shared"), folder.token()]
     done = subprocess.run(probe, capture_output=True, text=True, check=False)
