@@ -54,7 +54,7 @@ if [[ -n $(cluster list "$config" "$folder") ]]; then
       fi
       cluster submit "$config" "$folder" --wait ;;
     parallel)  # one level after another: a stage needs files of the stages before it
-      for stage in photons merge brdf radiance points irradiance merge temporal splat frames sense study; do
+      for stage in photons merge brdf radiance points irradiance merge temporal splat frames sense join study; do
         for round in 1 2; do # irradiance may read irradiance
           cluster list "$config" "$folder" --stage "$stage" | parallel --will-cite ${jobs:+--jobs "$jobs"} python3 "$here/cluster.py" run "$folder" {} 2>>"$folder/log/parallel.log" || failed=$?
         done

@@ -7,7 +7,7 @@ from datetime import datetime, timedelta, timezone
 
 from problem import Problem, nearest
 
-STAGES = ("photons", "merge", "brdf", "radiance", "irradiance", "splat", "temporal", "frames", "points", "sense", "study")
+STAGES = ("photons", "merge", "brdf", "radiance", "irradiance", "splat", "temporal", "frames", "points", "sense", "join", "study")
 
 # What each section holds: its keys, and the kind of each value. "options" is a line of options of a program, as in a shell.
 KEYS = {

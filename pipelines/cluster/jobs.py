@@ -14,6 +14,7 @@ import tomllib
 from contents import content_key, scene_key
 from problem import Problem, nearest
 
+JOIN = os.path.join(os.path.dirname(os.path.realpath(__file__)), "join.py")
 FOLDERS = ("frames", "study")  # stages whose jobs make a folder
 
 
@@ -64,11 +65,13 @@ class Graph:
         return self.jobs[name]
 
     def _program(self, tool):
+        if tool == JOIN:
+            return tool
         if tool not in self._programs:
             path = shutil.which("phos-" + tool)
             if path is None:
                 raise Problem(f"phos-{tool}: not on PATH; put the folder of the programs there", 3)
-            self._programs[tool] = os.path.realpath(path)
+            self._programs[tool] = os.path.abspath(path)
         return self._programs[tool]
 
     def _checked(self, tool, options, where):
@@ -166,8 +169,10 @@ class Graph:
                 read = [records(grid_values["source"], 1, name + ".source", read)]
             sensors = ["--place", "every", "--at", *take, *grid_values.get("irradiance", ["--estimate", "gather"])]
             records_at = self._sensor_records(scene, read, files, sensors, grid_values.get("parts", 1), name)
-            self.results[f"{at}/{grid}.csv"] = self._job(
-                "sense", "sense", [scene, records_at, *files, "--points", *take, *self._checked("sense", grid_values.get("sense", []), name + ".sense")], ".csv")
+            words = [scene, records_at, *files, "--points", *take, *self._checked("sense", grid_values.get("sense", []), name + ".sense")]
+            count = grid_values.get("parts", 1)
+            tables = [self._job("sense", "sense", [*words, "--part", f"{i}/{count}"] if count > 1 else words, ".csv") for i in range(1, count + 1)]
+            self.results[f"{at}/{grid}.csv"] = tables[0] if count == 1 else self._job("join", JOIN, tables, ".csv")
 
     def _sensor_records(self, scene, read, files, options, parts, name):
         self._checked("irradiance", [word for word in options if isinstance(word, str)], name + ".irradiance")

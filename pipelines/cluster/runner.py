@@ -40,7 +40,10 @@ def run_job(folder, name, threads=None):
     if code != 0:
         raise Problem(f"{name}: {program} ended with code {code}: {last_line(log_path)} ({log_path})", code if 0 < code < 126 else 3)
     if not os.path.exists(target) or job["folder"] and not os.listdir(target):
-        raise Problem(f"{name}: {program} ended with code 0 and without its file {target} ({log_path})", 3)
+        problem = f"{program} ended with code 0 and without its file {target}"
+        with open(log_path, "a", encoding="utf-8") as log:
+            log.write(problem + "\n")
+        raise Problem(f"{name}: {problem} ({log_path})", 3)
     if job["folder"]:
         os.replace(target, output)
 

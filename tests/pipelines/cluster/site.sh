@@ -108,12 +108,14 @@ site_processes() {
 
 site_stop() {
   [[ -n ${site:-} && -f $site/slurm.conf ]] || return 0
-  scancel --quiet --full --user=root 2>/dev/null || true
   local i file number
-  for ((i = 0; i < 20; ++i)); do
-    [[ -n $(squeue --noheader 2>/dev/null) ]] || break
-    sleep 0.5
-  done
+  if [[ -s $site/slurmctld.pid ]] && kill -0 "$(<"$site/slurmctld.pid")" 2>/dev/null; then
+    scancel --quiet --full --user=root 2>/dev/null || true
+    for ((i = 0; i < 20; ++i)); do
+      [[ -n $(squeue --noheader 2>/dev/null) ]] || break
+      sleep 0.5
+    done
+  fi
   site_kill node1
   site_kill node2
   for file in slurmctld munged; do

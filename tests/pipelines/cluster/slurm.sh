@@ -10,18 +10,27 @@ sensors=10000
 [[ ${2:-} != --sensors ]] || sensors=$3
 command -v snakemake >/dev/null || { echo "skipped: snakemake is not installed (pipelines/install.sh --cluster)"; exit 77; }
 
+step() { echo "--- $* ($SECONDS s)"; }
 scratch=$(mktemp -d /var/tmp/phos-cluster.XXXXXX)
 finish() {
   local code=$?
   site_stop
   umount "$scratch/disk" 2>/dev/null || true
-  local left
-  left=$(grep -lzF "$scratch" /proc/[0-9]*/cmdline 2>/dev/null | cut -d/ -f3 | grep -vx $$ || true)
-  [[ -z $left ]] || { echo "FAILED: left running: $(tr '\0' ' ' <"/proc/${left%%$'\n'*}/cmdline")" >&2; code=1; }
+  local left i number
+  for ((i = 0; i < 40; ++i)); do  # what was killed takes a moment to go
+    left=''
+    for number in $(grep -lzF -f <(echo "$scratch") /proc/[0-9]*/environ /proc/[0-9]*/cmdline 2>/dev/null | cut -d/ -f3); do
+      ((number == $$)) || ! kill -0 "$number" 2>/dev/null || left+=" $number"  # grep itself is gone
+    done
+    [[ -n $left ]] || break
+    sleep 0.25
+  done
+  [[ -z $left ]] || { echo "FAILED: left running:$left: $(tr '\0' ' ' <"/proc/${left##* }/cmdline")" >&2; code=1; }
   rm -rf "$scratch"
   exit $code
 }
 trap finish EXIT
+export CI=true  # Snakemake then looks for ended jobs every second, not every ten
 site_start "$scratch/site"
 cd "$scratch"
 
@@ -43,11 +52,18 @@ wait_for() {
   wrong "not so after $((tries / 4)) s: $*"
 }
 stored() { (($(find "$1/store/$2" -type f -not -name '.*' 2>/dev/null | wc -l) >= $3)); }
-works_on() { site_processes "$1" | sed 's|.*|/proc/&/comm|' | xargs cat 2>/dev/null | grep -q '^phos-'; }
+# stops_on NODE: stops a program of phos that runs there, so that it cannot end before its node.
+stops_on() {
+  local number
+  for number in $(site_processes "$1"); do
+    [[ $(cat "/proc/$number/comm" 2>/dev/null) != phos-* ]] || ! kill -STOP "$number" 2>/dev/null || return 0
+  done
+  return 1
+}
 idle() { [[ -z $(squeue --noheader) ]]; }
 stamps() { find "$1/store" -type f -printf '%P %i %s\n' | sort; }
 
-echo "--- two nodes, by Snakemake"
+step "two nodes, by Snakemake"
 cluster box.yaml snake --profile slurm
 check_results snake truth
 once snake
@@ -56,30 +72,32 @@ cluster film.yaml film --profile slurm
 for frame in 0 1 2 3 4 5; do same "film/results/cube/plain/default/film-front/000$frame.exr" "truth/film/000$frame.exr"; done
 once film
 
-echo "--- dates change nothing"
+step "dates change nothing"
 stamps snake >before
 find snake -exec touch {} +
 touch points.csv
 cluster box.yaml snake --profile slurm
 stamps snake | cmp - before || wrong "touch: files were made anew"
 
-echo "--- two nodes, by array jobs; a node dies"
+step "two nodes, by array jobs; a node dies"
 cluster box.yaml dies --profile sbatch
 for ((i = 0; i < 600; ++i)); do
-  if works_on node2; then break; fi
+  if stops_on node2; then break; fi
   sleep 0.02
 done
 site_kill node2
 scontrol update nodename=node2 state=down reason=test
 site_node node2
 scontrol update nodename=node2 state=resume
+# Slurm lets jobs of dead nodes wait for two minutes
+for job in $(squeue --noheader --states=PD --format=%i); do scontrol update jobid="$job" starttime=now 2>/dev/null || true; done
 wait_for 300 idle
 cluster box.yaml dies --profile sbatch --wait yes
 check_results dies truth
 once dies
 grep -c '^\$ ' -r dies/log/*/ | grep -q ':2$' || wrong "dies: no job was lost with its node"
 
-echo "--- an array is cancelled"
+step "an array is cancelled"
 cluster box.yaml cancelled --profile sbatch
 wait_for 60 stored cancelled photons 1
 refused 3 "still in Slurm's queue" cluster box.yaml cancelled --profile sbatch
@@ -93,7 +111,7 @@ stamps cancelled | comm -23 before - >lost
 [[ ! -s lost ]] || wrong "cancelled: made anew: $(cat lost)"
 once cancelled
 
-echo "--- the disk is full"
+step "the disk is full"
 mkdir disk
 if mount -t tmpfs -o size=16m tmpfs disk 2>/dev/null; then
   refused 3 "No space left" cluster box.yaml disk --profile slurm
@@ -109,7 +127,7 @@ else
   echo "skipped: no tmpfs can be mounted here"
 fi
 
-echo "--- a folder that a node does not see"
+step "a folder that a node does not see"
 site_kill node1
 site_kill node2
 mkdir alone
@@ -122,7 +140,7 @@ else
   echo "skipped: no namespace can be made here"
 fi
 
-echo "--- the controller does not answer"
+step "the controller does not answer"
 kill "$(<site/slurmctld.pid)"
 wait_for 20 sh -c "! kill -0 $(<site/slurmctld.pid)"
 refused 3 "does not answer" cluster box.yaml unanswered --profile sbatch
