@@ -31,14 +31,15 @@ case $profile in
 esac
 need python3 "$install"
 need_programs
+export PYTHONDONTWRITEBYTECODE=1  # the scripts may lie in a folder of the system
 cluster() { python3 "$here/cluster.py" "$@"; }
 
 cluster plan "$config" "$folder"
 exec 9>"$folder/.lock"
 flock --nonblock 9 || { echo "cluster.sh: $folder: another cluster.sh works in this folder; wait for it" >&2; exit 3; }
-failed=0
+# Publishing, at the end, tells what is missing and why.
 snake() { snakemake --snakefile "$here/Snakefile" --profile "$here/profiles/$profile" --directory "$folder" \
-  --config file="$(realpath "$config")" folder="$(realpath "$folder")" "$@" --quiet rules progress >"$folder/log/snakemake.log" 2>&1 || failed=$?; }
+  --config file="$(realpath "$config")" folder="$(realpath "$folder")" "$@" --quiet rules progress >"$folder/log/snakemake.log" 2>&1 || true; }
 if [[ -n $(cluster list "$config" "$folder") ]]; then
   case $profile in
     local) snake --cores "${jobs:-all}" ;;
@@ -53,11 +54,11 @@ if [[ -n $(cluster list "$config" "$folder") ]]; then
         exit 0
       fi
       cluster submit "$config" "$folder" --wait ;;
-    parallel)  # one level after another: a stage needs files of the stages before it
-      for stage in photons merge brdf radiance points irradiance merge temporal splat frames sense join study; do
-        for round in 1 2; do # irradiance may read irradiance
-          cluster list "$config" "$folder" --stage "$stage" | parallel --will-cite ${jobs:+--jobs "$jobs"} python3 "$here/cluster.py" run "$folder" {} 2>>"$folder/log/parallel.log" || failed=$?
-        done
+    parallel)  # level after level: all jobs whose files to read are there
+      before=''
+      while ready=$(cluster list "$config" "$folder" --ready) && [[ -n $ready && $ready != "$before" ]]; do
+        parallel --will-cite ${jobs:+--jobs "$jobs"} python3 "$here/cluster.py" run "$folder" {} <<<"$ready" 2>>"$folder/log/parallel.log" || true
+        before=$ready
       done ;;
   esac
 fi

@@ -2,7 +2,8 @@
 """Plans, lists and runs the jobs of a configuration on one machine or many; pipelines/cluster.sh calls this program.
   cluster.py check CONFIG                       reads the configuration; prints the number of jobs of each stage
   cluster.py plan CONFIG FOLDER                 writes the command of each job to FOLDER/jobs; prints what is to do
-  cluster.py list CONFIG FOLDER [--stage S]     prints the names of the jobs that are to do, earliest first
+  cluster.py list CONFIG FOLDER [--stage S]     prints the names of the jobs that are to do, earliest first; --ready in place of --stage S: those
+                                                whose files to read are there
   cluster.py command FOLDER JOB...              prints the commands of jobs
   cluster.py run FOLDER JOB...                  runs jobs, one after another; one whose file is there is not run
   cluster.py array FOLDER LIST                  runs the job in the line of LIST whose number is $SLURM_ARRAY_TASK_ID
@@ -52,12 +53,13 @@ def plan(configuration, folder):
 
 def list_jobs(configuration, folder, *rest):
     graph, where = planned(configuration, folder)
-    if rest and (rest[0] != "--stage" or len(rest) != 2):
-        raise Problem(f"list: {rest[0]}: give --stage NAME")
-    if rest and rest[1] not in STAGES:
+    ready = rest == ("--ready",)
+    if rest and not ready and (rest[0] != "--stage" or len(rest) != 2):
+        raise Problem(f"list: {rest[0]}: give --stage NAME or --ready")
+    if len(rest) == 2 and rest[1] not in STAGES:
         raise Problem(f'--stage {rest[1]}: no such stage{nearest(rest[1], STAGES)}')
     for job in to_do(graph, where):
-        if not rest or job.stage == rest[1]:
+        if all(where.is_done(need.name) for need in job.needs) if ready else not rest or job.stage == rest[1]:
             print(job.name)
 
 

@@ -4,8 +4,9 @@
   cost.py predict FILE [--photons N,N,...] [--nodes N,N,...] [--sensors N] [--rays N] [--cores N] [--memory GB] [--node-MBps M] [--disk-MBps M]
                   [--start S] [--shards N]    prints a table (CSV): one row for each number of photons and of nodes
   cost.py compare FILE FOLDER                 prints what a finished run in FOLDER (pipelines/cluster.sh) took, stage by stage, beside the prediction
-measure   needs about a minute for the default --paths 400000. Seconds are of the processor, so that other work on the machine does not count.
-predict   shards of photons, their merge, records of sensors in parts, their merge, and the reading of the sensors. Shards: one for each node, or
+measure   needs about a minute for the default --paths 2000000. Seconds are of the processor, so that other work on the machine does not count.
+predict   shards of photons, their merge, records of sensors in parts, their merge, and the reading of the sensors in parts. Reading costs more where many
+          records overlap; it is measured for records that do not. Shards and parts: one for each node, or
           --shards. --start: seconds that the queue takes to start a job (2). --node-MBps (1000) and --disk-MBps (5000): how fast one node, and all
           nodes together, move bytes to and from the shared disk. --cores (1): of a node; photons and sensors use all of them, merges one. --memory (64): of
           a node; the column "fits" names the stage that needs more.
@@ -47,7 +48,7 @@ def line(small, large, at_small, at_large):
     return {"fixed": max(small - each * at_small, 0), "each": each}
 
 
-def measure(scene, out, paths=400000):
+def measure(scene, out, paths=2000000):
     costs = {"scene": os.path.basename(scene)}
     with tempfile.TemporaryDirectory() as folder:
         at = lambda name: os.path.join(folder, name)
@@ -85,7 +86,7 @@ def measure(scene, out, paths=400000):
                     u, v = (0.1 + 0.8 * (k + 0.5) / side for k in divmod(i, side))
                     file.write(f"{box[0][0] + u * (box[1][0] - box[0][0])},{0.5 * (box[0][1] + box[1][1])},{box[0][2] + v * (box[1][2] - box[0][2])},0,1,0\n")
             records, parts = at(f"{side}.irradiance"), [at(f"{side}-{k}.irradiance") for k in (1, 2)]
-            ask = ["phos-irradiance", scene, source, "--place", "every", "--at", points, "--estimate", "gather", "--rays", "256"]
+            ask = ["phos-irradiance", scene, source, "--place", "every", "--at", points, "--estimate", "gather", "--rays", "256", "--accuracy", "0.02"]
             gathered = spent(*ask, "--part", "1/2", "-o", parts[0])
             spent(*ask, "--part", "2/2", "-o", parts[1])
             merged = spent("phos-merge", *parts, "-o", records)
@@ -157,9 +158,9 @@ def simulate(costs, photons, sensors, rays, cores, shards, parts, site):
             times["merge_sensors"] = site.level([(at_cost(ms["seconds"], sensors), part_bytes * parts + whole)])
             memory["merge_sensors"] = at_cost(ms["memory"], sensors)
             moved += part_bytes * parts + whole
-        times["read"] = site.level([(at_cost(r["seconds"], sensors) / cores, at_cost(ms["bytes"], sensors))])
+        times["read"] = site.level([(at_cost(r["seconds"], share) / cores, at_cost(ms["bytes"], sensors))] * parts)
         memory["read"] = at_cost(r["memory"], sensors)
-        moved += at_cost(ms["bytes"], sensors)
+        moved += at_cost(ms["bytes"], sensors) * parts
     return times, memory, moved
 
 
@@ -236,6 +237,11 @@ def _stages(costs, rows, folder):
             with open(value("--at", os.devnull), encoding="utf-8") as file:
                 count = sum(1 for _ in file) - 1
             foretold, key = at_cost(costs["sensors"]["seconds"], count * part * float(value("--rays", 1024))), "sensors"
+        elif stage == "sense":
+            part = 1 / int(str(value("--part", "1/1")).split("/")[1])
+            with open(value("--points", os.devnull), encoding="utf-8") as file:
+                count = sum(1 for _ in file) - 1
+            foretold, key = at_cost(costs["read"]["seconds"], count * part), "read"
         else:
             continue
         measured, predicted, number = sums.get(key, (0, 0, 0))
@@ -269,7 +275,7 @@ def start():
         print(__doc__.strip(), file=sys.stdout if words else sys.stderr)
         return 0 if words else 2
     if words[0] == "measure" and len(words) >= 3:
-        paths = int(options(words[3:], ["paths"]).get("paths", 400000))
+        paths = int(options(words[3:], ["paths"]).get("paths", 2000000))
         if not os.path.isfile(words[1]):
             raise Problem(f"{words[1]}: no such file", 3)
         measure(words[1], words[2], max(paths, 1000))

@@ -80,7 +80,7 @@ def _note(path, line):
     try:
         with open(path, "a", encoding="utf-8") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
-            if file.tell() == 0:
+            if os.fstat(file.fileno()).st_size == 0:
                 line = COLUMNS + line
             file.write(line)
     except OSError as error:  # of a full disk: the job itself matters more

@@ -30,6 +30,7 @@ finish() {
   exit $code
 }
 trap finish EXIT
+trap "exit 143" HUP INT TERM  # ends by finish too
 export CI=true  # Snakemake then looks for ended jobs every second, not every ten
 site_start "$scratch/site"
 cd "$scratch"
