@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # Installs the missing ones of the Debian packages that phos is built from.
-#   pipelines/install.sh [--tests]      --tests: also the packages that the tests need
+#   pipelines/install.sh [--tests] [--cluster]      --tests: also the packages that the tests need; --cluster: also those of pipelines/cluster.sh
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config
   libembree-dev libtbb-dev librandom123-dev libcli11-dev nlohmann-json3-dev libxxhash-dev libglm-dev
   libopenexr-dev libpng-dev libtinygltf-dev libtinyobjloader-dev libstb-dev libflann-dev liblz4-dev libdeflate-dev libcgal-dev
   libcairo2-dev fonts-dejavu-core libosmesa6-dev libegl-dev libtomlplusplus-dev libboost-dev libeigen3-dev jq)
-[[ ${1:-} == --tests ]] && packages+=(libgtest-dev libbenchmark-dev man-db dpkg-dev lintian mmdebstrap chromium)
+for option in "$@"; do
+  case $option in
+    --tests) packages+=(libgtest-dev libbenchmark-dev man-db dpkg-dev lintian mmdebstrap chromium) ;;
+    --cluster) packages+=(snakemake slurm-wlm munge parallel python3 python3-yaml) ;;
+    *) echo "install.sh: $option: give --tests or --cluster" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

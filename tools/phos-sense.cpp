@@ -23,6 +23,11 @@ int main(int argc, char** argv) {
                "sensors: CSV with the columns x,y,z,nx,ny,nz in metres, and id where wanted, or six numbers "
                "a line; - is stdin");
   declare_options(options, asked.grid);
+  options.text("part", asked.part, "K/N",
+               "read only part K of N of the sensors, for several machines: with the lines of the parts one "
+               "after another, the file is the one of the whole run. The caches must have a record for each "
+               "sensor (phos-irradiance --place every)",
+               Recorded::no);
   options.section("Light");
   declare_options(options, asked.sense);
   options.flag("exact", asked.exact, "trace paths at each sensor instead of reading caches");

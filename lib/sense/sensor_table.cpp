@@ -33,7 +33,7 @@ std::vector<std::string> sensor_csv(const Sensors& sensors, std::span<const Read
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [p, normal] = sensors.points[i];
       const Reading& r = readings[i];
-      out += sensors.ids.empty() ? std::to_string(i) : csv_cell(sensors.ids[i]);
+      out += sensors.ids.empty() ? std::to_string(sensors.first + i) : csv_cell(sensors.ids[i]);
       for (int c = 0; c < 3; ++c) out += ',', out += world_text(sensors.origin_m[c], p[c]);
       for (const float v :
            {normal.x, normal.y, normal.z, r.illuminance_lx, r.stderr_lx, r.direct_lx, r.indirect_lx})

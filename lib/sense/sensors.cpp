@@ -60,9 +60,9 @@ std::vector<Direct> read_direct(const Sensors& sensors, const RayScene& rays, co
           if (!wish.wanted) continue;
           const auto samples = static_cast<int>(options.light_samples.value_or(0));
           const DirectReading e =
-              samples > 0 ? reader.read(at, samples, options.seed, i)
+              samples > 0 ? reader.read(at, samples, options.seed, sensors.first + i)
                           : reader.read(at, DirectTarget{options.error, wish.known_lx, wish.holds_direct},
-                                        options.seed, i);
+                                        options.seed, sensors.first + i);
           direct[i] = {luminance(e.irradiance), luminance(e.stderr_lx), e.irradiance};
           part.shadow_rays += e.rays, part.above_error += !e.met;
         }
@@ -277,6 +277,11 @@ std::vector<Cached> read_cached(const Sensors& sensors, const RayScene& rays, co
     if (!report.covered[i]) uncovered.push_back(i), open.push_back(sensors.points[i]);
   report.uncovered = open.size();
   if (open.empty()) return cached;
+  if (!options.whole_run)
+    throw Error(ExitCode::mismatch, "--part",
+                text("the caches have no record for ", open.size(),
+                     " sensors of this part, the first is number ", sensors.first + uncovered[0],
+                     "; make their records first: phos-irradiance --place every --at POINTS"));
   const std::vector<Reading> fresh = read_fresh(open, rays, lights, caches, caustics, options, report);
   for (std::size_t k = 0; k < uncovered.size(); ++k)
     cached[uncovered[k]] = {fresh[k].components_lx, fresh[k].stderr_lx, false};

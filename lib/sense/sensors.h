@@ -23,6 +23,7 @@ namespace phos::inline sense {
 struct Sensors {
   std::vector<SurfaceSample> points;  ///< m; unit normals
   std::vector<std::string> ids;       ///< one each, or empty: sensors are numbered from 0
+  std::uint64_t first = 0;            ///< number of the first: of a part of a run, the sensors before it
   std::uint64_t left_out = 0;         ///< points of a grid where nobody could put a sensor
   std::optional<double> level_m;      ///< of a workplane, in the world
   DVec3 origin_m{0};                  ///< of the scene: points are counted from there, tables are not
@@ -41,6 +42,7 @@ struct SensorOptions {
   double error = 0.01;  ///< standard error of direct light over the illuminance of all light
   LeakTest leak_test = LeakTest::ray;
   bool direct_only = false;
+  bool whole_run = true;  ///< false: of a part of it, where no records are made
   // Records made where the caches have none.
   std::int64_t rays = 1024;
   double accuracy = 0.15;
@@ -105,7 +107,9 @@ class SensorCaches {
 
 /// Reads every sensor. Caustic light, where the caches have it as photons, is estimated at each sensor
 /// (CausticLight) and is part of the indirect light. Same numbers for any number of threads. Without shadow
-/// rays caches must hold all light; sensors that they do not cover get as many as options.error takes.
+/// rays caches must hold all light; sensors that they do not cover get as many as options.error takes. The
+/// readings of a part of a run are those of the whole run; throws Error(mismatch) where the caches do not
+/// cover a sensor of a part, because records of a whole run depend on each other.
 std::vector<Reading> read_light(const Sensors& sensors, const RayScene& rays, const Luminaires& lights,
                                 const SensorCaches& caches, const SensorOptions& options,
                                 SensorReport& report);

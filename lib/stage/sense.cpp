@@ -4,6 +4,7 @@
 
 #include "direct/direct_reader.h"
 #include "file/atomic_file.h"
+#include "file/shards.h"
 #include "reference/events.h"
 #include "reference/measure_points.h"
 #include "scene/motion/film.h"
@@ -30,6 +31,12 @@ void check_usage(const Options& options, const InputFiles& files, const SenseCom
       throw Error(ExitCode::usage, text("--", name), "needs --exact; give --exact, or leave it out");
   if (!exact && options.given("error") && sense.light_samples)
     throw Error(ExitCode::usage, "--error", "chooses the number of shadow rays; leave out --light-samples");
+  if (!asked.part.empty()) {
+    parse_share("--part", asked.part);
+    if (exact) throw Error(ExitCode::usage, "--part", "is of readings of caches; leave out --exact");
+    if (!asked.summary.empty())
+      throw Error(ExitCode::usage, "--summary", "would be of a part of the sensors; leave out --part");
+  }
   if ((exact || sense.direct_only) && !sense.sends_rays())
     throw Error(ExitCode::usage, "--light-samples", "of 0 leaves direct light to a cache; give 1 or more");
   if (files.phos.empty() && !exact && !sense.direct_only) {
@@ -43,6 +50,18 @@ void write_text(const std::string& path, std::span<const std::string> pieces) {
   AtomicFile file(path);
   for (const std::string& piece : pieces) file.write(piece);
   file.commit();
+}
+
+/// Leaves part "k/n" of the sensors, and their numbers.
+void keep_part(Sensors& sensors, const std::string& part) {
+  const ItemRange range = range_of(parse_share("--part", part), sensors.points.size());
+  const auto keep = [&](auto& all) {
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(range.first + range.count), all.end());
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(range.first));
+  };
+  keep(sensors.points);
+  if (!sensors.ids.empty()) keep(sensors.ids);
+  sensors.first = range.first;
 }
 
 /// Sensors whose records do not hold all light: records of files that say so, and records made here.
@@ -107,8 +126,8 @@ void report_on(Tool& tool, const std::string& summary_path, const Sensors& senso
              " rays (--light-samples can be more; --portals auto finds a sky behind windows with fewer)"));
   if (!report.inside.empty())
     tool.warn(text(report.inside.size(),
-                   " sensors are inside of solids or behind walls (the first is number ", report.inside[0],
-                   "): no standard error is stated for them"));
+                   " sensors are inside of solids or behind walls (the first is number ",
+                   sensors.first + report.inside[0], "): no standard error is stated for them"));
   if (report.outside > 0) tool.warn(text(report.outside, " sensors are outside of the scene's bounds"));
 }
 
@@ -137,9 +156,11 @@ void run(Tool& tool, SenseCommand& asked) {
   const RayScene rays(scene, {asked.isa});
   const Luminaires lights(scene);
   if (const auto nested = nested_glass(rays)) tool.warn(*nested);
-  const Sensors sensors = find_sensors(asked.points, asked.grid, rays);
+  Sensors sensors = find_sensors(asked.points, asked.grid, rays);
+  if (!asked.part.empty()) keep_part(sensors, asked.part);
   if (sensors.points.empty()) tool.warn("there is no sensor, and the output is a header alone");
   SensorOptions& sense = asked.sense;
+  sense.whole_run = asked.part.empty();
   sense.seed = asked.exactly.seed = tool.seed();
   sense.error = asked.exactly.relative_error.value_or(sense.error);
   SensorReport report;

@@ -24,6 +24,7 @@ struct SenseCommand {
   SensorOptions sense;
   PointOptions exactly;  ///< of --exact
   ReferenceMethod method = ReferenceMethod::automatic;
+  std::string part;  ///< "k/n", or empty: all sensors
   std::string isa;
   bool exact = false, allow_mismatch = false, factors = false;
 };

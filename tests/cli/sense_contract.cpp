@@ -53,6 +53,58 @@ TEST(SenseTool, HelpAndVersion) {
   EXPECT_EQ(run_tool({"sense", "--version"}).code, 0);
 }
 
+TEST(SenseTool, PartsAreTheWholeRunLineByLine) {
+  const std::string folder = box_folder(), photons = folder + "/box.photons", points = folder + "/desk.csv";
+  std::string table = "x,y,z,nx,ny,nz\n";
+  for (int i = 0; i < 23; ++i) table += "0." + std::to_string(12 + i) + ",0.2,0.3,0,1,0\n";
+  spill(points, table);
+  const std::string cache = folder + "/desk.irradiance";
+  ASSERT_EQ(run_tool({"irradiance", kBox, photons, "--place", "every", "--at", points, "--estimate", "gather",
+                      "--rays", "16", "-o", cache})
+                .code,
+            0);
+  const auto read = [&](const std::vector<std::string>& caches, const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"sense", kBox};
+    words.insert(words.end(), caches.begin(), caches.end());
+    words.insert(words.end(), {"--points", points});
+    words.insert(words.end(), options.begin(), options.end());
+    const auto run = run_tool(words);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out;
+  };
+  for (const bool cached : {true, false}) {
+    const std::vector<std::string> caches(cached ? 1 : 0, cache);
+    std::vector<std::string> options;
+    if (!cached) options.push_back("--direct-only");
+    const std::string whole = read(caches, options);
+    std::string joined = kHeader;
+    for (const char* part : {"1/3", "2/3", "3/3"}) {
+      std::vector<std::string> of_part = options;
+      of_part.insert(of_part.end(), {"--part", part});
+      const std::string lines = read(caches, of_part);
+      ASSERT_EQ(lines.rfind(kHeader, 0), 0u) << lines;
+      joined += lines.substr(kHeader.size());
+    }
+    EXPECT_EQ(joined, whole);
+  }
+  // More parts than sensors: the last ones are headers alone, or hold one sensor.
+  EXPECT_EQ(read({cache}, {"--part", "1/100"}), kHeader);
+}
+
+TEST(SenseTool, PartsNeedARecordAtEachSensor) {
+  const std::string cache = box_folder() + "/box.irradiance";
+  const std::vector<std::string> grid = {kBox, cache, "--grid", "0.1", "--height", "0.2"};
+  const auto refused = [&](std::vector<std::string> words, const std::vector<std::string>& more, int code,
+                           const std::string& why) {
+    words.insert(words.end(), more.begin(), more.end());
+    expect_refused("sense", words, code, why);
+  };
+  refused(grid, {"--part", "1/2"}, 4, "--place every");
+  refused(grid, {"--part", "3/2"}, 2, "--part");
+  refused(grid, {"--part", "1/2", "--summary", "s.json"}, 2, "--summary");
+  refused({kBox, "--grid", "0.1", "--height", "0.2"}, {"--exact", "--part", "1/2"}, 2, "--exact");
+}
+
 TEST(SenseTool, RefusesBadCommandLines) {
   EXPECT_EQ(run_tool({"sense"}).code, 2);
   expect_refused("sense", {kBox, "--direct-only"}, 2, "--points");
