@@ -11,6 +11,7 @@
 #include "splat/projection.h"
 #include "splat/sight_range.h"
 #include "view/message/writer.h"
+#include "view/specular_fields.h"
 
 namespace phos::inline view {
 namespace {
@@ -50,17 +51,9 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
     for (const Vec4& c : scene.colour) add(colour, c);
     message.add("vertex", "colour", colour);
   }
-  Numbers corner, first, count, material;
+  Numbers corner;
   for (const Triangle& t : scene.triangle) corner.insert(corner.end(), std::begin(t.v), std::end(t.v));
-  for (const Instance& instance : scene.instance) {
-    if (instance.triangle_count == 0) continue;
-    first.push_back(instance.first_triangle), count.push_back(instance.triangle_count);
-    material.push_back(instance.material);
-  }
   message.add("triangle", "corner", corner);
-  message.add("part", "first_triangle", first);
-  message.add("part", "triangle_count", count);
-  message.add("part", "material", material);
 }
 
 /// The textures of colours and emission, in the order of their first use.
@@ -131,7 +124,7 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
   constexpr int kSamples = 256;
   const Bsdf bsdf(scene, material);
   const Vec3 wo = glm::normalize(Vec3(1, 0, 1));
-  glm::dvec3 reflected(0), passed(0);
+  glm::dvec3 reflected(0), scattered(0), passed(0);
   for (int i = 0; i < kSamples; ++i) {
     const double y = 0.5 + 0.6180339887498949 * i, z = 0.5 + 0.7548776662466927 * i;
     BsdfSample sample;
@@ -139,13 +132,14 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
                      Vec2(static_cast<float>(y - std::floor(y)), static_cast<float>(z - std::floor(z))),
                      sample))
       continue;
-    (sample.transmitted ? passed : reflected) += glm::dvec3(sample.weight) / double{kSamples};
+    const glm::dvec3 share = glm::dvec3(sample.weight) / double{kSamples};
+    (sample.transmitted ? passed : reflected) += share;
+    if (!sample.specular && !sample.transmitted) scattered += share;
   }
   Reflection r;
   r.diffuse = bsdf.diffuse_reflectance();
-  const Rgb all(reflected);
-  r.gloss = glm::clamp(all - r.diffuse, Rgb(0), Rgb(1));
-  r.clear = luminance(Rgb(passed)) > luminance(all) && !bsdf.transmits_diffusely();
+  r.gloss = glm::clamp(Rgb(scattered) - r.diffuse, Rgb(0), Rgb(1));
+  r.clear = luminance(Rgb(passed)) > luminance(Rgb(reflected)) && !bsdf.transmits_diffusely();
   return r;
 }
 
@@ -286,7 +280,9 @@ void add_sky(const Scene& scene, MessageWriter& message) {
 std::string scene_message(const Scene& scene, int light_samples) {
   MessageWriter message(MessageKind::scene);
   add_geometry(scene, message);
+  add_parts(scene, message);
   add_materials(scene, message);
+  add_specular(scene, message);
   add_lamps(scene, light_samples, message);
   add_cameras(scene, message);
   add_sky(scene, message);

@@ -4,6 +4,9 @@ uniform sampler2D position_map;
 uniform sampler2D normal_map;
 uniform sampler2D reflectance_map;       // its w, with the normal's: the facet's normal
 uniform sampler2DArray depth_map;
+uniform bool veiled;
+uniform sampler2DArray veil_map;         // share of light that comes through the panes before the lamp
+uniform sampler2DArray veil_depth_map;   // and the distance of the nearest of them
 uniform sampler2D share_map;             // of colour, by degrees of azimuth and from straight down
 uniform mat3 luminaire_axes;             // rows are its x, y and up
 uniform int face_count;
@@ -44,6 +47,18 @@ bool shadowed(vec3 v, vec3 n, int face) {
   float carried = -(dot(n, v) - dot(n.xy, centre)) / n.z;
   carried = clamp(carried, -v.z - 8.0 * bias, -v.z + 8.0 * bias);
   return (2.0 * stored - 1.0) * farthest + bias < carried;
+}
+
+// What panes leave of the light.
+vec3 through_panes(vec3 v, int face) {
+  bool perspective = shape != 3;
+  float w = perspective ? -v.z : 1.0;
+  ivec2 size = textureSize(veil_map, 0).xy;
+  vec2 ndc = (v.xy * lens.xy + lens.zw * w) / w;
+  ivec3 texel = ivec3(clamp(ivec2(floor((ndc * 0.5 + 0.5) * vec2(size))), ivec2(0), size - 1), face);
+  float pane = texelFetch(veil_depth_map, texel, 0).r;
+  bool behind = perspective ? pane * farthest < w : (2.0 * pane - 1.0) * farthest < -v.z;
+  return behind ? texelFetch(veil_map, texel, 0).rgb : vec3(1.0);
 }
 
 // What a luminaire's map says of a direction away from it.
@@ -91,5 +106,6 @@ void main() {
   float cosine = dot(n, to_light);
   if (cosine <= 0.0 || dot(facet, to_light) <= 0.0 || value == vec3(0.0)) return;
   if (shadowed(v, axes[face] * facet, face)) return;
+  if (veiled) value *= through_panes(v, face);
   illuminance = vec4(value * cosine, 0.0);
 }

@@ -1,5 +1,6 @@
 // The places that lamps shine from, each with its shadow maps, which are drawn once.
 import {makeTexture} from './gl.js';
+import {drawVeils} from './lamp_veils.js';
 import {across, add, dot, length, matrixOfRows, normalized, row, scale, subtract} from './vector.js';
 
 const SPOT = 2, DIRECTIONAL = 3;  // PlaceShape
@@ -26,14 +27,16 @@ function cubeAxes(forward) {
 }
 
 export class Lamps {
-  constructor(gl, scene, mesh, program) {
-    Object.assign(this, {gl, mesh, program});
+  // `program` draws depths, `veilProgram` the light that panes let through.
+  constructor(gl, scene, mesh, program, veilProgram) {
+    Object.assign(this, {gl, mesh, program, veilProgram});
     this.lo = row(scene.scene.bounds_lo, 0), this.hi = row(scene.scene.bounds_hi, 0);
     this.shares = Array.from({length: scene.distribution.rows}, (_, i) => this.#makeShare(scene.distribution, i));
     this.places = Array.from({length: scene.sample.rows}, (_, i) => this.#place(scene.sample, i));
     const faces = this.places.reduce((sum, place) => sum + place.axes.length, 0);
     this.size = 2048;
-    while (this.size > 128 && faces * this.size * this.size * 4 > MAP_BYTES) this.size /= 2;
+    const texel = mesh.panes.length ? 16 : 4;  // bytes
+    while (this.size > 128 && faces * this.size * this.size * texel > MAP_BYTES) this.size /= 2;
     this.drawn = 0;
   }
 
@@ -99,6 +102,7 @@ export class Lamps {
       });
     });
     gl.deleteFramebuffer(framebuffer);
+    place.veils = this.mesh.panes.length ? drawVeils(gl, this.mesh, this.veilProgram, place, this.size) : null;
     // Half a texel: of the distance, or m.
     place.bias = place.perspective ? place.half / this.size : 0.5 * place.half * 2 / this.size + 1e-6 * place.radius;
   }
@@ -118,7 +122,9 @@ export class Lamps {
         shape: place.shape, colour: place.colour, forward: place.forward, cone: place.cone, two_sided: place.two_sided,
         eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, face_count: place.axes.length,
         axes: place.axes.flat(), luminaire_axes: place.luminaire_axes,
-        depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps},
+        depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps}, veiled: place.veils !== null,
+        veil_map: {unit: 10, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.shares ?? place.maps},
+        veil_depth_map: {unit: 11, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.depths ?? place.maps},
         share_map: {unit: 4, target: gl.TEXTURE_2D, id: place.share},
       });
       gl.drawArrays(gl.TRIANGLES, 0, 3);

@@ -9,7 +9,7 @@ import {Messages, names} from './message.js';
 import {Eye, Walk} from './walk.js';
 
 const $ = (id) => document.getElementById(id);
-const UNITS = ['cd/m²', 'lx', 'lx', 'lx'];
+const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
 
@@ -169,12 +169,13 @@ class View {
 
 try {
   document.body.classList.toggle('bare', asked.has('width') || asked.has('height'));
-  const [format, about, scene, records, palette, shaders] = await Promise.all([
+  const [format, about, scene, records, gloss, palette, shaders] = await Promise.all([
     load('/format.json', 'json'), load('/about.json', 'json'), load('/scene.bin', 'arrayBuffer'),
-    load('/records.bin', 'arrayBuffer'), load('/palette.bin', 'arrayBuffer'), loadShaders((path) => load(path, 'text'))]);
+    load('/records.bin', 'arrayBuffer'), load('/gloss.bin', 'arrayBuffer'), load('/palette.bin', 'arrayBuffer'), loadShaders((path) => load(path, 'text'))]);
   const messages = new Messages(format), colours = new Uint8Array(palette);
   const read = messages.read(scene, 'scene');
-  const drawing = new Drawing($('picture'), shaders, read, messages.read(records, 'records'), colours);
+  const drawing = new Drawing($('picture'), shaders, read, messages.read(records, 'records'),
+                              messages.read(gloss, 'gloss'), colours);
   const view = new View(drawing, read, {...about, palette: Array.from(colours)}, messages);
   $('state').textContent = '';
   if (asked.has('dump')) {
