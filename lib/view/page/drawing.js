@@ -116,7 +116,7 @@ export class Drawing {
     const view = this.viewOf(eye, this.canvas.width, this.canvas.height);
     this.reflections.prepare(this, eye, view, accuracy);
     this.lightOf(view, accuracy);
-    this.reflections.shine(this.programs.shine, this.targets.shine, view);
+    this.reflections.shine(this.programs.shine, this.programs.veil, this.targets.shine, view);
   }
 
   // The light of the uniforms of a camera, but for reflections.

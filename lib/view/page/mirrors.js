@@ -52,9 +52,9 @@ export class Mirrors {
     }
   }
 
-  // Adds what they reflect to the bound target.
-  shine(mesh, program, view) {
+  // Adds what their parts of a kind reflect to the bound target.
+  shine(mesh, program, view, drawn) {
     for (const plane of this.taken)
-      mesh.draw(program, {...view, by_cube: false, mirrored_map: {unit: 2, target: this.gl.TEXTURE_2D, id: plane.map}}, plane.parts);
+      mesh.draw(program, {...view, by_cube: false, mirrored_map: {unit: 2, target: this.gl.TEXTURE_2D, id: plane.map}}, plane.parts.filter(drawn));
   }
 }

@@ -15,16 +15,22 @@ export class Reflections {
     if (ready || !this.surroundings.others) this.surroundings.prepare(drawing, accuracy, `${ready} ${accuracy}`, this.mirrors.taken);
   }
 
-  // Adds the reflections to the light of the view that was drawn last.
-  shine(program, target, view) {
+  // Adds the reflections to the light of the view that was drawn last: first of mirrors, of which panes before them
+  // take their share (`veil` draws it), then of panes.
+  shine(program, veil, target, view) {
     if (!target) return;
     const gl = this.gl;
     target.bind();
     gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE);
     gl.depthMask(false);
-    this.mirrors.shine(this.mesh, program, view);
-    this.surroundings.shine(program, view);
+    for (const clear of [false, true]) {
+      gl.blendFunc(gl.ONE, gl.ONE);
+      const drawn = (part) => this.mesh.materials[part.material].clear === clear;
+      this.mirrors.shine(this.mesh, program, view, drawn);
+      this.surroundings.shine(program, view, drawn);
+      gl.blendFunc(gl.ZERO, gl.SRC_COLOR);
+      if (!clear) this.mesh.draw(veil, view, this.mesh.panes);
+    }
     gl.depthMask(true);
     gl.disable(gl.BLEND);
   }

@@ -23,7 +23,7 @@ function boundsOf(part, {vertex, triangle}) {
 
 export class Surroundings {
   constructor(gl, scene, mesh) {
-    Object.assign(this, {gl, mesh, drawn: ''});
+    Object.assign(this, {gl, mesh});
     const parts = mesh.shiny.map((part) => {
       const {lo, hi} = boundsOf(part, scene);
       return {part, middle: scale(add(lo, hi), 0.5), size: length(subtract(hi, lo))};
@@ -60,11 +60,11 @@ export class Surroundings {
     });
   }
 
-  // Adds what the parts reflect to the bound target.
-  shine(program, view) {
+  // Adds what the parts of a kind reflect to the bound target.
+  shine(program, view, drawn) {
     for (const probe of this.probes)
       if (probe.map)
         this.mesh.draw(program, {...view, by_cube: true, cube_middle: probe.middle, cube_map: {unit: 3, target: this.gl.TEXTURE_CUBE_MAP, id: probe.map}},
-                       probe.parts.filter((part) => this.others.has(part)));
+                       probe.parts.filter((part) => this.others.has(part) && drawn(part)));
   }
 }

@@ -12,6 +12,7 @@ const $ = (id) => document.getElementById(id);
 const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
+const WITHOUT_LAMPS = ['2', '4'].includes(asked.get('dump'));  // quantities of records alone
 
 async function load(path, as) {
   const response = await fetch(path);
@@ -138,7 +139,7 @@ class View {
   frame(now) {
     if (this.lost) return false;
     if (this.walk.step(now)) this.change();
-    if (!this.drawing.records.holdsDirect && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
+    if (!WITHOUT_LAMPS && !this.drawing.records.holdsDirect && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
       const {lamps} = this.drawing;
       lamps.prepare(PLACES_A_FRAME);
       $('state').textContent = lamps.drawn < lamps.places.length ? `Shadows: ${lamps.drawn} of ${lamps.places.length}` : '';
