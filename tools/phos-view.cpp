@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
   Options& options = tool.options();
   stage::ViewCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
-  options.inputs("CACHE", asked.caches, "irradiance and radiance caches of the scene, which are joined");
+  options.inputs(
+      "CACHE", asked.caches,
+      "irradiance and radiance caches of the scene, which are joined; .brdf: lobes for the radiance records");
   options.section("Server");
   options.integer("port", asked.address.port, "N", "port; 0: any that is free", {0, 65535}, Recorded::no);
   options.text("host", asked.address.host, "ADDRESS",

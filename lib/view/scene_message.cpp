@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "core/error.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/material/bsdf.h"
 #include "scene/texture/texture.h"
 #include "splat/direct/lamp_places.h"
 #include "splat/projection.h"
 #include "splat/sight_range.h"
+#include "view/limits.h"
 #include "view/message/writer.h"
+#include "view/scene_textures.h"
 #include "view/specular_fields.h"
 
 namespace phos::inline view {
@@ -56,58 +58,6 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
   message.add("triangle", "corner", corner);
 }
 
-/// The textures of colours and emission, in the order of their first use.
-class Textures {
- public:
-  explicit Textures(const Scene& scene) : scene_(scene) {}
-
-  /// Its row; kNoRow: the use names none.
-  std::uint32_t row(const TextureUse& use) {
-    if (!use.used() || scene_.texture[static_cast<std::size_t>(use.texture)].size() == 0) return kNoRow;
-    const auto [found, first] = row_.emplace(use.texture, static_cast<std::uint32_t>(width_.size()));
-    if (first) add(scene_.texture[static_cast<std::size_t>(use.texture)]);
-    return found->second;
-  }
-
-  void add_to(MessageWriter& message) const {
-    message.add("texture", "width", width_);
-    message.add("texture", "height", height_);
-    message.add("texture", "wrap", wrap_);
-    message.add("texture", "nearest", nearest_);
-    message.add("texture", "srgb", srgb_);
-    message.add("texture", "first_texel", first_);
-    message.add("texel", "rgba", rgba_);
-  }
-
- private:
-  void add(const Texture& texture) {
-    width_.push_back(static_cast<std::uint32_t>(texture.width));
-    height_.push_back(static_cast<std::uint32_t>(texture.height));
-    wrap_.push_back(static_cast<std::uint32_t>(texture.wrap_u));
-    wrap_.push_back(static_cast<std::uint32_t>(texture.wrap_v));
-    nearest_.push_back(texture.nearest ? 1 : 0);
-    srgb_.push_back(texture.srgb || !texture.texels.empty() ? 1 : 0);
-    first_.push_back(static_cast<std::uint32_t>(rgba_.size() / 4));
-    for (const Texture::Code& code : texture.codes)
-      if (texture.texels.empty()) rgba_.insert(rgba_.end(), code.begin(), code.end());
-    for (const Vec4& texel : texture.texels)
-      for (int c = 0; c < 4; ++c) rgba_.push_back(code_of(texel[c], c < 3));
-  }
-
-  static std::uint8_t code_of(float linear, bool srgb) {
-    const float v = std::clamp(linear, 0.f, 1.f);
-    const float shown = !srgb             ? v
-                        : v <= 0.0031308f ? 12.92f * v
-                                          : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;  // IEC 61966-2-1
-    return static_cast<std::uint8_t>(255 * shown + 0.5f);
-  }
-
-  const Scene& scene_;
-  std::map<std::int32_t, std::uint32_t> row_;
-  Numbers width_, height_, wrap_, nearest_, srgb_, first_;
-  std::vector<std::uint8_t> rgba_;
-};
-
 /// Offset, and the columns of the matrix (scene/texture/texture.h: transformed()).
 void add_place(Floats& values, const TextureUse& use) {
   const Vec2 x = transformed(use, Vec2(1, 0)) - use.offset, y = transformed(use, Vec2(0, 1)) - use.offset;
@@ -143,10 +93,10 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
   return r;
 }
 
-void add_materials(const Scene& scene, MessageWriter& message) {
+void add_materials(const Scene& scene, std::size_t most_texels, MessageWriter& message) {
   Floats diffuse, gloss, emission, cutoff, colour_place, emission_place;
   Numbers flags, colour_texture, colour_set, emission_texture, emission_set;
-  Textures textures(scene);
+  SceneTextures textures(scene, most_texels);
   for (std::uint32_t i = 0; i < scene.material.size(); ++i) {
     const Material& m = scene.material[i];
     const Reflection reflection = reflection_of(scene, i);
@@ -277,16 +227,21 @@ void add_sky(const Scene& scene, MessageWriter& message) {
 
 }  // namespace
 
-std::string scene_message(const Scene& scene, int light_samples) {
+std::string scene_message(const Scene& scene, int light_samples, std::size_t most_texels) {
   MessageWriter message(MessageKind::scene);
   add_geometry(scene, message);
   add_parts(scene, message);
-  add_materials(scene, message);
+  add_materials(scene, most_texels, message);
   add_specular(scene, message);
   add_lamps(scene, light_samples, message);
   add_cameras(scene, message);
   add_sky(scene, message);
-  return message.message();
+  std::string bytes = message.message();
+  if (bytes.size() > kMostPageBytes.as<std::size_t>())
+    throw Error(ExitCode::usage, "",
+                text("the scene takes ", bytes.size(), " bytes in a browser, and more than ",
+                     written(kMostPageBytes), " do not fit there; leave out meshes with many triangles"));
+  return bytes;
 }
 
 }  // namespace phos::inline view

@@ -105,9 +105,9 @@ export class Drawing {
       position_map: map(0, position), normal_map: map(1, normal), reflectance_map: map(2, reflectance),
       emission_map: map(5, emission), direct_map: map(6, direct.textures[0]), splat_map: map(7, splat.textures[0]),
       sky_map: map(8, this.skyMap), palette_map: map(9, this.paletteMap), has_sky: this.hasSky,
-      material_map: map(10, this.materialMap), gloss_map: map(11, gloss?.textures[0] ?? null), has_gloss: gloss !== null,
-      veil_map: map(12, veil?.textures[0] ?? null), has_veil: veil !== null,
-      shine_map: map(13, shine?.textures[0] ?? null), has_shine: shine !== null,
+      material_map: map(11, this.materialMap), gloss_map: map(12, gloss?.textures[0] ?? null), has_gloss: gloss !== null,
+      veil_map: map(13, veil?.textures[0] ?? null), has_veil: veil !== null,
+      shine_map: map(14, shine?.textures[0] ?? null), has_shine: shine !== null,
     };
   }
 

@@ -123,8 +123,8 @@ export class Lamps {
         eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, face_count: place.axes.length,
         axes: place.axes.flat(), luminaire_axes: place.luminaire_axes,
         depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps}, veiled: place.veils !== null,
-        veil_map: {unit: 10, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.shares ?? place.maps},
-        veil_depth_map: {unit: 11, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.depths ?? place.maps},
+        veil_map: {unit: 14, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.shares ?? place.maps},
+        veil_depth_map: {unit: 15, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.depths ?? place.maps},
         share_map: {unit: 4, target: gl.TEXTURE_2D, id: place.share},
       });
       gl.drawArrays(gl.TRIANGLES, 0, 3);
