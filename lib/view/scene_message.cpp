@@ -10,6 +10,7 @@
 #include "splat/direct/lamp_places.h"
 #include "splat/projection.h"
 #include "splat/sight_range.h"
+#include "view/glint_fields.h"
 #include "view/limits.h"
 #include "view/message/writer.h"
 #include "view/scene_textures.h"
@@ -233,6 +234,7 @@ std::string scene_message(const Scene& scene, int light_samples, std::size_t mos
   add_parts(scene, message);
   add_materials(scene, most_texels, message);
   add_specular(scene, message);
+  add_glints(scene, message);
   add_lamps(scene, light_samples, message);
   add_cameras(scene, message);
   add_sky(scene, message);

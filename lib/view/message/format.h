@@ -54,6 +54,8 @@ enum MaterialFlag : std::uint32_t {
   kMasked = 2,  ///< alpha below the cutoff is a hole
   kClear = 4,   ///< more light passes than is reflected: drawn see-through, and throws no shadow
 };
+/// Lobes in which lamps shine.
+enum class GlintKind : std::uint32_t { none = 0, phong = 1, ggx = 2, ward = 3 };
 /// Cosines of incidence of the table `specular`, and numbers of a row.
 inline constexpr unsigned kSpecularCosines = 33, kSpecularFloats = 3 * kSpecularCosines;
 /// Sides of the table of the sky.

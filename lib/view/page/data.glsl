@@ -3,5 +3,5 @@ vec4 datum(sampler2D map, int i) {
   int width = textureSize(map, 0).x;
   return texelFetch(map, ivec2(i % width, i / width), 0);
 }
-// Texel k, 0 or 1, of the material that the position's w names.
-vec4 of_material(sampler2D map, float w, int k) { return datum(map, 2 * (int(w) - 1) + k); }
+// Texel k of the material that the position's w names (materials.js).
+vec4 of_material(sampler2D map, float w, int k) { return datum(map, 3 * (int(w) - 1) + k); }

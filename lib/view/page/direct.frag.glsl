@@ -1,5 +1,5 @@
 // Illuminance of each pixel by one place of a lamp, where its shadow map lets it through (as
-// splat/gl/shaders.cpp: shadow_fragment).
+// splat/gl/shaders.cpp: shadow_fragment), and the luminance that it has in gloss. After data.glsl and glint.glsl.
 uniform sampler2D position_map;
 uniform sampler2D normal_map;
 uniform sampler2D reflectance_map;       // its w, with the normal's: the facet's normal
@@ -20,7 +20,12 @@ uniform vec3 colour;                     // cd; directional: lx
 uniform vec3 forward;
 uniform vec2 cone;                       // cosines of the outer and the inner half angle
 uniform bool two_sided;
+uniform float spacing;                   // half of that between the lamp's places: m, or an angle where directional
+uniform vec3 viewer;                     // the eye
+uniform vec3 backward;                   // of a view without perspective
+uniform bool view_perspective;
 layout(location = 0) out vec4 illuminance;
+layout(location = 1) out vec4 glint;
 
 vec3 from_octahedral(vec2 p) {
   vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
@@ -76,7 +81,7 @@ float share_towards(vec3 direction) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  illuminance = vec4(0.0);
+  illuminance = glint = vec4(0.0);
   vec4 p = texelFetch(position_map, pixel, 0);
   if (p.w == 0.0) return;
   vec4 normal = texelFetch(normal_map, pixel, 0);
@@ -108,4 +113,7 @@ void main() {
   if (shadowed(v, axes[face] * facet, face)) return;
   if (veiled) value *= through_panes(v, face);
   illuminance = vec4(value * cosine, 0.0);
+  vec3 towards = view_perspective ? normalize(viewer - p.xyz) : backward;
+  float spread = shape == 3 ? spacing : spacing / length(v);
+  glint = vec4(glint_towards(p.w, n, towards, to_light, spread) * value * cosine, 0.0);
 }

@@ -12,7 +12,7 @@ const SKY_WIDTH = 256, SKY_HEIGHT = 128;
 export const MEASURED = 96;  // pixels on a side of a measurement
 
 const SHADERS = ['scene.vert', 'holes', 'gbuffer.frag', 'shadow.frag', 'picture.vert', 'direct.frag', 'rectangle', 'splat.vert', 'splat.frag',
-                 'data', 'gloss.vert', 'gloss.frag', 'specular', 'veil.frag', 'shine.frag', 'bake.frag', 'quantity', 'measure.frag', 'show.frag', 'overlay.vert', 'overlay.frag'];
+                 'data', 'glint', 'gloss.vert', 'gloss.frag', 'specular', 'veil.frag', 'shine.frag', 'bake.frag', 'quantity', 'measure.frag', 'show.frag', 'overlay.vert', 'overlay.frag'];
 
 // The texts of the shaders, and of the weight.
 export async function loadShaders(load) {
@@ -33,7 +33,7 @@ export class Drawing {
     this.programs = {
       gbuffer: program('gbuffer', 'scene.vert', 'holes', 'gbuffer.frag'),
       shadow: program('shadow', 'scene.vert', 'holes', 'shadow.frag'),
-      direct: program('direct', 'picture.vert', 'direct.frag'),
+      direct: program('direct', 'picture.vert', 'data', 'glint', 'direct.frag'),
       splat: program('splat', ['rectangle', 'splat.vert'], 'weight', 'splat.frag'),
       gloss: program('gloss', ['rectangle', 'gloss.vert'], 'weight', 'data', 'gloss.frag'),
       veil: program('veil', 'scene.vert', 'specular', 'veil.frag'),
@@ -103,7 +103,7 @@ export class Drawing {
     const [position, normal, reflectance, emission] = surfaces.textures;
     return {
       position_map: map(0, position), normal_map: map(1, normal), reflectance_map: map(2, reflectance),
-      emission_map: map(5, emission), direct_map: map(6, direct.textures[0]), splat_map: map(7, splat.textures[0]),
+      emission_map: map(5, emission), direct_map: map(6, direct.textures[0]), glint_map: map(3, direct.textures[1]), splat_map: map(7, splat.textures[0]),
       sky_map: map(8, this.skyMap), palette_map: map(9, this.paletteMap), has_sky: this.hasSky,
       material_map: map(11, this.materialMap), gloss_map: map(12, gloss?.textures[0] ?? null), has_gloss: gloss !== null,
       veil_map: map(13, veil?.textures[0] ?? null), has_veil: veil !== null,
@@ -141,10 +141,14 @@ export class Drawing {
     }
     direct.bind();
     direct.clear();
-    if (!this.records.holdsDirect) this.lamps.light(this.programs.direct, {position_map, normal_map, reflectance_map});
+    if (!this.records.holdsDirect) this.#lightOfLamps({position_map, normal_map, reflectance_map, material_map}, view);
     gl.disable(gl.BLEND);
     this.targets.shine?.bind();
     this.targets.shine?.clear();
+  }
+
+  #lightOfLamps(maps, view) {
+    this.lamps.light(this.programs.direct, {...maps, viewer: view.eye, backward: view.backward, view_perspective: view.perspective});
   }
 
   // What the panes before the surfaces leave of the light.

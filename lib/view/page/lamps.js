@@ -33,6 +33,7 @@ export class Lamps {
     this.lo = row(scene.scene.bounds_lo, 0), this.hi = row(scene.scene.bounds_hi, 0);
     this.shares = Array.from({length: scene.distribution.rows}, (_, i) => this.#makeShare(scene.distribution, i));
     this.places = Array.from({length: scene.sample.rows}, (_, i) => this.#place(scene.sample, i));
+    this.#setSpacings(scene.sample);
     const faces = this.places.reduce((sum, place) => sum + place.axes.length, 0);
     this.size = 2048;
     const texel = mesh.panes.length ? 16 : 4;  // bytes
@@ -70,6 +71,17 @@ export class Lamps {
     place.nearest = 0.999 * sample.nearest[i] / Math.sqrt(1 + 2 * half * half);
     place.half = half;
     return place;
+  }
+
+  // Half the distance from a place to the nearest of the same lamp, or half the angle.
+  #setSpacings({lamp}) {
+    const between = (a, b) => a.shape === DIRECTIONAL ? Math.acos(Math.min(1, dot(a.forward, b.forward))) : length(subtract(a.eye, b.eye));
+    this.places.forEach((place, i) => {
+      let nearest = Infinity;
+      for (let k = 0; k < this.places.length; ++k)
+        if (k !== i && lamp[k] === lamp[i] && this.places[k].shape === place.shape) nearest = Math.min(nearest, between(place, this.places[k]));
+      place.spacing = Number.isFinite(nearest) ? nearest / 2 : 0;
+    });
   }
 
   // Parallel views hold the whole scene.
@@ -120,7 +132,7 @@ export class Lamps {
     for (const place of this.places.slice(0, this.drawn)) {
       program.use({
         shape: place.shape, colour: place.colour, forward: place.forward, cone: place.cone, two_sided: place.two_sided,
-        eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, face_count: place.axes.length,
+        eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, spacing: place.spacing, face_count: place.axes.length,
         axes: place.axes.flat(), luminaire_axes: place.luminaire_axes,
         depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps}, veiled: place.veils !== null,
         veil_map: {unit: 14, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.shares ?? place.maps},

@@ -6,6 +6,7 @@ uniform sampler2D emission_map;
 uniform sampler2D direct_map;
 uniform sampler2D splat_map;
 uniform sampler2D gloss_map;              // light of radiance records towards the eye, and weight
+uniform sampler2D glint_map;              // light of lamps in gloss, towards the eye
 uniform sampler2D material_map;
 uniform sampler2D veil_map;               // share of light that comes through the panes before it
 uniform sampler2D shine_map;              // light that mirrors and panes reflect towards the eye
@@ -48,13 +49,13 @@ vec3 quantity_at(ivec2 pixel, vec2 size) {
   vec4 gloss = has_gloss ? texelFetch(gloss_map, pixel, 0) : vec4(0.0);
   if (quantity == 4) return gloss.w > 0.0 ? gloss.rgb / gloss.w : vec3(0.0);
   vec3 reflectance = texelFetch(reflectance_map, pixel, 0).rgb / 3.141592654;
-  vec3 reflected = reflectance * (direct + indirect);
-  if (gloss.w > 0.0) {
-    vec3 matt = max(reflectance - of_material(material_map, p.w, 0).rgb / 3.141592654, 0.0);
-    // Lobes of coats take light from the matt part; less than none is ringing of the harmonics.
-    reflected = reflectance * direct + max(matt * indirect + gloss.rgb / gloss.w, 0.0);
-  }
-  return before_panes(pixel, texelFetch(emission_map, pixel, 0).rgb + reflected);
+  vec4 mean_gloss = of_material(material_map, p.w, 0);  // w: how lamps shine in it
+  vec3 matt = max(reflectance - mean_gloss.rgb / 3.141592654, 0.0);
+  vec3 light = texelFetch(emission_map, pixel, 0).rgb;
+  light += mean_gloss.w > 0.0 ? matt * direct + texelFetch(glint_map, pixel, 0).rgb : reflectance * direct;
+  // Lobes of coats take light from the matt part; less than none is ringing of the harmonics.
+  light += gloss.w > 0.0 ? max(matt * indirect + gloss.rgb / gloss.w, 0.0) : reflectance * indirect;
+  return before_panes(pixel, light);
 }
 
 float luminance_of(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
