@@ -35,11 +35,11 @@ std::vector<std::string> drawing_notes(const RayScene& rays, const IrradianceCac
   const Traits traits = traits_of(rays.scene(), gloss);
   std::vector<std::string> notes;
   if (traits.gloss)
-    notes.push_back("gloss without radiance records is drawn as matt surfaces of its mean reflectance");
+    notes.push_back("gloss without radiance records reflects lamps, and other light as a matt surface does");
   if (traits.records)
     notes.push_back(
-        "gloss is drawn from radiance records; lamps in gloss as matt surfaces of its mean reflectance; on "
-        "curved surfaces, lobes keep their shape about the mirrored direction");
+        "gloss is drawn from radiance records; on curved surfaces, lobes keep their shape about the mirrored "
+        "direction");
   if (traits.specular)
     notes.push_back(
         "mirrors and glass reflect once: the flat ones that matter most by a second view of the scene, "

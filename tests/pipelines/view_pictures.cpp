@@ -137,7 +137,7 @@ TEST_F(Pictures, MirrorsShowTheRoom) {
   const double off = difference(shown({scene, cache}, Quantity::luminance, 128, 128),
                                 splatted({scene, cache}, "", 128, 128), 0.02);
   std::printf("[ FIGURES  ] mirrors: %.5f\n", off);
-  EXPECT_LT(off, 0.03);
+  EXPECT_LT(off, 0.02);
 }
 
 TEST_F(Pictures, SponzaIsThatOfSplat) {
