@@ -37,6 +37,11 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
   message.add("scene", "bounds_lo", std::vector<Vec3>{scene.bounds.lo});
   message.add("scene", "bounds_hi", std::vector<Vec3>{scene.bounds.hi});
   message.add("scene", "origin", std::vector<Vec3>{Vec3(scene.origin_m)});
+  const auto sky = std::find_if(scene.light.begin(), scene.light.end(),
+                                [](const Light& light) { return light.kind == Light::Kind::environment; });
+  message.add(
+      "scene", "sky_lamp",
+      Numbers{sky == scene.light.end() ? kNoRow : static_cast<std::uint32_t>(sky - scene.light.begin())});
   message.add("vertex", "position", scene.position);
   message.add("vertex", "normal", scene.normal);
   if (!scene.uv0.empty() || !scene.uv1.empty()) {
@@ -50,17 +55,23 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
     for (const Vec4& c : scene.colour) add(colour, c);
     message.add("vertex", "colour", colour);
   }
-  Numbers corner, first, count, material;
+  Numbers corner, first, count, material, lamp;
+  Numbers lamp_of(scene.instance.size(), kNoRow);
+  for (std::size_t i = 0; i < scene.light.size(); ++i)
+    if (scene.light[i].kind == Light::Kind::area)
+      lamp_of[scene.light[i].instance] = static_cast<std::uint32_t>(i);
   for (const Triangle& t : scene.triangle) corner.insert(corner.end(), std::begin(t.v), std::end(t.v));
-  for (const Instance& instance : scene.instance) {
+  for (std::size_t i = 0; i < scene.instance.size(); ++i) {
+    const Instance& instance = scene.instance[i];
     if (instance.triangle_count == 0) continue;
     first.push_back(instance.first_triangle), count.push_back(instance.triangle_count);
-    material.push_back(instance.material);
+    material.push_back(instance.material), lamp.push_back(lamp_of[i]);
   }
   message.add("triangle", "corner", corner);
   message.add("part", "first_triangle", first);
   message.add("part", "triangle_count", count);
   message.add("part", "material", material);
+  message.add("part", "lamp", lamp);
 }
 
 /// The textures of colours and emission, in the order of their first use.

@@ -87,8 +87,9 @@ export class Target {
     gl.viewport(0, 0, this.width, this.height);
   }
 
-  clear() {
-    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, [0, 0, 0, 0]));
+  clear(colour = [0, 0, 0, 0]) {
+    this.bind();
+    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, colour));
     if (this.depth) this.gl.clearBufferfv(this.gl.DEPTH, 0, [1]);
   }
 

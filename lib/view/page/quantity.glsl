@@ -7,6 +7,8 @@ uniform sampler2D direct_map;
 uniform sampler2D splat_map;
 uniform sampler2D sky_map;
 uniform bool has_sky;
+uniform sampler2D lamp_weight_map;        // 1024 lamps a row
+uniform int sky_lamp_number;
 uniform vec3 eye;
 uniform mat3 axes;
 uniform vec2 half_size;
@@ -16,8 +18,12 @@ uniform int quantity;                     // 0 luminance, 1 illuminance, 2 its i
 bool covered(ivec2 pixel) { return texelFetch(position_map, pixel, 0).w > 0.0; }
 bool is_hole(ivec2 pixel) { return covered(pixel) && !(texelFetch(splat_map, pixel, 0).w > 0.0); }
 
+float lamp_weight(int number) {
+  return number == 0 ? 1.0 : texelFetch(lamp_weight_map, ivec2((number - 1) % 1024, (number - 1) / 1024), 0).r;
+}
+
 vec3 sky_towards(vec3 d) {
-  return texture(sky_map, vec2(atan(d.z, d.x) / 6.283185307 + 0.5, acos(clamp(d.y, -1.0, 1.0)) / 3.141592654)).rgb;
+  return lamp_weight(sky_lamp_number) * texture(sky_map, vec2(atan(d.z, d.x) / 6.283185307 + 0.5, acos(clamp(d.y, -1.0, 1.0)) / 3.141592654)).rgb;
 }
 
 vec3 quantity_at(ivec2 pixel, vec2 size) {
@@ -34,7 +40,8 @@ vec3 quantity_at(ivec2 pixel, vec2 size) {
   if (quantity == 3) return direct;
   vec3 illuminance = indirect + direct;
   if (quantity == 1) return illuminance;
-  return texelFetch(emission_map, pixel, 0).rgb +
+  vec4 emission = texelFetch(emission_map, pixel, 0);
+  return emission.rgb * lamp_weight(int(emission.w)) +
          texelFetch(reflectance_map, pixel, 0).rgb / 3.141592654 * illuminance;
 }
 
