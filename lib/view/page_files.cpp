@@ -48,8 +48,8 @@ PageFiles::PageFiles(std::string scene_message, std::string records_message, con
   files_["/about.json"] = {kJson, about.dump()};
 }
 
-void PageFiles::add_message(std::string path, std::string message) {
-  files_[std::move(path)] = {kBinary, std::move(message)};
+void PageFiles::add(const std::string& path, std::string message) {
+  files_[path] = {kBinary, std::move(message)};
 }
 
 std::optional<ServedFile> PageFiles::find(std::string_view path) const {

@@ -41,6 +41,11 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
   message.add("scene", "bounds_lo", std::vector<Vec3>{scene.bounds.lo});
   message.add("scene", "bounds_hi", std::vector<Vec3>{scene.bounds.hi});
   message.add("scene", "origin", std::vector<Vec3>{Vec3(scene.origin_m)});
+  const auto sky = std::find_if(scene.light.begin(), scene.light.end(),
+                                [](const Light& light) { return light.kind == Light::Kind::environment; });
+  message.add(
+      "scene", "sky_lamp",
+      Numbers{sky == scene.light.end() ? kNoRow : static_cast<std::uint32_t>(sky - scene.light.begin())});
   message.add("vertex", "position", scene.position);
   message.add("vertex", "normal", scene.normal);
   if (!scene.uv0.empty() || !scene.uv1.empty()) {

@@ -47,9 +47,14 @@ class MirrorRows {
 }  // namespace
 
 void add_parts(const Scene& scene, MessageWriter& message) {
-  Numbers first, count, material, mirror;
+  Numbers first, count, material, mirror, lamp;
+  Numbers lamp_of(scene.instance.size(), kNoRow);
+  for (std::size_t i = 0; i < scene.light.size(); ++i)
+    if (scene.light[i].kind == Light::Kind::area)
+      lamp_of[scene.light[i].instance] = static_cast<std::uint32_t>(i);
   MirrorRows rows(scene);
-  for (const Instance& instance : scene.instance)
+  for (std::size_t i = 0; i < scene.instance.size(); ++i) {
+    const Instance& instance = scene.instance[i];
     for (std::uint32_t k = 0; k < instance.triangle_count; ++k) {
       const std::uint32_t triangle = instance.first_triangle + k, row = rows.of(triangle);
       if (k > 0 && mirror.back() == row) {
@@ -57,12 +62,14 @@ void add_parts(const Scene& scene, MessageWriter& message) {
         continue;
       }
       first.push_back(triangle), count.push_back(1);
-      material.push_back(instance.material), mirror.push_back(row);
+      material.push_back(instance.material), mirror.push_back(row), lamp.push_back(lamp_of[i]);
     }
+  }
   message.add("part", "first_triangle", first);
   message.add("part", "triangle_count", count);
   message.add("part", "material", material);
   message.add("part", "mirror", mirror);
+  message.add("part", "lamp", lamp);
   rows.add_to(message);
 }
 

@@ -15,6 +15,7 @@ constexpr MessageField kSceneFields[] = {
     {"scene", "bounds_lo", f32, 3, "m", "lower corner of the bounds"},
     {"scene", "bounds_hi", f32, 3, "m", "upper corner of the bounds"},
     {"scene", "origin", f32, 3, "m", "place in the world that all positions are counted from"},
+    {"scene", "sky_lamp", u32, 1, "", "lamp that the table of the sky shows", false, false, "lamp"},
     {"vertex", "position", f32, 3, "m", ""},
     {"vertex", "normal", f32, 3, "", "unit"},
     {"vertex", "uv", f32, 4, "", "texture coordinates of set 0 and of set 1; absent: 0", true},
@@ -24,6 +25,7 @@ constexpr MessageField kSceneFields[] = {
     {"part", "triangle_count", u32, 1, "", ""},
     {"part", "material", u32, 1, "", "", false, false, "material"},
     {"part", "mirror", u32, 1, "", "in whose plane all its triangles lie", false, false, "mirror"},
+    {"part", "lamp", u32, 1, "", "lamp whose surface it is", false, false, "lamp"},
     {"material", "diffuse", f32, 4, "", "diffuse reflectance, and alpha; multiplied by colour_texture"},
     {"material", "gloss", f32, 3, "",
      "mean reflectance of gloss, drawn as if it were diffuse where no radiance record reaches"},
@@ -126,8 +128,10 @@ constexpr MessageField kGlossFields[] = {
 
 constexpr MessageField kQuestionFields[] = {
     {"ray", "number", u32, 1, "", "which the reading repeats"},
+    {"ray", "set", u32, 1, "", "of caches that are read, by about.json"},
     {"ray", "origin", f32, 3, "m", ""},
     {"ray", "direction", f32, 3, "", "of any length but 0"},
+    {"group", "weight", f32, 1, "", "factor on the light of each group of the set; not below 0"},
 };
 
 constexpr MessageField kReadingFields[] = {

@@ -21,7 +21,7 @@
 namespace phos::inline view {
 
 inline constexpr std::string_view kMessageMagic = "phov";
-inline constexpr std::uint16_t kMessageVersion = 1;
+inline constexpr std::uint16_t kMessageVersion = 2;
 inline constexpr std::size_t kMessageHeaderBytes = 16;
 
 enum class MessageKind : std::uint16_t {

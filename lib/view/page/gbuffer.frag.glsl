@@ -2,6 +2,7 @@
 uniform vec3 eye;
 uniform vec3 gloss;
 uniform vec3 emission;
+uniform float lamp_number;               // 1 more than the row of the lamp; 0: of none
 uniform bool two_sided;
 uniform bool emission_textured;
 uniform int emission_set;
@@ -13,7 +14,7 @@ uniform sampler2D emission_map;
 layout(location = 0) out vec4 position;  // w: number of the material and 1; 0: nothing is visible
 layout(location = 1) out vec4 normal;    // smooth normal; w: the facet's normal, with reflectance.w
 layout(location = 2) out vec4 reflectance;
-layout(location = 3) out vec4 emitted;
+layout(location = 3) out vec4 emitted;   // w: lamp_number
 
 vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -35,6 +36,6 @@ void main() {
   reflectance = vec4(base.rgb + gloss, packed_facet.y);
   vec3 light = emission;
   if (emission_textured) light *= texture(emission_map, place_of(emission_set, emission_place)).rgb;
-  emitted = vec4(gl_FrontFacing != mirrored || two_sided ? light : vec3(0.0), 0.0);
+  emitted = vec4(gl_FrontFacing != mirrored || two_sided ? light : vec3(0.0), lamp_number);
   gl_FragDepth = depth;
 }

@@ -88,8 +88,9 @@ export class Target {
     gl.viewport(0, 0, this.width, this.height);
   }
 
-  clear(value = [0, 0, 0, 0]) {
-    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, value));
+  clear(colour = [0, 0, 0, 0]) {
+    this.bind();
+    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, colour));
     if (this.depth && !this.shares) this.gl.clearBufferfv(this.gl.DEPTH, 0, [1]);
   }
 

@@ -1,10 +1,11 @@
 // Radiance records as instances of a rectangle, and the lobes that read them.
 import {dataTexture} from './data.js';
 import {attribute} from './gl.js';
+import {materialMap} from './materials.js';
 
 export class GlossRecords {
-  constructor(gl, {cache, lobe, lobe_row, lobe_number, record, number}) {
-    Object.assign(this, {gl, lobe, count: record.rows, accuracy: cache.accuracy[0]});
+  constructor(gl, {cache, lobe, lobe_row, lobe_number, record, number}, material) {
+    Object.assign(this, {gl, count: record.rows, accuracy: cache.accuracy[0]});
     if (!this.count) return;
     this.array = gl.createVertexArray();
     gl.bindVertexArray(this.array);
@@ -25,7 +26,7 @@ export class GlossRecords {
     const map = (unit, id) => ({unit, target: gl.TEXTURE_2D, id});
     this.maps = {
       lobe_row_map: map(3, dataTexture(gl, rows, 4, 'lobes')), lobe_number_map: map(4, dataTexture(gl, lobe_number.value, 3, 'lobes')),
-      number_map: map(5, dataTexture(gl, number.value, 3, 'radiance records')),
+      material_map: map(11, materialMap(gl, material, lobe)), number_map: map(5, dataTexture(gl, number.value, 3, 'radiance records')),
     };
   }
 

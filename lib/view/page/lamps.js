@@ -56,7 +56,7 @@ export class Lamps {
   #place(sample, i) {
     const shape = sample.shape[i], forward = row(sample.forward, i), share = this.shares[sample.distribution[i]];
     const place = {
-      shape, forward, colour: row(sample.colour, i), cone: row(sample.cone, i, 2), two_sided: sample.two_sided[i] !== 0,
+      lamp: sample.lamp[i], shape, forward, colour: row(sample.colour, i), cone: row(sample.cone, i, 2), two_sided: sample.two_sided[i] !== 0,
       share: share?.id ?? null, luminaire_axes: share?.axes ?? [1, 0, 0, 0, 1, 0, 0, 0, 1],
       eye: row(sample.position, i), perspective: shape !== DIRECTIONAL,
     };
@@ -125,13 +125,15 @@ export class Lamps {
     return this.drawn === this.places.length;
   }
 
-  // Adds the light of every place whose maps are drawn to the bound target.
-  light(program, textures) {
+  // Adds the light of every place whose maps are drawn to the bound target. `weights`: of each lamp.
+  light(program, textures, weights) {
     const gl = this.gl;
     program.use(textures);
     for (const place of this.places.slice(0, this.drawn)) {
+      const weight = weights[place.lamp];
+      if (!(weight > 0)) continue;
       program.use({
-        shape: place.shape, colour: place.colour, forward: place.forward, cone: place.cone, two_sided: place.two_sided,
+        shape: place.shape, colour: scale(place.colour, weight), forward: place.forward, cone: place.cone, two_sided: place.two_sided,
         eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, spacing: place.spacing, face_count: place.axes.length,
         axes: place.axes.flat(), luminaire_axes: place.luminaire_axes,
         depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps}, veiled: place.veils !== null,

@@ -5,7 +5,7 @@ const TEXELS = 3;  // of a material, as data.glsl has it
 
 // Texel 0: mean reflectance of gloss, and the kind of its glints. Texel 1: order, first row and rows of the lobe that
 // reads radiance records. Texel 2: peak and width of glints.
-export function materialMap(gl, material, lobe) {
+export function materialMap(gl, material, lobe = {rows: 0}) {
   const values = new Float32Array(4 * TEXELS * material.rows);
   const set = (i, texel, numbers) => values.set(numbers, 4 * (TEXELS * i + texel));
   const rgb = (field, i) => field.subarray(3 * i, 3 * i + 3);

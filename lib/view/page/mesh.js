@@ -22,7 +22,7 @@ export class Mesh {
     this.materials = Array.from({length: scene.material.rows}, (_, i) => this.#material(scene, i));
     this.parts = Array.from({length: scene.part.rows}, (_, i) => ({
       first: scene.part.first_triangle[i], count: scene.part.triangle_count[i], material: scene.part.material[i],
-      mirror: scene.part.mirror[i],
+      mirror: scene.part.mirror[i], lamp: scene.part.lamp[i],
     }));
     this.panes = this.parts.filter((part) => this.materials[part.material].clear);
     this.shiny = this.parts.filter((part) => this.materials[part.material].shiny);
@@ -78,9 +78,10 @@ export class Mesh {
     gl.vertexAttrib4f(3, 1, 1, 1, 1);
     gl.enable(gl.DEPTH_TEST);
     program.use(view);
-    let last = -1;
+    let last = -1, lamp = -1;
     for (const part of parts) {
       if (part.material !== last) program.use(this.materials[last = part.material].uniforms);
+      if (part.lamp !== lamp) program.use({lamp_number: (lamp = part.lamp) === NONE ? 0 : lamp + 1});
       gl.drawElements(gl.TRIANGLES, 3 * part.count, gl.UNSIGNED_INT, 12 * part.first);
     }
     gl.bindVertexArray(null);

@@ -13,6 +13,8 @@ uniform sampler2D shine_map;              // light that mirrors and panes reflec
 uniform bool has_gloss, has_veil, has_shine;
 uniform sampler2D sky_map;
 uniform bool has_sky;
+uniform sampler2D lamp_weight_map;        // 1024 lamps a row
+uniform int sky_lamp_number;
 uniform vec3 eye;
 uniform mat3 axes;
 uniform vec2 half_size;
@@ -22,8 +24,12 @@ uniform int quantity;                     // 0 luminance, 1 illuminance, 2 its i
 bool covered(ivec2 pixel) { return texelFetch(position_map, pixel, 0).w > 0.0; }
 bool is_hole(ivec2 pixel) { return covered(pixel) && !(texelFetch(splat_map, pixel, 0).w > 0.0); }
 
+float lamp_weight(int number) {
+  return number == 0 ? 1.0 : texelFetch(lamp_weight_map, ivec2((number - 1) % 1024, (number - 1) / 1024), 0).r;
+}
+
 vec3 sky_towards(vec3 d) {
-  return texture(sky_map, vec2(atan(d.z, d.x) / 6.283185307 + 0.5, acos(clamp(d.y, -1.0, 1.0)) / 3.141592654)).rgb;
+  return lamp_weight(sky_lamp_number) * texture(sky_map, vec2(atan(d.z, d.x) / 6.283185307 + 0.5, acos(clamp(d.y, -1.0, 1.0)) / 3.141592654)).rgb;
 }
 
 vec3 before_panes(ivec2 pixel, vec3 light) {
@@ -51,7 +57,8 @@ vec3 quantity_at(ivec2 pixel, vec2 size) {
   vec3 reflectance = texelFetch(reflectance_map, pixel, 0).rgb / 3.141592654;
   vec4 mean_gloss = of_material(material_map, p.w, 0);  // w: how lamps shine in it
   vec3 matt = max(reflectance - mean_gloss.rgb / 3.141592654, 0.0);
-  vec3 light = texelFetch(emission_map, pixel, 0).rgb;
+  vec4 emission = texelFetch(emission_map, pixel, 0);
+  vec3 light = emission.rgb * lamp_weight(int(emission.w));
   light += mean_gloss.w > 0.0 ? matt * direct + texelFetch(glint_map, pixel, 0).rgb : reflectance * direct;
   // Lobes of coats take light from the matt part; less than none is ringing of the harmonics.
   light += gloss.w > 0.0 ? max(matt * indirect + gloss.rgb / gloss.w, 0.0) : reflectance * indirect;

@@ -11,8 +11,8 @@ export class Reflections {
   prepare(drawing, eye, view, accuracy) {
     if (!this.mesh.shiny.length) return;
     this.mirrors.prepare(drawing, eye, view, accuracy);
-    const ready = drawing.records.holdsDirect || drawing.lamps.drawn === drawing.lamps.places.length;
-    if (ready || !this.surroundings.others) this.surroundings.prepare(drawing, accuracy, `${ready} ${accuracy}`, this.mirrors.taken);
+    const ready = !drawing.needsLamps || drawing.lamps.drawn === drawing.lamps.places.length;
+    if (ready || !this.surroundings.others) this.surroundings.prepare(drawing, accuracy, `${ready} ${accuracy} ${drawing.sets[0].weights}`, this.mirrors.taken);
   }
 
   // Adds the reflections to the light of the view that was drawn last: first of mirrors, of which panes before them

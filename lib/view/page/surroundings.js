@@ -52,8 +52,9 @@ export class Surroundings {
         for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_CUBE_MAP, name, drawing.floatFilter);
         const own = new Set(probe.parts);
         FACES.forEach((face, i) => {
-          drawing.lightOf(drawing.viewOf(faceEye(probe.middle, face), SIDE, SIDE), accuracy, this.mesh.parts.filter((part) => !own.has(part)));
-          drawing.bake(probe.map, gl.TEXTURE_CUBE_MAP_POSITIVE_X + i, SIDE, SIDE);
+          drawing.lightOf(drawing.viewOf(faceEye(probe.middle, face), SIDE, SIDE), accuracy,
+                          this.mesh.parts.filter((part) => !own.has(part)), drawing.sets.slice(0, 1));
+          drawing.bakeFace(probe.map, i, SIDE);
         });
         probe.state = state;
       }
