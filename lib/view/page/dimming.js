@@ -14,13 +14,14 @@ function likest(name, names) {
 export function weightsOf(names, words) {
   const weights = new Map(names.map((name) => [name, 1]));
   for (const word of words) {
-    const end = word.lastIndexOf(':'), name = word.slice(0, Math.max(end, 0)), weight = Number(word.slice(end + 1));
+    const end = word.lastIndexOf(':'), name = word.slice(0, Math.max(end, 0)), digits = word.slice(end + 1);
+    const weight = digits.trim() ? Number(digits) : NaN;
     if (!weights.has(name)) {
       const likely = likest(name, names);
       throw new Error(`there is no group "${name}"; ` +
                       (likely ? `did you mean "${likely}"?` : 'the caches have no names: give weight=W'));
     }
-    if (!(weight >= 0 && weight < 1e6)) throw new Error(`the weight "${word.slice(end + 1)}" is no number from 0 to 1e6`);
+    if (!(weight >= 0 && weight < 1e6)) throw new Error(`the weight "${digits}" is no number from 0 to 1e6`);
     weights.set(name, weight);
   }
   return weights;

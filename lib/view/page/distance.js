@@ -8,7 +8,7 @@ export function distanceOf(a, b) {
   return {straight: length(way), level: Math.hypot(way[0], way[2]), up: way[1]};
 }
 
-const metres = (v) => `${v.toFixed(3)} m`;
+const metres = (v) => `${(Math.round(1000 * v) / 1000 + 0).toFixed(3)} m`;
 
 export class Distance {
   constructor(output) { Object.assign(this, {output, points: []}); }
