@@ -95,9 +95,6 @@ void run(Tool& tool, SplatCommand& asked) {
     tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
   resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
 
-  if (render.splat == SplatBy::gl && any_footprint(caches.irradiance.records))
-    tool.say("the cache has adaptive records: they are drawn on the CPU (--splat cpu)");
-
   if (const std::string memory = require_memory(render); !memory.empty()) tool.say(memory);
   const RayScene rays = [&] {
     const auto timer = tool.time("build rays");

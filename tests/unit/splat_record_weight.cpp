@@ -155,8 +155,10 @@ TEST(RecordWeight, EndsWhereTheErrorIsTheAccuracy) {
   EXPECT_EQ(record_weight(kInfinity, kAccuracy), 0);
 }
 
-/// Footprints: one place at a time, and side by side.
+/// Footprints: one place at a time, side by side, and by OpenGL.
 TEST(RecordWeight, OfFootprintsIsTheSame) {
+  const Scene scene;  // no need to see it
+  GlRenderer gl(scene);
   const auto tile = std::make_unique<SplatTile>();
   int lit = 0;
   for (std::uint64_t item = 0; item < 50; ++item) {
@@ -178,16 +180,22 @@ TEST(RecordWeight, OfFootprintsIsTheSame) {
     }
     splat_footprint_plain(*tile, pack_record(r), pack_footprint(r), 0, kTilePixels,
                           {1 / kAccuracy, kLeastWeight, 0.01f});
+    const Camera camera = test::look_at(r.position, r.position + Vec3(1, 0, 0), {0, 0, 1}, 1);
+    const SplatBuffer by_gl = gl.splat(std::vector{r}, kAccuracy, g, camera);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const Vec3 p(g.position[i]), n(g.normal[i]);
       const float found = tile->light[3][i];
       ASSERT_NEAR(found, weight_of(r, p, n), kSame) << "place " << i;
+      ASSERT_NEAR(by_gl.light[i].w, found, kSame) << "place " << i;
       if (!(found > 0)) continue;
       ++lit;
       const Rgb light = extrapolate(r, p, n);
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 3; ++c) {
         ASSERT_NEAR(tile->light[c][i], found * light[c], kSame * found * 4 * r.irradiance[c])
             << "place " << i;
+        ASSERT_NEAR(by_gl.light[i][c], by_gl.light[i].w * light[c], kSame * found * 4 * r.irradiance[c])
+            << "place " << i;
+      }
     }
   }
   EXPECT_GT(lit, 1000);

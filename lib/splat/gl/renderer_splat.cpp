@@ -1,5 +1,6 @@
 // Splatting by OpenGL: each record is an instanced rectangle, or a few that cover the tiles where it can
-// weigh something, added to the picture by 32-bit float blending.
+// weigh something, added to the picture by 32-bit float blending. Records that serve a disc and records with
+// footprints have a program each: the latter have too many numbers for the attributes of an instance.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -25,12 +26,35 @@ struct SplatInstance {
   PackedRecord record;
 };
 
+/// A rectangle of a record with a footprint, and the record's place among the Shapes of its batch.
+struct FootprintInstance {
+  Vec4 rect;
+  float shape;
+};
+
+/// A record with a footprint, as footprint_fragment reads it.
+struct Shape {
+  PackedRecord record;
+  PackedFootprint footprint;
+};
+static_assert(sizeof(PackedRecord) == 38 * sizeof(float) && sizeof(PackedFootprint) == 112 * sizeof(float),
+              "the structure of footprint_fragment has these numbers, one after the other");
+
+/// The records of one draw, each kind in its order.
+struct SplatBatch {
+  std::vector<SplatInstance> discs;
+  std::vector<FootprintInstance> footprints;
+  std::vector<Shape> shapes;
+};
+
 struct Attribute {
   GLuint location;
   GLint size;
   std::size_t offset;
 };
 constexpr std::size_t kRecord = offsetof(SplatInstance, record);
+constexpr Attribute kFootprintAttributes[] = {{0, 4, offsetof(FootprintInstance, rect)},
+                                              {1, 1, offsetof(FootprintInstance, shape)}};
 constexpr Attribute kAttributes[] = {
     {0, 4, offsetof(SplatInstance, rect)},
     {1, 4, kRecord + offsetof(PackedRecord, position)},
@@ -45,6 +69,32 @@ constexpr Attribute kAttributes[] = {
     {10, 3, kRecord + offsetof(PackedRecord, translation) + 24},
 };
 
+/// An array of instances: one binding, which advances from instance to instance.
+GlObject instance_array(const Gl& gl, const GlObject& instances, std::size_t stride,
+                        std::span<const Attribute> attributes) {
+  GlObject made = make_vertex_array(gl);
+  const GLuint array = made.id();
+  gl.VertexArrayVertexBuffer(array, 0, instances.id(), 0, static_cast<GLsizei>(stride));
+  gl.VertexArrayBindingDivisor(array, 0, 1);
+  for (const Attribute& attribute : attributes) {
+    gl.EnableVertexArrayAttrib(array, attribute.location);
+    gl.VertexArrayAttribFormat(array, attribute.location, attribute.size, GL_FLOAT, GL_FALSE,
+                               static_cast<GLuint>(attribute.offset));
+    gl.VertexArrayAttribBinding(array, attribute.location, 0);
+  }
+  return made;
+}
+
+template <class T>
+void upload(const Gl& gl, const GlObject& buffer, const std::vector<T>& values) {
+  gl.NamedBufferData(buffer.id(), static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(),
+                     GL_STREAM_DRAW);
+}
+
+void draw_rectangles(const Gl& gl, std::size_t count) {
+  gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+}
+
 }  // namespace
 
 void GlRenderer::Impl::prepare_splat() {
@@ -53,16 +103,17 @@ void GlRenderer::Impl::prepare_splat() {
   const std::string fragment = text("#version 450 core\n", shaders::record_weight, shaders::splat_fragment);
   splat_program = GlProgram(gl, "splat", shaders::splat_vertex, fragment.c_str());
   splat_instances = make_buffer(gl);
-  splat_array = make_vertex_array(gl);
-  const GLuint array = splat_array.id();
-  gl.VertexArrayVertexBuffer(array, 0, splat_instances.id(), 0, sizeof(SplatInstance));
-  gl.VertexArrayBindingDivisor(array, 0, 1);
-  for (const Attribute& attribute : kAttributes) {
-    gl.EnableVertexArrayAttrib(array, attribute.location);
-    gl.VertexArrayAttribFormat(array, attribute.location, attribute.size, GL_FLOAT, GL_FALSE,
-                               static_cast<GLuint>(attribute.offset));
-    gl.VertexArrayAttribBinding(array, attribute.location, 0);
-  }
+  splat_array = instance_array(gl, splat_instances, sizeof(SplatInstance), kAttributes);
+}
+
+void GlRenderer::Impl::prepare_footprints() {
+  if (footprint_program) return;
+  const Gl& gl = context.gl();
+  const std::string fragment =
+      text("#version 450 core\n", shaders::record_weight, shaders::footprint_fragment);
+  footprint_program = GlProgram(gl, "footprint", shaders::footprint_vertex, fragment.c_str());
+  footprint_instances = make_buffer(gl), footprint_shapes = make_buffer(gl);
+  footprint_array = instance_array(gl, footprint_instances, sizeof(FootprintInstance), kFootprintAttributes);
 }
 
 SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double accuracy,
@@ -80,40 +131,60 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
   const GlPictureTarget& target = impl_->picture_target(gbuffer);
   buffer.unit_lx = splat_unit_lx(records);
   const auto a = static_cast<float>(accuracy);
-  impl_->splat_program.set("rule", Vec4(1 / a, kLeastWeight, kGrowthLimit, 1 / buffer.unit_lx));
-  impl_->splat_program.use();
+  const Vec4 rule(1 / a, kLeastWeight, kGrowthLimit, 1 / buffer.unit_lx);
+  impl_->splat_program.set("rule", rule);
+  if (any_footprint(records)) {
+    impl_->prepare_footprints();
+    impl_->footprint_program.set("rule", rule);
+  }
   impl_->bind_for_sum(target, true);
-  gl.BindVertexArray(impl_->splat_array.id());
 
   const TileGrid grid(gbuffer, kSplatTile);
   const std::vector<PixelRect> bounds =
       record_bounds(records, accuracy, camera, gbuffer.width, gbuffer.height);
-  const auto instances_of = [&](std::size_t begin, std::size_t end, std::vector<SplatInstance>& batch) {
+  const auto instances_of = [&](std::size_t begin, std::size_t end, SplatBatch& batch) {
     std::vector<PixelRect> rects;
-    batch.clear();
+    batch.discs.clear(), batch.footprints.clear(), batch.shapes.clear();
     for (std::size_t i = begin; i < end; ++i) {
       if (bounds[i].empty()) continue;
       grid.cut(records[i], a, bounds[i], rects);
       if (rects.empty()) continue;
       const PackedRecord packed = pack_record(records[i]);
-      for (const PixelRect& rect : rects)
-        batch.push_back({in_viewport(rect, gbuffer.width, gbuffer.height), packed});
+      const auto shape = static_cast<float>(batch.shapes.size());
+      if (records[i].footprint) batch.shapes.push_back({packed, pack_footprint(records[i])});
+      for (const PixelRect& rect : rects) {
+        const Vec4 where = in_viewport(rect, gbuffer.width, gbuffer.height);
+        if (records[i].footprint)
+          batch.footprints.push_back({where, shape});
+        else
+          batch.discs.push_back({where, packed});
+      }
+    }
+  };
+  const auto draw = [&](const SplatBatch& batch) {
+    if (!batch.discs.empty()) {
+      impl_->splat_program.use();
+      gl.BindVertexArray(impl_->splat_array.id());
+      upload(gl, impl_->splat_instances, batch.discs);
+      draw_rectangles(gl, batch.discs.size());
+    }
+    if (!batch.footprints.empty()) {
+      impl_->footprint_program.use();
+      gl.BindVertexArray(impl_->footprint_array.id());
+      upload(gl, impl_->footprint_instances, batch.footprints);
+      upload(gl, impl_->footprint_shapes, batch.shapes);
+      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, impl_->footprint_shapes.id());
+      draw_rectangles(gl, batch.footprints.size());
     }
   };
   // All threads make the instances of a wave; one draws them in order.
-  std::vector<std::vector<SplatInstance>> wave(kWave);
+  std::vector<SplatBatch> wave(kWave);
   for (std::size_t first = 0; first < records.size(); first += kWave * kBatch) {
     const std::size_t count = std::min(kWave * kBatch, records.size() - first);
     parallel_chunks(count, kBatch, [&](std::size_t begin, std::size_t end) {
       instances_of(first + begin, first + end, wave[begin / kBatch]);
     });
-    for (std::size_t k = 0; k * kBatch < count; ++k) {
-      if (wave[k].empty()) continue;
-      gl.NamedBufferData(impl_->splat_instances.id(),
-                         static_cast<GLsizeiptr>(wave[k].size() * sizeof(SplatInstance)), wave[k].data(),
-                         GL_STREAM_DRAW);
-      gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(wave[k].size()));
-    }
+    for (std::size_t k = 0; k * kBatch < count; ++k) draw(wave[k]);
     throw_if_interrupted();
   }
   impl_->read(target.light, buffer.light);

@@ -15,6 +15,11 @@ extern const char* const splat_vertex;
 extern const char* const record_weight;
 /// Weight and extrapolated irradiance of a record at a pixel. To be put after #version and record_weight.
 extern const char* const splat_fragment;
+/// One rectangle per instance, each with the place of its record among those of footprint_fragment.
+extern const char* const footprint_vertex;
+/// The same as splat_fragment for a record with a footprint, read from a buffer of PackedRecord and
+/// PackedFootprint.
+extern const char* const footprint_fragment;
 /// One rectangle per instance, all of one radiance record.
 extern const char* const gloss_vertex;
 /// Weight of a radiance record at a pixel, and the light that it sends through the pixel's lobe. To be put
