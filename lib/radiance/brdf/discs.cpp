@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "hsh/basis.h"
 
 namespace phos::inline radiance {
