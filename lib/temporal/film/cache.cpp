@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "hsh/rotation.h"
 #include "temporal/change.h"
+#include "temporal/film/footprint_change.h"
 #include "temporal/film/lives.h"
 
 namespace phos::inline temporal {
@@ -43,6 +44,9 @@ void turn(IrradianceRecord& r, const Pose& from, const Pose& to) {
     r.rotation_gradient[c] = turned(from, to, r.rotation_gradient[c]);
     r.translation_gradient[c] = turned(from, to, r.translation_gradient[c]);
   }
+  if (r.footprint)
+    r.footprint = std::make_shared<AdaptiveFootprint>(
+        r.footprint->moved_to(turned(from, to, r.footprint->x()), r.normal));
 }
 
 void turn(RadianceRecord& r, const Pose& from, const Pose& to) {
@@ -118,7 +122,7 @@ const char* name_of(TemporalGradients gradients) {
   return "";
 }
 
-IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to) {
+IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to, Reach reach) {
   const float frames = frames_between(from.life.birth, to.life.birth);
   const IrradianceRecord& a = from.record;
   IrradianceRecord b = to.record;
@@ -129,18 +133,21 @@ IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to) {
     change.rotation[c] = (b.rotation_gradient[c] - a.rotation_gradient[c]) / frames;
     change.translation[c] = (b.translation_gradient[c] - a.translation_gradient[c]) / frames;
   }
-  change.radius_m = (b.radius_m - a.radius_m) / frames;
+  if (reach == Reach::changes) change.radius_m = (b.radius_m - a.radius_m) / frames;
+  PHOS_CHECK(!a.footprint == !b.footprint, "records of one place, with and without a footprint");
+  if (a.footprint) change.footprint = footprint_change(*a.footprint, *b.footprint, a.normal, frames, reach);
   return change;
 }
 
-RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to) {
+RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to, Reach reach) {
   const float frames = frames_between(from.life.birth, to.life.birth);
   const RadianceRecord& a = from.record;
   RadianceRecord b = to.record;
   turn(b, Pose{.turn = to.life.turn}, Pose{.turn = from.life.turn});
   turn_about_normal(b, a.frame);
   return {change_of(a.light, b.light, frames), change_of(a.gradient_x, b.gradient_x, frames),
-          change_of(a.gradient_y, b.gradient_y, frames), (b.radius_m - a.radius_m) / frames};
+          change_of(a.gradient_y, b.gradient_y, frames),
+          reach == Reach::changes ? (b.radius_m - a.radius_m) / frames : 0};
 }
 
 IrradianceRecord changed(const FilmRecord& film, std::int64_t frame) {
@@ -152,6 +159,7 @@ IrradianceRecord changed(const FilmRecord& film, std::int64_t frame) {
     r.translation_gradient[c] += age * film.change.translation[c];
   }
   r.radius_m = radius_at(film, frame);
+  if (film.change.footprint) change_footprint(film, age, r);
   return r;
 }
 
