@@ -50,7 +50,7 @@ struct GlRenderer::Impl {
   GlProgram splat_program, footprint_program, shadow_program;
   std::map<int, GlProgram> gloss_programs;  // by order
   GlObject empty_array, splat_array, splat_instances;
-  GlObject footprint_array, footprint_instances, footprint_shapes;
+  GlObject footprint_array, footprint_rects, footprint_block;
   GlObject gloss_array, gloss_rects, gloss_record;
 };
 

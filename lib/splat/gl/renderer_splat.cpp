@@ -1,6 +1,8 @@
 // Splatting by OpenGL: each record is an instanced rectangle, or a few that cover the tiles where it can
 // weigh something, added to the picture by 32-bit float blending. Records that serve a disc and records with
-// footprints have a program each: the latter have too many numbers for the attributes of an instance.
+// footprints have a program each. The latter have too many numbers for the attributes of an instance, and are
+// drawn one at a time, as a uniform block: OSMesa takes ten times as long to fetch them from a buffer by
+// number.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -26,25 +28,43 @@ struct SplatInstance {
   PackedRecord record;
 };
 
-/// A rectangle of a record with a footprint, and the record's place among the Shapes of its batch.
-struct FootprintInstance {
-  Vec4 rect;
-  float shape;
+/// A record with a footprint, as the uniform block of footprint_fragment has it.
+struct FootprintBlock {
+  struct Axis {
+    Vec4 slope, half_bend, turn_slope, half_turn_bend;
+  };
+  Vec4 position, normal, irradiance, stderr_lx, axis_x, axis_y;
+  Axis axes[PackedFootprint::kAxes];
+
+  FootprintBlock(const PackedRecord& r, const PackedFootprint& f)
+      : position(vector(r.position), f.per_radius),
+        normal(vector(r.normal), r.front_limit_m),
+        irradiance(vector(r.irradiance), r.weight),
+        stderr_lx(vector(r.stderr_lx), r.shared),
+        axis_x(vector(f.x), f.inverse_shortest),
+        axis_y(vector(f.y), r.over_limit_m) {
+    for (int k = 0; k < PackedFootprint::kAxes; ++k)
+      axes[k] = {colours(f.slope, k, f.inverse[k]), colours(f.half_bend, k), colours(f.turn_slope, k),
+                 colours(f.half_turn_bend, k)};
+  }
+
+ private:
+  static Vec3 vector(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+  static Vec4 colours(const float (&v)[3][PackedFootprint::kAxes], int k, float beside = 0) {
+    return {v[0][k], v[1][k], v[2][k], beside};
+  }
 };
 
-/// A record with a footprint, as footprint_fragment reads it.
-struct Shape {
-  PackedRecord record;
-  PackedFootprint footprint;
+/// A record with a footprint, and the rectangles where it is drawn.
+struct FootprintDraw {
+  FootprintBlock block;
+  std::vector<Vec4> rects;
 };
-static_assert(sizeof(PackedRecord) == 38 * sizeof(float) && sizeof(PackedFootprint) == 112 * sizeof(float),
-              "the structure of footprint_fragment has these numbers, one after the other");
 
-/// The records of one draw, each kind in its order.
+/// Records that are made ready together, each kind in its order.
 struct SplatBatch {
   std::vector<SplatInstance> discs;
-  std::vector<FootprintInstance> footprints;
-  std::vector<Shape> shapes;
+  std::vector<FootprintDraw> footprints;
 };
 
 struct Attribute {
@@ -53,8 +73,7 @@ struct Attribute {
   std::size_t offset;
 };
 constexpr std::size_t kRecord = offsetof(SplatInstance, record);
-constexpr Attribute kFootprintAttributes[] = {{0, 4, offsetof(FootprintInstance, rect)},
-                                              {1, 1, offsetof(FootprintInstance, shape)}};
+constexpr Attribute kFootprintAttributes[] = {{0, 4, 0}};
 constexpr Attribute kAttributes[] = {
     {0, 4, offsetof(SplatInstance, rect)},
     {1, 4, kRecord + offsetof(PackedRecord, position)},
@@ -86,8 +105,8 @@ GlObject instance_array(const Gl& gl, const GlObject& instances, std::size_t str
 }
 
 template <class T>
-void upload(const Gl& gl, const GlObject& buffer, const std::vector<T>& values) {
-  gl.NamedBufferData(buffer.id(), static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(),
+void upload(const Gl& gl, const GlObject& buffer, std::span<const T> values) {
+  gl.NamedBufferData(buffer.id(), static_cast<GLsizeiptr>(values.size_bytes()), values.data(),
                      GL_STREAM_DRAW);
 }
 
@@ -111,9 +130,9 @@ void GlRenderer::Impl::prepare_footprints() {
   const Gl& gl = context.gl();
   const std::string fragment =
       text("#version 450 core\n", shaders::record_weight, shaders::footprint_fragment);
-  footprint_program = GlProgram(gl, "footprint", shaders::footprint_vertex, fragment.c_str());
-  footprint_instances = make_buffer(gl), footprint_shapes = make_buffer(gl);
-  footprint_array = instance_array(gl, footprint_instances, sizeof(FootprintInstance), kFootprintAttributes);
+  footprint_program = GlProgram(gl, "footprint", shaders::one_record_vertex, fragment.c_str());
+  footprint_rects = make_buffer(gl), footprint_block = make_buffer(gl);
+  footprint_array = instance_array(gl, footprint_rects, sizeof(Vec4), kFootprintAttributes);
 }
 
 SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double accuracy,
@@ -144,37 +163,35 @@ SplatBuffer GlRenderer::splat(std::span<const IrradianceRecord> records, double 
       record_bounds(records, accuracy, camera, gbuffer.width, gbuffer.height);
   const auto instances_of = [&](std::size_t begin, std::size_t end, SplatBatch& batch) {
     std::vector<PixelRect> rects;
-    batch.discs.clear(), batch.footprints.clear(), batch.shapes.clear();
+    batch.discs.clear(), batch.footprints.clear();
     for (std::size_t i = begin; i < end; ++i) {
       if (bounds[i].empty()) continue;
       grid.cut(records[i], a, bounds[i], rects);
       if (rects.empty()) continue;
       const PackedRecord packed = pack_record(records[i]);
-      const auto shape = static_cast<float>(batch.shapes.size());
-      if (records[i].footprint) batch.shapes.push_back({packed, pack_footprint(records[i])});
-      for (const PixelRect& rect : rects) {
-        const Vec4 where = in_viewport(rect, gbuffer.width, gbuffer.height);
-        if (records[i].footprint)
-          batch.footprints.push_back({where, shape});
-        else
-          batch.discs.push_back({where, packed});
-      }
+      std::vector<Vec4> where;
+      for (const PixelRect& rect : rects) where.push_back(in_viewport(rect, gbuffer.width, gbuffer.height));
+      if (records[i].footprint)
+        batch.footprints.push_back({{packed, pack_footprint(records[i])}, std::move(where)});
+      else
+        for (const Vec4& rect : where) batch.discs.push_back({rect, packed});
     }
   };
   const auto draw = [&](const SplatBatch& batch) {
     if (!batch.discs.empty()) {
       impl_->splat_program.use();
       gl.BindVertexArray(impl_->splat_array.id());
-      upload(gl, impl_->splat_instances, batch.discs);
+      upload(gl, impl_->splat_instances, std::span(batch.discs));
       draw_rectangles(gl, batch.discs.size());
     }
-    if (!batch.footprints.empty()) {
-      impl_->footprint_program.use();
-      gl.BindVertexArray(impl_->footprint_array.id());
-      upload(gl, impl_->footprint_instances, batch.footprints);
-      upload(gl, impl_->footprint_shapes, batch.shapes);
-      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, impl_->footprint_shapes.id());
-      draw_rectangles(gl, batch.footprints.size());
+    if (batch.footprints.empty()) return;
+    impl_->footprint_program.use();
+    gl.BindVertexArray(impl_->footprint_array.id());
+    for (const FootprintDraw& record : batch.footprints) {
+      upload(gl, impl_->footprint_rects, std::span(record.rects));
+      upload(gl, impl_->footprint_block, std::span(&record.block, 1));
+      gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, impl_->footprint_block.id());
+      draw_rectangles(gl, record.rects.size());
     }
   };
   // All threads make the instances of a wave; one draws them in order.

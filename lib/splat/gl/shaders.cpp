@@ -98,34 +98,26 @@ void main() {
 }
 )";
 
-const char* const footprint_vertex = R"(#version 450 core
-layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
-layout(location = 1) in float record;     // its place in `shapes`
-flat out int shape;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(mix(rect.xy, rect.zw, corner), 0.5, 1.0);
-  shape = int(record);
-}
-)";
-
 const char* const footprint_fragment = R"(
-struct Shape {
-  float position[3], inverse_radius, normal[3], front_limit, irradiance[3], weight, limit[3], stderr_lx[3], shared_part;
-  float turn[3][3], over_limit, translation[3][3];
-  float x[3], y[3], inverse_shortest, per_radius;
-  float inverse[8], slope[3][8], half_bend[3][8], turn_slope[3][8], half_turn_bend[3][8];
+struct Axis {
+  vec4 slope;                             // and 1 / length
+  vec4 half_bend, turn_slope, half_turn_bend;
 };
-layout(std430, binding = 0) readonly buffer Shapes { Shape shapes[]; };
-flat in int shape;
+layout(std140, binding = 0) uniform Record {
+  vec4 position;                          // and the longest axis over the radius
+  vec4 normal;                            // and the limit of the in-front test
+  vec4 irradiance;                        // and the record's own weight
+  vec4 stderr_lx;                         // and the part that records share
+  vec4 axis_x;                            // and 1 / the shortest axis
+  vec4 axis_y;                            // and the limit of what lies over its plane
+  Axis axes[8];
+};
 uniform vec4 rule;                        // 1 / accuracy, least weight, nothing, 1 / unit of squares
 layout(binding = 0) uniform sampler2D position_map;
 layout(binding = 1) uniform sampler2D normal_map;
 layout(location = 0) out vec4 light;
 layout(location = 1) out vec4 error;
 layout(location = 2) out vec4 spread;
-
-vec3 vector(float v[3]) { return vec3(v[0], v[1], v[2]); }
 
 void shares_of_axes(float x, float y, out float w[8]) {
   w[0] = share_of_axis(x, y), w[4] = share_of_axis(-x, y);
@@ -134,56 +126,46 @@ void shares_of_axes(float x, float y, out float w[8]) {
   w[5] = share_of_diagonal(-x, -y), w[7] = share_of_diagonal(x, -y);
 }
 
+float total(float w[8]) { return w[0] + w[1] + w[2] + w[3] + w[4] + w[5] + w[6] + w[7]; }
+
 void main() {
   light = vec4(0.0), error = vec4(0.0), spread = vec4(0.0);
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec3 d = texelFetch(position_map, pixel, 0).xyz - vector(shapes[shape].position);
-  vec3 n = texelFetch(normal_map, pixel, 0).xyz, normal = vector(shapes[shape].normal);
-  vec3 axis_x = vector(shapes[shape].x), axis_y = vector(shapes[shape].y);
-  vec2 p = vec2(dot(d, axis_x), dot(d, axis_y));
+  vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz, turn = n - normal.xyz;
+  vec2 p = vec2(dot(d, axis_x.xyz), dot(d, axis_y.xyz));
   float w[8], inwards[8];
   shares_of_axes(p.x, p.y, w);
-  float along = 0.0, inward = 0.0;
-  for (int k = 0; k < 8; ++k) along += w[k];
-  float per_along = 1.0 / (along > 0.0 ? along : 1.0);
-  for (int k = 0; k < 8; ++k) inwards[k] = w[k] * shapes[shape].inverse[k], inward += inwards[k], w[k] *= per_along;
-  float reach = border_reach(p.x, p.y, per_along, inward), height = dot(d, normal) * shapes[shape].inverse_shortest;
-  vec3 turn = n - normal;
-  float left = weight_left(footprint_error(reach, height, length(turn), shapes[shape].per_radius), rule.x, rule.y);
-  float weight = weight_if_lit(left, d, n, normal, shapes[shape].front_limit, shapes[shape].over_limit) *
-                 shapes[shape].weight;
+  float along = total(w), per_along = 1.0 / (along > 0.0 ? along : 1.0);
+  for (int k = 0; k < 8; ++k) inwards[k] = w[k] * axes[k].slope.w, w[k] *= per_along;
+  float reach = border_reach(p.x, p.y, per_along, total(inwards)), height = dot(d, normal.xyz) * axis_x.w;
+  float left = weight_left(footprint_error(reach, height, sqrt(dot(turn, turn)), position.w), rule.x, rule.y);
+  float weight = weight_if_lit(left, d, n, normal.xyz, normal.w, axis_y.w) * irradiance.w;
   if (!(weight > 0.0)) return;
 
   // Beyond the axes the light of the border stands.
   float limit = slope_share(reach, 1.0), curve = bend_share(reach, 1.0);
-  vec3 value = vector(shapes[shape].irradiance);
-  for (int k = 0; k < 8; ++k) {
-    if (!(w[k] > 0.0)) continue;
-    for (int c = 0; c < 3; ++c)
-      value[c] += inwards[k] * limit * shapes[shape].slope[c][k] + w[k] * curve * shapes[shape].half_bend[c][k];
-  }
+  vec3 value = irradiance.rgb;
+  for (int k = 0; k < 8; ++k)
+    value += inwards[k] * limit * axes[k].slope.rgb + w[k] * curve * axes[k].half_bend.rgb;
   if (dot(turn, turn) > 0.0) {
-    vec2 t = vec2(dot(n, axis_x), dot(n, axis_y));
-    float sine = length(t), turned_along = 0.0;
+    vec2 t = vec2(dot(n, axis_x.xyz), dot(n, axis_y.xyz));
     shares_of_axes(t.x, t.y, w);
-    for (int k = 0; k < 8; ++k) turned_along += w[k];
+    float sine = sqrt(dot(t, t)), turned_along = total(w);
     float less = slope_share(sine, kMostTurnSine);
     float turned_curve = bend_share(sine, kMostTurnSine) / (turned_along > 0.0 ? turned_along : 1.0);
-    for (int k = 0; k < 8; ++k) {
-      if (!(w[k] > 0.0)) continue;
-      for (int c = 0; c < 3; ++c)
-        value[c] += w[k] * (less * shapes[shape].turn_slope[c][k] + turned_curve * shapes[shape].half_turn_bend[c][k]);
-    }
+    for (int k = 0; k < 8; ++k)
+      value += w[k] * (less * axes[k].turn_slope.rgb + turned_curve * axes[k].half_turn_bend.rgb);
   }
   value = max(value, vec3(0.0));
   light = vec4(weight * value, weight);
-  error = vec4(weight * vector(shapes[shape].stderr_lx), 1.0);
+  error = vec4(weight * stderr_lx.rgb, 1.0);
   float relative = dot(vec3(0.2126, 0.7152, 0.0722) * rule.w, value);
-  spread = vec4(weight * weight, weight * shapes[shape].shared_part, weight * relative * relative, 0.0);
+  spread = vec4(weight * weight, weight * stderr_lx.w, weight * relative * relative, 0.0);
 }
 )";
 
-const char* const gloss_vertex = R"(#version 450 core
+const char* const one_record_vertex = R"(#version 450 core
 layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);

@@ -15,13 +15,10 @@ extern const char* const splat_vertex;
 extern const char* const record_weight;
 /// Weight and extrapolated irradiance of a record at a pixel. To be put after #version and record_weight.
 extern const char* const splat_fragment;
-/// One rectangle per instance, each with the place of its record among those of footprint_fragment.
-extern const char* const footprint_vertex;
-/// The same as splat_fragment for a record with a footprint, read from a buffer of PackedRecord and
-/// PackedFootprint.
+/// One rectangle per instance, all of one record.
+extern const char* const one_record_vertex;
+/// The same as splat_fragment for a record with a footprint, which is a uniform block.
 extern const char* const footprint_fragment;
-/// One rectangle per instance, all of one radiance record.
-extern const char* const gloss_vertex;
 /// Weight of a radiance record at a pixel, and the light that it sends through the pixel's lobe. To be put
 /// after #version, record_weight, and a definition of COUNT, the number of coefficients.
 extern const char* const gloss_fragment;
