@@ -474,6 +474,8 @@ TEST(FilmFootprint, ChangesToThatOfTheNextRecord) {
   FilmRecord a = shaped_at(first, 10, 15, 1, {0, 0, 1});
   const FilmRecord b = shaped_at(second, 15, 20, 2, kTurn * Vec3(0, 0, 1));
   a.change = change_between(a, b);
+  const IrradianceRecord last = changed(a, 15);
+  EXPECT_NEAR(last.radius_m / last.footprint->longest_m(), 4, 1e-4f) << "zones as large as they were fitted";
   a.life.end = 16;  // one frame more, so that cache_at() shows the end
   const IrradianceRecord end =
       cache_at(film_of(TemporalGradients::interpolated, {a}), 15, second).records.at(0);
@@ -484,7 +486,10 @@ TEST(FilmFootprint, ChangesToThatOfTheNextRecord) {
     for (const float step : {0.02f, 0.08f}) {
       const Vec3 p = birth.position + step * u;
       expect_near(extrapolate(end, p, n), extrapolate(birth, p, n), 1e-4f);
-      EXPECT_NEAR(record_error(end, p, n) * end.radius_m, record_error(birth, p, n) * birth.radius_m, 1e-4f);
+      const auto reach = [&](const IrradianceRecord& r) {
+        return record_error(r, p, n) * r.radius_m / r.footprint->longest_m();
+      };
+      EXPECT_NEAR(reach(end), reach(birth), 1e-4f);
       const Vec3 tilted = glm::normalize(n + 0.2f * u);
       expect_near(extrapolate(end, birth.position, tilted), extrapolate(birth, birth.position, tilted),
                   1e-4f);

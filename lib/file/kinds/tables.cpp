@@ -190,7 +190,8 @@ constexpr TensorGroup kIrradianceGroups[] = {
     kAnchorGroup,
     kRadiusChangeGroup,
     {optional, "", kIrradianceChanges, FileForm::film},
-    {optional, "", kFootprintChanges, FileForm::film},
+    {optional, "With `--footprint adaptive`, unless the film was made with `--temporal-gradients none`:",
+     kFootprintChanges, FileForm::film},
 };
 
 // --- radiance ---

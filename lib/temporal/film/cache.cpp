@@ -57,6 +57,13 @@ void turn(RadianceRecord& r, const Pose& from, const Pose& to) {
   f.y = glm::cross(f.z, f.x);
 }
 
+/// The same zone and light by a footprint whose axes start at x. The radius belongs to its longest axis.
+void turn_about_normal(IrradianceRecord& r, const Vec3& x) {
+  const float longest_m = r.footprint->longest_m();
+  r.footprint = std::make_shared<AdaptiveFootprint>(r.footprint->with_axes_from(x, r.normal));
+  r.radius_m *= r.footprint->longest_m() / longest_m;
+}
+
 /// The same light with the axes of `frame`, whose normal is its own.
 void turn_about_normal(RadianceRecord& r, const Frame& frame) {
   const float angle = std::atan2(glm::dot(frame.y, r.frame.x), glm::dot(frame.x, r.frame.x));
@@ -127,6 +134,8 @@ IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to, Re
   const IrradianceRecord& a = from.record;
   IrradianceRecord b = to.record;
   turn(b, Pose{.turn = to.life.turn}, Pose{.turn = from.life.turn});
+  PHOS_CHECK(!a.footprint == !b.footprint, "records of one place, with and without a footprint");
+  if (a.footprint) turn_about_normal(b, a.footprint->x());
   IrradianceChange change;
   change.irradiance = (b.irradiance - a.irradiance) / frames;
   for (int c = 0; c < 3; ++c) {
@@ -134,8 +143,8 @@ IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to, Re
     change.translation[c] = (b.translation_gradient[c] - a.translation_gradient[c]) / frames;
   }
   if (reach == Reach::changes) change.radius_m = (b.radius_m - a.radius_m) / frames;
-  PHOS_CHECK(!a.footprint == !b.footprint, "records of one place, with and without a footprint");
-  if (a.footprint) change.footprint = footprint_change(*a.footprint, *b.footprint, a.normal, frames, reach);
+  if (a.footprint)
+    change.footprint = footprint_change(a.footprint->axes(), b.footprint->axes(), frames, reach);
   return change;
 }
 

@@ -18,14 +18,13 @@ Axis at(const Axis& born, const Axis& change, float age, const Life& life) {
 
 }  // namespace
 
-std::shared_ptr<const AdaptiveFootprint::Axes> footprint_change(const AdaptiveFootprint& from,
-                                                                const AdaptiveFootprint& to, const Vec3& n,
+std::shared_ptr<const AdaptiveFootprint::Axes> footprint_change(const AdaptiveFootprint::Axes& from,
+                                                                const AdaptiveFootprint::Axes& to,
                                                                 float frames, Reach reach) {
-  const AdaptiveFootprint aligned = to.with_axes_from(from.x(), n);
   AdaptiveFootprint::Axes change;
   for (std::size_t k = 0; k < change.size(); ++k) {
-    const Axis& a = from.axes()[k];
-    const Axis b = reach == Reach::stays ? with_length(aligned.axes()[k], a.length_m) : aligned.axes()[k];
+    const Axis& a = from[k];
+    const Axis b = reach == Reach::stays ? with_length(to[k], a.length_m) : to[k];
     change[k] = {(b.length_m - a.length_m) / frames, (b.slope - a.slope) / frames, (b.bend - a.bend) / frames,
                  (b.turn_slope - a.turn_slope) / frames, (b.turn_bend - a.turn_bend) / frames};
   }

@@ -8,10 +8,10 @@
 namespace phos::inline temporal {
 
 /// The change per frame of the numbers of each axis, from a footprint to the next one at the same place,
-/// `frames` later; both on the surface as it is at the first, with the unit normal n. Reach::stays: the light
-/// of the next is told on the lengths of the first, which do not change.
-std::shared_ptr<const AdaptiveFootprint::Axes> footprint_change(const AdaptiveFootprint& from,
-                                                                const AdaptiveFootprint& to, const Vec3& n,
+/// `frames` later, by the same axes. Reach::stays: the light of the next is told on the lengths of the first,
+/// which do not change.
+std::shared_ptr<const AdaptiveFootprint::Axes> footprint_change(const AdaptiveFootprint::Axes& from,
+                                                                const AdaptiveFootprint::Axes& to,
                                                                 float frames, Reach reach);
 
 /// Sets the footprint of `r`, which is film.record with the radius of that frame, to the footprint `age`
