@@ -1,7 +1,7 @@
 // Splatting by OpenGL: each record is an instanced rectangle, or a few that cover the tiles where it can
 // weigh something, added to the picture by 32-bit float blending. Records that serve a disc and records with
 // footprints have a program each. The latter have too many numbers for the attributes of an instance, and are
-// drawn one at a time, as a uniform block: OSMesa takes ten times as long to fetch them from a buffer by
+// drawn one at a time, as a uniform block: OSMesa takes three times as long to fetch them from a buffer by
 // number.
 #include <algorithm>
 #include <cstddef>
