@@ -161,13 +161,16 @@ TEST(RecordWeight, OfFootprintsIsTheSame) {
   GlRenderer gl(scene);
   const auto tile = std::make_unique<SplatTile>();
   int lit = 0;
-  for (std::uint64_t item = 0; item < 50; ++item) {
+  for (std::uint64_t item = 0; item < 60; ++item) {
     RandomStream random(4, Stage::test, item);
-    IrradianceRecord r = record_of(random, direction(random), 1);
+    constexpr float kRadii[] = {1, 1e-12f, 1e12f};
+    const float radius_m = kRadii[item % 3];
+    const Vec3 position = radius_m == 1 ? direction(random) : Vec3(0);
+    IrradianceRecord r = record_of(random, position, radius_m);
     AdaptiveFootprint::Axes axes;
     for (AdaptiveFootprint::Axis& axis : axes) {
       const auto light = [&] { return r.irradiance * (2 * random.uniform() - 1); };
-      axis = {kAccuracy * (0.2f + 0.8f * random.uniform()), light(), light(), light(), light()};
+      axis = {kAccuracy * radius_m * (0.2f + 0.8f * random.uniform()), light(), light(), light(), light()};
     }
     r.footprint = std::make_shared<AdaptiveFootprint>(make_frame(r.normal).x, r.normal, axes);
     r.radius_m = r.footprint->longest_m() / kAccuracy;
