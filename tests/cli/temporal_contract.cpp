@@ -185,11 +185,11 @@ TEST(Temporal, LivesAreNoLongerThanAsked) {
 }
 
 // What is done of an interrupted film is kept, and the film that goes on is that of an uninterrupted run.
-TEST(Temporal, InterruptedFilmGoesOn) {
-  const std::string scene = data("cube-in-a-box.glb"), folder = scratch("temporal-interrupted");
-  const std::vector<std::string> asked{"temporal", scene,       "--frames", "0:24",    "--rays",
-                                       "512",      "--photons", "5000",     "--width", "48",
-                                       "--lives",  "rate",      "--reuse",  "-o"};
+void expect_to_go_on(const std::string& footprint) {
+  const std::string scene = data("cube-in-a-box.glb"), folder = scratch("temporal-interrupted-" + footprint);
+  const std::vector<std::string> asked{"temporal",  scene,  "--frames", "0:24", "--rays",      "512",
+                                       "--photons", "5000", "--width",  "48",   "--footprint", footprint,
+                                       "--lives",   "rate", "--reuse",  "-o"};
   const auto into = [&](const std::string& name) {
     std::vector<std::string> words = asked;
     words.push_back(folder + "/" + name);
@@ -219,6 +219,9 @@ TEST(Temporal, InterruptedFilmGoesOn) {
   EXPECT_FALSE(std::filesystem::exists(journal));
   EXPECT_NE(run_tool(into("cut")).err.find("up to date"), std::string::npos);
 }
+
+TEST(Temporal, InterruptedFilmGoesOn) { expect_to_go_on("circle"); }
+TEST(Temporal, InterruptedFilmOfFootprintsGoesOn) { expect_to_go_on("adaptive"); }
 
 }  // namespace
 }  // namespace phos::test
