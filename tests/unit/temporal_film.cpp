@@ -300,10 +300,13 @@ TEST(CacheAt, OfAFileIsTheSame) {
     const RadianceFilm lobes = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, gradients);
     write_film(l, lobes, test::radiance_provenance());
     const Container irradiance = Container::open(e), radiance = Container::open(l);
-    const auto lives = [](const auto& records, std::int64_t at) {
+    const auto lives = [&](const auto& records, std::int64_t at) {
       std::vector<std::int32_t> all;
-      for (const auto& r : records)
-        if (r.life.birth <= at && at < r.life.end) all.push_back(r.life.end - r.life.birth);
+      for (const auto& r : records) {
+        const std::uint32_t on = r.life.anchor.triangle;
+        const bool shown = on == kNoTriangle || on < scene.triangle.size();
+        if (shown && r.life.birth <= at && at < r.life.end) all.push_back(r.life.end - r.life.birth);
+      }
       return all;
     };
     for (std::int64_t frame = 9; frame < 31; ++frame) {
