@@ -84,7 +84,8 @@ TEST(Radiance, OnTheGlossyWallAloneSameBytesForAnyThreads) {
   EXPECT_EQ(order, 10) << "Phong 22 at 1 % of the energy";
   EXPECT_FALSE(file.has("order")) << "all are equal";
   const auto numbers = static_cast<std::uint64_t>(order * order);
-  EXPECT_NO_THROW(file.values<float>("gradient_x", {n, 3, numbers}));
+  EXPECT_NO_THROW(file.values<Half>("coefficients", {n, 3, numbers}));
+  EXPECT_NO_THROW(file.values<std::int8_t>("gradient_x", {n, 3, numbers}));
   for (const char* input : {"scene", "photons", "brdf"}) EXPECT_TRUE(p.inputs.contains(input)) << input;
   EXPECT_EQ(p.history.as_array().size(), 2u);
   EXPECT_TRUE(p.parameters.find("max-radius")->is_number());
