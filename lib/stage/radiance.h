@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 21;
+inline constexpr int kRadianceAlgorithm = 22;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;

@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 23;
+inline constexpr int kTemporalAlgorithm = 24;
 
 enum class RecordKind { irradiance, radiance };
 
