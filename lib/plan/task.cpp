@@ -126,6 +126,7 @@ Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene
   add(words, {"--pixel-samples", std::to_string(samples)});
   if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
   add(words, light);
+  if (task.cached_direct) add(words, {"--splat", "cpu"});  // the faster one for footprints
   return {"phos-splat", words, out};
 }
 
