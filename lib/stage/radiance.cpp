@@ -12,6 +12,7 @@
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
 #include "scene/nested_glass.h"
+#include "splat/gl/choice.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -43,6 +44,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   add_inputs(tool, files, asked.scene);
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("radiance", asked.add_to);
+  if (radiance.records.estimate == Estimate::raster) use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   const Scene scene = load_scene(files.scene, asked.scene);

@@ -6,7 +6,7 @@
 #include "radiance/gloss_report.h"
 #include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "temporal/film/file.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "support/animated.h"
 #include "support/scenes.h"
 #include "temporal/make_film.h"
