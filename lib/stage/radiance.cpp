@@ -13,6 +13,7 @@
 #include "radiance/gloss_report.h"
 #include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -76,6 +77,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   resolve(placement, scene, source, radiance.records.accuracy);
   const RayScene rays(scene, {asked.isa});
   if (const auto nested = nested_glass(rays)) tool.warn(*nested);
+  tell_raster_light(tool, rays, radiance.records);
   const TypicalDistance typical = typical_distance(rays, placement, source);
   tool.stat("typical_distance_m", typical.least_m);
   radiance.records.resolve(typical);

@@ -76,6 +76,7 @@ void run(Tool& tool, TemporalCommand& asked) {
                       (job.of_radiance ? job.light.radiance.records : records).accuracy);
   const TypicalDistance typical = typical_distance(first->rays, job.placement, {});
   if (const auto nested = nested_glass(first->rays)) tool.warn(*nested);
+  tell_raster_light(tool, first->rays, records);
   records.resolve(typical);
   job.light.radiance.records.resolve(typical);
   job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();

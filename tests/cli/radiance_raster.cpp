@@ -56,5 +56,27 @@ TEST(RadianceRaster, RecordsAddedToAFileAreDrawnAlike) {
   EXPECT_EQ(parameters.find("raster-side")->as_integer(), 16);
 }
 
+/// Shadow maps instead of shadow rays: recorded, the same bytes on any number of threads, and about the
+/// light.
+TEST(RadianceRaster, LitByShadowMaps) {
+  const std::string folder = scratch("radiance-raster-maps");
+  std::string bytes;
+  for (const char* threads : {"1", "3"}) {
+    const std::string out = folder + "/" + threads;
+    const test::Run run = radiance({"--estimate", "raster", "--raster-side", "32", "--raster-light",
+                                    "shadow-map", "--threads", threads, "-o", out});
+    ASSERT_EQ(run.code, 0) << run.err;
+    if (bytes.empty()) bytes = slurp(out);
+    EXPECT_EQ(slurp(out), bytes) << threads;
+  }
+  const std::string traced = folder + "/traced";
+  ASSERT_EQ(radiance({"--estimate", "raster", "--raster-side", "32", "-o", traced}).code, 0);
+  const Container mapped = Container::open(folder + "/1", FileKind::radiance),
+                  by_rays = Container::open(traced, FileKind::radiance);
+  EXPECT_EQ(mapped.provenance().parameters.find("raster-light")->as_string(), "shadow-map");
+  EXPECT_EQ(by_rays.provenance().parameters.find("raster-light"), nullptr);
+  EXPECT_NEAR(mean_light(mapped) / mean_light(by_rays), 1, 0.05);
+}
+
 }  // namespace
 }  // namespace phos::test

@@ -1,11 +1,13 @@
 #include "splat/raster/hemisphere_camera.h"
 
+#include <optional>
 #include <thread>
 
 #include "core/error.h"
 #include "direct/direct_light.h"
 #include "estimate/hemisphere/hemisphere_record.h"
 #include "splat/gl/raster.h"
+#include "splat/raster/lamp_maps.h"
 #include "splat/sight_range.h"
 
 namespace phos::inline splat {
@@ -25,11 +27,16 @@ struct HemisphereCamera::Impl {
   GlMesh mesh;
   GlRasterTarget target;
 
-  Impl(const RayScene& r, int side, RasterBorder border)
+  std::optional<LampMaps> lamps;
+
+  Impl(const RayScene& r, const RecordOptions& resolved)
       : rays(r),
-        plane(raster_plane(side, border)),
+        plane(raster_plane(static_cast<int>(resolved.raster_side), resolved.raster_border)),
         mesh(context.gl(), r.scene()),
-        target(make_raster_target(context, side, side)) {}
+        target(make_raster_target(context, plane.side, plane.side)) {
+    if (resolved.raster_light == RasterLight::shadow_map && !r.has_panes())
+      lamps.emplace(context, mesh, r.scene());
+  }
   ~Impl() { context.make_current(); }
 
   GlView view(const Vec3& eye, const Frame& frame, float near_m) const;
@@ -46,11 +53,13 @@ GlView HemisphereCamera::Impl::view(const Vec3& eye, const Frame& frame, float n
   return view;
 }
 
-HemisphereCamera::HemisphereCamera(const RayScene& rays, int side, RasterBorder border)
-    : impl_(std::make_unique<Impl>(rays, side, border)) {
+HemisphereCamera::HemisphereCamera(const RayScene& rays, const RecordOptions& resolved)
+    : impl_(std::make_unique<Impl>(rays, resolved)) {
   impl_->context.check("loading the scene");
 }
 HemisphereCamera::~HemisphereCamera() = default;
+
+const LampLight* HemisphereCamera::lamps() const { return impl_->lamps ? &*impl_->lamps : nullptr; }
 
 void HemisphereCamera::sample(const RecordSite& site, const HitLight& light, Hemisphere& h, Pixels& pixels,
                               HitLight::Worker& worker) const {

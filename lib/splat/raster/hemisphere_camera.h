@@ -15,12 +15,17 @@ namespace phos::inline splat {
 /// apart from it. One context, used from the thread that made it.
 class HemisphereCamera {
  public:
-  /// Throws Error(bad_input) if no OpenGL context can be had, Error(usage) if the plane has more pixels than
-  /// it can draw.
-  HemisphereCamera(const RayScene& rays, int side, RasterBorder border);
+  /// Draws a plane of raster_side pixels each way, with raster_border, and with raster_light shadow maps of
+  /// all lamps. Throws Error(bad_input) if no OpenGL context can be had, Error(usage) if the plane has more
+  /// pixels than it can draw, or lamps have too many maps.
+  HemisphereCamera(const RayScene& rays, const RecordOptions& resolved);
   ~HemisphereCamera();
   HemisphereCamera(const HemisphereCamera&) = delete;
   HemisphereCamera& operator=(const HemisphereCamera&) = delete;
+
+  /// Light of the lamps at the places that pixels show (HitLight::lamps_from). Null: shadow rays bring it,
+  /// also in scenes with panes, which maps do not look through.
+  const LampLight* lamps() const;
 
   /// Memory of sample().
   struct Pixels {

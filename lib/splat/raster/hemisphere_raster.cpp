@@ -2,6 +2,7 @@
 
 #include "estimate/hemisphere/hemisphere_record.h"
 #include "estimate/registry.h"
+#include "file/tool.h"
 #include "splat/raster/hemisphere_camera.h"
 #include "splat/raster/radiance_raster.h"
 
@@ -12,8 +13,9 @@ struct RasterEstimator::Impl : HemisphereRecords {
 
   Impl(const RayScene& r, const Luminaires& l, const GatherSource& source, const RecordOptions& resolved,
        std::uint64_t s)
-      : HemisphereRecords(r, l, source, resolved, s),
-        camera(r, static_cast<int>(resolved.raster_side), resolved.raster_border) {}
+      : HemisphereRecords(r, l, source, resolved, s), camera(r, resolved) {
+    light.lamps_from(camera.lamps());
+  }
 };
 
 namespace {
@@ -46,6 +48,12 @@ Made RasterEstimator::make(const RecordSite& site, Worker& worker) const {
   sample(site, w.hemisphere, w);
   const std::span<const Hemisphere> passes(&w.hemisphere, 1);
   return impl_->record(site, light_of(passes, impl_->options), passes, w);
+}
+
+void tell_raster_light(const Tool& tool, const RayScene& rays, const RecordOptions& records) {
+  const bool maps = records.estimate == Estimate::raster && records.raster_light == RasterLight::shadow_map;
+  if (maps && rays.has_panes())
+    tool.say("light comes through panes, which shadow maps do not show: shadow rays stand in for them");
 }
 
 void register_raster_estimator() {

@@ -16,6 +16,10 @@ class Luminaires;
 class RayScene;
 }  // namespace phos::inline scene
 
+namespace phos::inline file {
+class Tool;
+}
+
 namespace phos::inline splat {
 
 /// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels each way
@@ -40,6 +44,9 @@ class RasterEstimator : public Estimator {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Says so where the scene has panes, so that shadow rays stand in for the shadow maps that are asked for.
+void tell_raster_light(const Tool& tool, const RayScene& rays, const RecordOptions& records);
 
 /// Adds --estimate raster to the table of estimators (estimate/registry.h), of irradiance and of radiance
 /// records.

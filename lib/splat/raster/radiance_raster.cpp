@@ -28,12 +28,12 @@ struct RadianceRasterEstimator::Impl {
 RadianceRasterEstimator::RadianceRasterEstimator(const RayScene& rays, const Luminaires& lights,
                                                  const GatherSource& source, const RecordOptions& resolved,
                                                  int order, RadianceGradient gradient, std::uint64_t seed) {
-  const auto side = static_cast<int>(resolved.raster_side);
   impl_.reset(new Impl{require_radiance_order(order),
                        {rays, resolved, gradient, source},
                        {rays, lights, source, resolved, seed ^ kRadianceStreams},
-                       plane_pieces(side, resolved.raster_border, order),
-                       {rays, side, resolved.raster_border}});
+                       plane_pieces(static_cast<int>(resolved.raster_side), resolved.raster_border, order),
+                       {rays, resolved}});
+  impl_->light.lamps_from(impl_->camera.lamps());
 }
 RadianceRasterEstimator::~RadianceRasterEstimator() = default;
 
