@@ -3,6 +3,7 @@
 // the pixel's triangle at that texel (receiver-plane bias), so that only half a texel remains to be added
 // against the facets beside it.
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -11,10 +12,10 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/shading_frame.h"
 #include "splat/direct/lamp_places.h"
+#include "splat/gl/lamp_map.h"
 #include "splat/gl/renderer.h"
 #include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
-#include "splat/gl/shadow_maps.h"
 
 namespace phos::inline splat {
 namespace {
@@ -39,6 +40,7 @@ struct GlRenderer::ShadowPass {
   Impl& impl;
   const GlPictureTarget& target;
   ShadowTarget maps;
+  int taps;
   GlObject share;
 
   /// Binds the map that the samples from here on have.
@@ -65,6 +67,7 @@ struct GlRenderer::ShadowPass {
     program.set("depth", view.depth);
     program.set("perspective", view.perspective ? 1 : 0);
     program.set("bias", sample.bias);
+    program.set("taps", taps);
     program.set("kind", static_cast<int>(sample.shape));
     program.set("two_sided", sample.two_sided ? 1 : 0);
     program.set("colour", sample.colour);
@@ -79,8 +82,9 @@ struct GlRenderer::ShadowPass {
   }
 };
 
-std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size) {
-  PHOS_CHECK(light_samples > 0 && map_size > 0, light_samples, " samples, maps of ", map_size);
+std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size,
+                                                int taps) {
+  PHOS_CHECK(light_samples > 0 && map_size > 0 && taps > 0, light_samples, " samples, maps of ", map_size);
   const Scene& scene = impl_->scene;
   std::vector<Rgb> illuminance(gbuffer.position.size(), Rgb(0));
   if (illuminance.empty() || scene.light.empty()) return illuminance;
@@ -95,7 +99,7 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   const GlPictureTarget& target = impl_->picture_target(gbuffer);
   gl.TextureSubImage2D(target.facet.id(), 0, 0, 0, gbuffer.width, gbuffer.height, GL_RGBA, GL_FLOAT,
                        facets(scene, gbuffer).data());
-  ShadowPass pass{*impl_, target, {impl_->context, size}, {}};
+  ShadowPass pass{*impl_, target, {impl_->context, size}, taps, {}};
 
   const Luminaires luminaires(scene);
   std::size_t total = 0;
@@ -121,6 +125,38 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   impl_->context.check("drawing shadow maps");
   for (std::size_t i = 0; i < sum.size(); ++i) illuminance[i] = Rgb(sum[i]);
   return illuminance;
+}
+
+void GlRenderer::each_lamp_map(const GBuffer& gbuffer, int light_samples, int map_size,
+                               const std::function<void(const LampMap& map, bool extended)>& use) {
+  const Scene& scene = impl_->scene;
+  impl_->context.make_current();
+  const Luminaires luminaires(scene);
+  const int size = std::min(map_size, impl_->context.largest_texture());
+  std::optional<ShadowTarget> target;
+  std::size_t faces = 0;
+  for (std::size_t i = 0; i < scene.light.size(); ++i) {
+    const Light& light = scene.light[i];
+    ShareMap shares;
+    if (light.fitting >= 0) shares = share_map(scene, light);
+    const int count = place_count(light, light_samples);
+    for (int k = 0; k < count; ++k) {
+      throw_if_interrupted();
+      const auto place = lamp_place(scene, luminaires, i, k, count, shares);
+      if (!place) continue;
+      LampMap map;
+      map.sample = shadow_sample(scene, gbuffer.position, *place, shares, size);
+      if (map.sample.faces.empty()) continue;
+      if (!target || faces != map.sample.faces.size()) {
+        faces = map.sample.faces.size();
+        target.emplace(impl_->context, size, static_cast<int>(faces));
+      }
+      target->draw(impl_->mesh, map.sample);
+      map.size = target->size(), map.depth = target->read();
+      use(map, light.extended());
+    }
+  }
+  impl_->context.check("drawing shadow maps");
 }
 
 }  // namespace phos::inline splat
