@@ -30,10 +30,8 @@ void declare_options(Options& options, RadianceOptions& r) {
   options.choice<RadianceGradient>(
       "gradients", r.gradients, kGradients,
       "method for the change of light about a record: hybrid: from each ray or pixel, with the edges of "
-      "occluders "
-      "(with photons, without these edges); analytic: from each ray or pixel, without edges; numeric: by "
-      "moved rays; "
-      "none: no change",
+      "occluders (with photons, without these edges); analytic: from each ray or pixel, without edges; "
+      "numeric: by moved rays; none: no change",
       Adopted::estimate);
   options.section("Estimates from photons");
   declare_photon_options(options, r.records);
