@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
                  "to gather from");
   declare_options(options, asked.scene);
   declare_options(options, asked.gloss);
+  declare_options(options, asked.store);
   declare_options(options, asked.radiance);
   declare_raster_options(options, asked.radiance.records, {Recorded::unless_default, Adopted::estimate});
   declare_place_options(options, asked.placement);

@@ -14,7 +14,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 21;
+inline constexpr int kRadianceAlgorithm = 22;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;
@@ -23,6 +23,7 @@ struct RadianceCommand {
   PlacementOptions placement;
   GlossBy gloss = GlossBy::automatic;
   GlBy gl = GlBy::osmesa;
+  Store store = Store::compact;
   std::string at, add_to;  ///< files
   std::string isa;
   bool allow_mismatch = false;
