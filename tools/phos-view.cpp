@@ -1,20 +1,26 @@
 // phos-view: a walk through a lit scene in a browser.
 #include "stage/view/view.h"
+#include "view/limits.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool(program("phos-view"),
-            "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
-            "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
-            "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
-            "standard errors, which this program reads from the caches as phos-sense does. Only the page and "
-            "the light of the named files are served. Ctrl-C ends the program.",
-            stage::kViewAlgorithm, Tool::Output::none);
+  Tool tool(
+      program("phos-view"),
+      "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
+      "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
+      "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
+      "standard errors, which this program reads from the caches as phos-sense does. Where the view finds no "
+      "record, this program makes new ones, from the photons or by gathered rays. Only the page and "
+      "the light of the named files are served. Ctrl-C ends the program.",
+      stage::kViewAlgorithm, Tool::Output::none);
   tool.takes_strict();
   Options& options = tool.options();
   stage::ViewCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
-  options.inputs("CACHE", asked.caches, "irradiance and radiance caches of the scene, which are joined");
+  options.inputs(
+      "CACHE [PHOTONS]", asked.caches,
+      "irradiance and radiance caches of the scene, which are joined, and the photons that they were "
+      "made from");
   options.section("Server");
   options.integer("port", asked.address.port, "N", "port; 0: any that is free", {0, 65535}, Recorded::no);
   options.text("host", asked.address.host, "ADDRESS",
@@ -31,11 +37,22 @@ int main(int argc, char** argv) {
       "shadow maps of each area lamp, and a quarter of those of a sky; fewer where there are many "
       "lamps",
       {1, 256}, Recorded::no);
+  options.section("Growth");
+  options.integer("records-per-frame", asked.growth.records_per_frame, "N",
+                  "most records that a page gets made for one frame; 0: the cache does not grow",
+                  {0, kMostPointsAsked.as<double>()}, Recorded::no);
+  options.file(
+      "save", asked.growth.save,
+      "file for the first irradiance cache with its new records, which is written at the end and when a "
+      "page asks for it",
+      FileUse::written);
   options.flag("allow-mismatch", asked.allow_mismatch, "accept caches of another version of the scene",
                Recorded::no);
   declare_options(options, asked.scene);
   options.example("phos-view room.glb room.irradiance", "then open http://127.0.0.1:8080/");
   options.example("phos-view room.glb room.irradiance --port 0", "any free port, which is printed");
+  options.example("phos-view room.glb room.irradiance room.photons --save walked.irradiance",
+                  "new records from photons; Ctrl-C saves them");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

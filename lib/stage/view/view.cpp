@@ -14,6 +14,7 @@
 #include "stage/site.h"
 #include "temporal/film/inputs.h"
 #include "view/light_reader.h"
+#include "view/message/reader.h"
 #include "view/page_files.h"
 #include "view/records_message.h"
 #include "view/scene_message.h"
@@ -37,6 +38,26 @@ std::vector<std::string> notes_of(const Scene& scene, const RayScene& rays, cons
   return notes;
 }
 
+/// The growing cache; nothing, with a note, where no cache can grow and nobody asks for it.
+std::unique_ptr<WalkGrowth> growth_of(Tool& tool, const WalkFiles& paths, const std::vector<Container>& files,
+                                      const RayScene& rays, const IrradianceCache& drawn,
+                                      const GrowthCommand& asked, std::vector<std::string>& notes) {
+  if (asked.records_per_frame == 0) {
+    if (asked.save.empty()) return nullptr;
+    throw Error(ExitCode::usage, "--save", "needs new records; leave out --records-per-frame 0");
+  }
+  try {
+    return std::make_unique<WalkGrowth>(tool, paths, files, rays, drawn, asked);
+  } catch (const Error& e) {
+    const bool wanted =
+        !paths.photons.empty() || !asked.save.empty() || tool.options().given("records-per-frame");
+    if (wanted || e.code() == ExitCode::interrupted) throw;
+    notes.push_back(
+        text("surfaces without a record stay so: ", e.where(), e.where().empty() ? "" : " ", e.what()));
+    return nullptr;
+  }
+}
+
 Json about(const std::string& scene_path, const std::vector<std::string>& notes) {
   Json list = Json::Array{};
   for (const std::string& note : notes) list.push_back(note);
@@ -50,39 +71,52 @@ Json about(const std::string& scene_path, const std::vector<std::string>& notes)
 
 void run(Tool& tool, ViewCommand& asked) {
   const InputFiles inputs = scene_and_others(asked.scene_path, asked.caches);
+  const WalkFiles paths = walk_files(inputs);
+  asked.growth.allow_mismatch = asked.allow_mismatch;
   take_site(tool, inputs.phos, asked.allow_mismatch);
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));
-  const std::vector<Container> files = open_caches(inputs.phos, CacheKinds::records);
+  const std::vector<Container> files = open_caches(paths.caches, CacheKinds::records);
   const Scene scene = load_scene(inputs.scene, asked.scene);
   tell_losses(tool, scene);
   require_together(files, inputs.scene, scene, asked.allow_mismatch);
   tell_unsampled_in(tool, files);
   const IrradianceCache cache = read_caches(files, scene).irradiance;
   if (any_footprint(cache.records))
-    throw Error(ExitCode::usage, inputs.phos[0],
+    throw Error(ExitCode::usage, paths.caches[0],
                 "has adaptive records, which the page does not draw; make the cache with --footprint circle");
   if (cache.records.empty())
-    throw Error(ExitCode::usage, inputs.phos[0], "holds no record; make a cache with phos-irradiance");
+    throw Error(ExitCode::usage, paths.caches[0], "holds no record; make a cache with phos-irradiance");
   const RayScene rays(scene);
   const Luminaires lights(scene);
   if (const auto nested = nested_glass(rays)) tool.warn(*nested);
-  const SensorCaches caches = sensor_caches_at(files, scene, &rays);
+  SensorCaches caches = sensor_caches_at(files, scene, &rays);
   SensorOptions sense;
   sense.seed = tool.seed();
   const LightReader reader(rays, lights, caches, sense);
-  const std::vector<std::string> notes = notes_of(scene, rays, cache);
+  std::vector<std::string> notes = notes_of(scene, rays, cache);
+  const std::unique_ptr<WalkGrowth> growth = growth_of(tool, paths, files, rays, cache, asked.growth, notes);
+  Json facts = about(inputs.scene, notes);
+  if (growth) facts["growth"] = growth->facts();
   const PageFiles page(scene_message(scene, static_cast<int>(asked.lamp_places)),
                        records_message(cache, asked.accuracy.value_or(reading_accuracy(cache.accuracy))),
-                       about(inputs.scene, notes));
+                       facts);
 
   ViewServer server(asked.address, {[&](std::string_view path) { return page.find(path); },
-                                    [&](std::string_view message) { return reader.answer(message); }});
+                                    [&](std::string_view message) {
+                                      if (!growth) return reader.answer(message);
+                                      if (states_kind(message, MessageKind::wish))
+                                        return growth->answer(message);
+                                      growth->refresh(caches);
+                                      return reader.answer(message);
+                                    }});
   for (const std::string& note : notes) tool.say(note);
   tool.say("open the address in a browser; Ctrl-C ends the walk");
-  set_progress_mode(ProgressMode::never);  // of readings
+  set_progress_mode(ProgressMode::never);  // of readings and new records
+  if (growth) growth->start();
   std::printf("%s\n", server.url().c_str());
   std::fflush(stdout);
   server.run();
+  if (growth) growth->finish();
 }
 
 }  // namespace phos::stage

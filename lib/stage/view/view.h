@@ -8,20 +8,22 @@
 
 #include "file/tool.h"
 #include "scene/load.h"
+#include "stage/view/growth.h"
 #include "view/server.h"
 
 namespace phos::stage {
 
-/// Nothing is written that could depend on it.
+/// Of the caches that it grows. Nothing compares it: their records depend on the walk too.
 inline constexpr int kViewAlgorithm = 1;
 
 struct ViewCommand {
   std::string scene_path;           ///< or one of the caches: the two may change places
-  std::vector<std::string> caches;  ///< of irradiance and radiance
+  std::vector<std::string> caches;  ///< of irradiance and radiance; photons
   SceneOptions scene;
   ServerAddress address;
   std::optional<double> accuracy;  ///< of reading records
   std::int64_t lamp_places = 16;   ///< of an area lamp
+  GrowthCommand growth;
   bool allow_mismatch = false;
 };
 

@@ -8,7 +8,7 @@ const SKY_WIDTH = 256, SKY_HEIGHT = 128;
 export const MEASURED = 96;  // pixels on a side of a measurement
 
 const SHADERS = ['scene.vert', 'holes', 'gbuffer.frag', 'shadow.frag', 'picture.vert', 'direct.frag', 'splat.vert', 'splat.frag',
-                 'quantity', 'measure.frag', 'show.frag', 'overlay.vert', 'overlay.frag'];
+                 'quantity', 'measure.frag', 'show.frag', 'overlay.vert', 'overlay.frag', 'open.frag'];
 
 // The texts of the shaders, and of the weight.
 export async function loadShaders(load) {
@@ -33,6 +33,7 @@ export class Drawing {
       measure: program('measure', 'picture.vert', 'quantity', 'measure.frag'),
       show: program('show', 'picture.vert', 'quantity', 'show.frag'),
       overlay: program('overlay', 'overlay.vert', 'overlay.frag'),
+      open: program('open', 'picture.vert', 'open.frag'),
     };
     this.canvas = canvas;
     this.mesh = new Mesh(gl, scene);

@@ -1,9 +1,11 @@
 // The page: loads the scene, draws when something has changed, and asks for the light under the cursor.
 //
 // The address may hold ?camera=N&width=W&height=H, a picture of that size without the panel. With &dump=Q (the
-// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump.
+// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump; &grow=FRAMES lets
+// the cache grow before, for so many frames.
 import {Drawing, loadShaders} from './drawing.js';
 import {exposureOf, number, scaleEnd} from './exposure.js';
+import {Growth} from './growth.js';
 import {LightQuestions} from './light.js';
 import {Messages, names} from './message.js';
 import {Eye, Walk} from './walk.js';
@@ -33,9 +35,15 @@ class View {
     this.takeCamera(Number(asked.get('camera') ?? 0));
     this.questions = new LightQuestions(messages, (reading) => this.tell(reading),
                                         () => $('state').textContent = 'phos-view has ended');
+    if (about.growth)
+      this.growth = new Growth(about.growth, messages, drawing, {section: $('growth'), text: $('grown'), grows: $('grows'),
+                                                                 save: $('save'), saved: $('saved')}, () => this.change());
   }
 
   get quantity() { return Number($('quantity').value); }
+
+  // Of the records, as they are drawn: smaller than `accuracy` where many have been made.
+  get reach() { return this.accuracy * (this.growth?.share ?? 1); }
 
   // Something has moved: the light is computed anew.
   change() { this.stale = true; }
@@ -119,7 +127,7 @@ class View {
     this.drawing.show({
       quantity: this.quantity, false_colour: $('false').checked, logarithmic, scale_ends: [low, high],
       key: this.exposure.key * factor, white: this.exposure.white * factor, show_holes: $('holes').checked,
-    }, $('overlay').value, this.accuracy);
+    }, $('overlay').value, this.reach);
   }
 
   tell(reading) {
@@ -150,7 +158,7 @@ class View {
     const width = Number(asked.get('width')) || Math.round(this.canvas.clientWidth * devicePixelRatio);
     const height = Number(asked.get('height')) || Math.round(this.canvas.clientHeight * devicePixelRatio);
     this.drawing.resize(Math.max(width, 1), Math.max(height, 1));
-    this.drawing.light(this.eye, this.accuracy);
+    this.drawing.light(this.eye, this.reach);
     if (this.measures) this.automatic(); else this.show();
     this.measures = false;
     return true;
@@ -178,10 +186,17 @@ try {
   const view = new View(drawing, read, {...about, palette: Array.from(colours)}, messages);
   $('state').textContent = '';
   if (asked.has('dump')) {
-    while (view.frame(0));
+    const draw = () => { while (view.frame(0)); };
+    draw();
+    if (asked.has('grow'))
+      await view.growth.settle(Number(asked.get('grow')), view.accuracy, draw, () => load('/about.json', 'json'));
     view.dump(Number(asked.get('dump')));
   } else {
-    const next = (now) => { view.frame(now); requestAnimationFrame(next); };
+    const next = (now) => {
+      view.frame(now);
+      if (!view.lost) view.growth?.step(now, view.eye, view.accuracy);
+      requestAnimationFrame(next);
+    };
     requestAnimationFrame(next);
   }
 } catch (error) {
