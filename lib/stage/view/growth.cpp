@@ -169,7 +169,8 @@ void WalkGrowth::save(const Grown& grown) const {
   cache.scene_hash = rays_.scene().hash;
   cache.caustics = caustics_;
   Provenance own = tool_.provenance(FileKind::irradiance, rays_.scene().hash, rays_.scene().parts);
-  for (const auto& [name, value] : options_.recorded().as_object()) own.parameters[name] = value;
+  const Json estimate = options_.recorded();
+  for (const auto& [name, value] : estimate.as_object()) own.parameters[name] = value;
   own.counters = grown.counters;
   note_unsampled(own, missed_);
   write_irradiance(asked_.save, cache, own);

@@ -20,6 +20,17 @@ bool is_near(const Bounds& scene, const Vec3& p) {
          glm::all(glm::lessThanEqual(p, scene.hi + margin));
 }
 
+/// A unit normal that stays as it is where a file of points is read again; zero for one without a direction.
+Vec3 settled_normal(Vec3 normal) {
+  constexpr int kEnough = 8;
+  for (int i = 0; i < kEnough; ++i) {
+    const Vec3 unit = normalized_or_zero(normal);
+    if (unit == normal) break;
+    normal = unit;
+  }
+  return normal;
+}
+
 }  // namespace
 
 GrowthWish read_growth_wish(std::string_view bytes, const Bounds& scene, std::size_t most) {
@@ -37,11 +48,10 @@ GrowthWish read_growth_wish(std::string_view bytes, const Bounds& scene, std::si
                            normal = message.floats("point", "normal");
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 p(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
-    const DVec3 direction(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]);
-    const double length = glm::length(direction);
+    const Vec3 n = settled_normal({normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]});
     if (!is_near(scene, p)) refuse("has a point far off the scene: row ", i);
-    if (!(length > 0)) refuse("has a normal without a direction: row ", i);
-    wish.points.push_back({p, Vec3(direction / length)});
+    if (n == Vec3(0)) refuse("has a normal without a direction: row ", i);
+    wish.points.push_back({p, n});
   }
   return wish;
 }
