@@ -47,6 +47,7 @@ class WishingPage {
   Answer ask(const std::string& wish) const {
     client_.send(frame(wish, 2));
     const std::string answer = read();
+    if (answer.size() < 16 + 7 * 16) return {};
     const auto field = [&](std::size_t k) {
       return number<std::uint32_t>(answer.substr(16 + 16 * k + 8, 4));
     };
@@ -75,16 +76,25 @@ class WishingPage {
     if (bytes.size() == sizeof value) std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
-  /// The next message of the server.
+  /// The next message of the server, which may come in several frames.
   std::string read() const {
-    const std::string head = client_.read(2);
-    EXPECT_EQ(head.substr(0, 1), "\x82");
-    std::size_t size = static_cast<unsigned char>(head[1]);
-    if (size < 126) return client_.read(size);
-    const std::string length = client_.read(size == 126 ? 2 : 8);
-    size = 0;
-    for (const char c : length) size = size << 8 | static_cast<unsigned char>(c);
-    return client_.read(size);
+    std::string message;
+    for (bool last = false; !last;) {
+      const std::string head = client_.read(2);
+      if (head.size() < 2 || (head[0] & 0x0f) != (message.empty() ? 2 : 0)) {
+        ADD_FAILURE() << "no frame of a message";
+        return "";
+      }
+      last = (head[0] & 0x80) != 0;
+      std::size_t size = static_cast<unsigned char>(head[1]);
+      if (size > 125) {
+        const std::string length = client_.read(size == 126 ? 2 : 8);
+        size = 0;
+        for (const char c : length) size = size << 8 | static_cast<unsigned char>(c);
+      }
+      message += client_.read(size);
+    }
+    return message;
   }
 
   HttpClient client_;

@@ -266,7 +266,11 @@ TEST(Grower, PagesShareOneCacheAndHaveAllChanges) {
 
   const std::unique_ptr<GrownCache> alone = box.grown();
   for (std::size_t begin = 0; begin < points.size(); begin += 100)
-    alone->grow(std::span(points).subspan(begin, 100), 1);
+    alone->grow(read_growth_wish(a_wish({points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         points.begin() + static_cast<std::ptrdiff_t>(begin + 100)}),
+                                 box.scene.bounds, 100)
+                    .points,
+                1);
   const std::vector<IrradianceRecord> expected = alone->records();
   ASSERT_EQ(records.size(), expected.size());
   for (std::size_t i = 0; i < records.size(); ++i) expect_same(records[i], expected[i]);

@@ -6,7 +6,6 @@
 #include "core/interrupt.h"
 #include "estimate/record_ways.h"
 #include "file/adoption.h"
-#include "file/atomic_file.h"
 #include "photon/caustic_map.h"
 #include "place/points_on_surfaces.h"
 #include "place/typical_distance.h"
@@ -103,7 +102,6 @@ WalkGrowth::WalkGrowth(Tool& tool, const WalkFiles& paths, const std::vector<Con
   if (asked.save.empty()) return;
   missed_ = tell_unsampled_kept(tool, path, unsampled_in(earlier.provenance()),
                                 tell_missed_ways(tool, rays, records));
-  require_writable(asked.save);
   tool.set_variant("of a walk");
   tool.add_input("irradiance", path);
   if (!from.photons.empty()) tool.add_input("photons", from.photons);

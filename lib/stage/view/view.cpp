@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/progress.h"
+#include "file/atomic_file.h"
 #include "scene/material/bsdf.h"
 #include "scene/nested_glass.h"
 #include "scene/rays.h"
@@ -73,6 +74,7 @@ void run(Tool& tool, ViewCommand& asked) {
   const InputFiles inputs = scene_and_others(asked.scene_path, asked.caches);
   const WalkFiles paths = walk_files(inputs);
   asked.growth.allow_mismatch = asked.allow_mismatch;
+  if (!asked.growth.save.empty()) require_writable(asked.growth.save);
   take_site(tool, inputs.phos, asked.allow_mismatch);
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));
   const std::vector<Container> files = open_caches(paths.caches, CacheKinds::records);

@@ -23,6 +23,10 @@ GrownCache::GrownCache(const IrradianceCache& covering, const Estimator& estimat
   PHOS_CHECK(!any_footprint(covering.records), "records with footprints");
 }
 
+RecordSite GrownCache::site_at(const SurfaceSample& point, std::size_t number) const {
+  return {point.position, point.normal, kPointItems + grown_ + number};
+}
+
 bool GrownCache::covered(const RecordSite& site, double share) {
   if (share >= 1) return growth_.covered(site);
   const auto accuracy = static_cast<float>(share * accuracy_);
@@ -41,16 +45,21 @@ std::size_t GrownCache::grow(std::span<const SurfaceSample> asked, double share)
     std::vector<std::size_t> from;  // of each site: its point
     std::size_t end = begin;
     for (; end < points.size() && sites.size() < batch_; ++end) {
-      const RecordSite site{points[end].position, points[end].normal, kPointItems + grown_ + sites.size()};
+      const RecordSite site = site_at(points[end], sites.size());
       if (!covered(site, share)) sites.push_back(site), from.push_back(end);
     }
     const std::vector<Made> made = maker_.make(sites);
-    std::size_t kept = 0;
-    for (; kept < made.size() && !covered(sites[kept], share); ++kept) growth_.accept(made[kept]);
-    grown_ += kept;
-    // Sites behind one that has come to be covered get other numbers, and their records are made anew.
+    // A record that is accepted covers points behind it, and may reduce others, which opens points. Where a
+    // point is found otherwise than before, later sites get other numbers, and their records are made anew.
+    std::size_t kept = 0, i = begin;
+    for (; i < end; ++i) {
+      const bool has_site = kept < from.size() && from[kept] == i;
+      if (covered(site_at(points[i], 0), share) == has_site) break;
+      if (has_site) growth_.accept(made[kept++]);
+    }
     const bool in_vain = kept < made.size();
-    begin = in_vain ? from[kept] + 1 : end;
+    begin = i;
+    grown_ += kept;
     batch_ = std::clamp(in_vain ? batch_ / 2 : batch_ * 2, kLeastBatch, kMostBatch);
   }
   return grown_ - before;

@@ -38,6 +38,8 @@ class GrownCache {
   void count_into(Counters& counters);
 
  private:
+  /// Of the new record after `number` more.
+  RecordSite site_at(const SurfaceSample& point, std::size_t number) const;
   bool covered(const RecordSite& site, double share);
 
   const RayScene& rays_;
