@@ -40,15 +40,15 @@ export class Growth {
     this.next = now + (points.length || this.waiting ? BUSY_MS : this.#looks() ? LOOK_MS : IDLE_MS);
   }
 
-  // For a page without a screen: so many frames, and the records of each before the next. Requests for `beat` keep its
-  // clock.
+  // For a page without a screen: the records that are there, then so many frames, and the records of each before the next.
+  // Requests for `beat` keep its clock.
   async settle(frames, accuracy, draw, beat) {
     let settled = false;
     const beats = (async () => { while (!settled) await beat(); })();
     while (this.busy) await beat();
-    for (let i = 0; i < frames; ++i) {
+    for (let i = 0; i <= frames; ++i) {
       draw();
-      this.#send(this.#choose(this.open.find(accuracy)));
+      this.#send(i > 0 ? this.#choose(this.open.find(accuracy)) : []);
       do {
         while (this.busy) await beat();
         if (this.waiting || this.more) this.#send([]);
