@@ -86,7 +86,7 @@ WalkGrowth::WalkGrowth(Tool& tool, const WalkFiles& paths, const std::vector<Con
                      "; give a cache of photons or of gathered rays, with circular footprints"));
   if (paths.photons.empty() && of_photons_alone(records)) {
     records.estimate = Estimate::gather, records.gradients = GradientMode::automatic;
-    tool.say("new records are gathered by rays, which read the caches, because no photons are given");
+    without_photons_ = true;
   }
   inputs_ = open_record_inputs(from, scene, asked.allow_mismatch);
   const IrradianceCache cache = read_irradiance(earlier);
@@ -129,6 +129,8 @@ std::shared_ptr<GrownCache> WalkGrowth::make() const {
 }
 
 void WalkGrowth::start() {
+  if (without_photons_)
+    tool_.say("new records are gathered by rays, which read the caches, because no photons are given");
   GrowerParts parts;
   parts.scene = rays_.scene().bounds;
   parts.most_points = static_cast<std::size_t>(asked_.records_per_frame);

@@ -66,6 +66,7 @@ class WalkGrowth {
   Options options_;    // of records, as the cache states them
   IrradianceCommand command_;
   RecordInputs inputs_;
+  bool without_photons_ = false;  // though the cache counts them
   std::shared_ptr<const CausticPhotons> caustics_;
   std::vector<LightWay> missed_;
   Quantity quantity_ = Quantity::indirect;
