@@ -6,7 +6,7 @@
 #include <future>
 
 #include "image/image.h"
-#include "support/chromium.h"
+#include "support/browser.h"
 #include "support/run.h"
 #include "support/view_program.h"
 

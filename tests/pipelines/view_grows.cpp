@@ -3,7 +3,7 @@
 
 #include <future>
 
-#include "support/chromium.h"
+#include "support/browser.h"
 #include "support/run.h"
 #include "support/view_program.h"
 

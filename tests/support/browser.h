@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "support/run.h"
@@ -22,12 +21,13 @@ struct Shown {
   std::string console;  ///< what it said
 };
 
-/// Opens an address in a Chromium of its own.
-inline Shown open_page(const std::string& url, const std::string& folder) {
+/// Opens an address in a Chromium of its own, with these words more on its command line.
+inline Shown open_page(const std::string& url, const std::string& folder, const std::string& words = "") {
   const std::string command =
       "timeout 180 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
       "--disable-dev-shm-usage --enable-logging=stderr --virtual-time-budget=60000 --user-data-dir='" +
-      folder + "/profile' --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder + "/log'";
+      folder + "/profile' " + words + " --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder +
+      "/log'";
   std::filesystem::create_directories(folder);
   EXPECT_EQ(std::system(command.c_str()), 0) << slurp(folder + "/log");
   Shown shown{slurp(folder + "/page"), ""};
@@ -53,11 +53,16 @@ inline std::vector<float> from_base64(const std::string& text) {
   return values;
 }
 
-/// The values of a quantity that the page says.
-inline std::vector<float> values_of(const Shown& shown) {
-  const std::string begin = "<pre id=\"dump\">";
+/// What the page says in an element: "dump"; "" where there is none.
+inline std::string words_of(const Shown& shown, const std::string& id) {
+  const std::string begin = "<pre id=\"" + id + "\">";
   const std::size_t at = shown.page.find(begin);
-  return at == std::string::npos ? std::vector<float>() : from_base64(shown.page.substr(at + begin.size()));
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size();
+  return shown.page.substr(from, shown.page.find('<', from) - from);
 }
+
+/// The values of a quantity that the page says.
+inline std::vector<float> values_of(const Shown& shown) { return from_base64(words_of(shown, "dump")); }
 
 }  // namespace phos::test
