@@ -9,6 +9,10 @@ inline constexpr Limit kMostQuestionBytes{"bytes of a message that a page sends 
                                           "`phos-view` closes the connection"};
 inline constexpr Limit kMostConnections{"connections to `phos-view` at the same time", 64,
                                         "`phos-view` closes the newest connection"};
+inline constexpr Limit kMostPageTexels{"pixels of all textures that `phos-view` sends to a page", 1 << 26,
+                                       "`phos-view` halves the sides of the largest textures until they fit"};
+inline constexpr Limit kMostPageBytes{"bytes of a scene that `phos-view` sends to a page", 1 << 30,
+                                      "exit code 2"};
 
 inline constexpr Limit kMostPointsAsked{
     "points of a message that a page sends to `phos-view`, and so `--records-per-frame`", 1000,
@@ -16,7 +20,7 @@ inline constexpr Limit kMostPointsAsked{
 inline constexpr Limit kMostGrownRecords{"records that `phos-view` adds to a cache", 1 << 17,
                                          "`phos-view` adds no more, and the page says so"};
 
-inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections, &kMostPointsAsked,
-                                               &kMostGrownRecords};
+inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections, &kMostPageTexels,
+                                               &kMostPageBytes,     &kMostPointsAsked, &kMostGrownRecords};
 
 }  // namespace phos::inline view

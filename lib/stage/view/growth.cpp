@@ -21,6 +21,8 @@ bool holds_photons(const std::string& path) {
   return is_container(path) && Container::open(path).kind() == FileKind::photons;
 }
 
+bool is_lobes(const Container& file) { return file.kind() == FileKind::brdf; }
+
 std::size_t growing_among(const std::vector<Container>& files) {
   const auto found = std::find_if(files.begin(), files.end(), [](const Container& file) {
     return file.kind() == FileKind::irradiance && !is_film(file);
@@ -41,20 +43,21 @@ struct Workshop {
 
 }  // namespace
 
-WalkFiles walk_files(const InputFiles& inputs) {
-  WalkFiles files;
-  files.scene = inputs.scene;
-  for (const std::string& path : inputs.phos) {
+void take_photons(std::vector<std::string>& paths, std::string& photons) {
+  std::vector<std::string> rest;
+  for (const std::string& path : paths) {
     if (!holds_photons(path)) {
-      files.caches.push_back(path);
+      rest.push_back(path);
       continue;
     }
-    if (!files.photons.empty())
-      throw Error(ExitCode::usage, path, text("is a second photon map beside ", files.photons, "; give one"));
-    files.photons = path;
+    if (!photons.empty())
+      throw Error(ExitCode::usage, path, text("is a second photon map beside ", photons, "; give one"));
+    photons = path;
   }
-  if (files.caches.empty()) files.caches = inputs.phos, files.photons.clear();
-  return files;
+  if (rest.empty())
+    photons.clear();
+  else
+    paths = rest;
 }
 
 WalkGrowth::WalkGrowth(Tool& tool, const WalkFiles& paths, const std::vector<Container>& files,
@@ -72,8 +75,10 @@ WalkGrowth::WalkGrowth(Tool& tool, const WalkFiles& paths, const std::vector<Con
   const Container& file = files[grows_];
   RecordFiles from{paths.scene, paths.photons, paths.photons.empty() ? path : "", "", ""};
   if (file.provenance().inputs.contains("gloss"))
-    for (std::size_t i = 0; i < files.size() && from.radiance.empty(); ++i)
-      if (is_radiance(files[i])) from.radiance = paths.caches[i];
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (is_radiance(files[i]) && from.radiance.empty()) from.radiance = paths.caches[i];
+      if (is_lobes(files[i])) from.brdf = paths.caches[i];
+    }
   const Container earlier = open_to_add(path, FileKind::irradiance, from, scene, asked.allow_mismatch);
   declare_options(options_, records);
   declare_raster_options(options_, records);
@@ -122,6 +127,7 @@ std::shared_ptr<GrownCache> WalkGrowth::make() const {
   IrradianceCache covering = read_caches({files_[grows_]}, rays_.scene()).irradiance;
   std::vector<Container> others = files_;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(grows_));
+  std::erase_if(others, is_lobes);
   if (!others.empty()) append(covering, read_caches(others, rays_.scene()).irradiance);
   const auto made =
       std::make_shared<Workshop>(rays_, inputs_, command_.records, tool_.seed(), covering, beside_m_);

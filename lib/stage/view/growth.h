@@ -25,13 +25,14 @@ struct WalkFiles {
   std::vector<std::string> caches;
   std::string photons;  ///< "": none
 };
-/// Throws Error(usage) for a second photon map. All files are caches where nothing but photons is given, to
-/// be refused where caches are opened.
-WalkFiles walk_files(const InputFiles& inputs);
+/// Takes the photon map out of the paths, unless nothing else is among them, to be refused where caches are
+/// opened. Throws Error(usage) for a second photon map.
+void take_photons(std::vector<std::string>& paths, std::string& photons);
 
 struct GrowthCommand {
   std::int64_t records_per_frame = 100;  ///< 0: the cache does not grow
   std::string save;                      ///< "": nowhere
+  std::string photons;                   ///< "": none; taken from the caches of the command
   bool allow_mismatch = false;
 };
 

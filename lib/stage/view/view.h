@@ -17,8 +17,10 @@ namespace phos::stage {
 inline constexpr int kViewAlgorithm = 1;
 
 struct ViewCommand {
-  std::string scene_path;           ///< or one of the caches: the two may change places
-  std::vector<std::string> caches;  ///< of irradiance and radiance; photons
+  std::string scene_path;  ///< or one of the caches: the two may change places
+  std::vector<std::string>
+      caches;  ///< of irradiance and radiance: FILE, or NAME=FILE (cache_sets.h); photons
+  std::vector<std::string> compare;  ///< the same of a second set
   SceneOptions scene;
   ServerAddress address;
   std::optional<double> accuracy;  ///< of reading records
