@@ -18,7 +18,7 @@ export class OpenPoints {
       this.reach?.remove();
       this.reach = new Target(gl, width, height, [gl.RGBA32F]);
     }
-    const position_map = map(0, drawing.surfaces.textures[0]), normal_map = map(1, drawing.surfaces.textures[1]);
+    const position_map = map(0, drawing.targets.surfaces.textures[0]), normal_map = map(1, drawing.targets.surfaces.textures[1]);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE);
     this.reach.bind();
