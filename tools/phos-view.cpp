@@ -3,13 +3,15 @@
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool(program("phos-view"),
-            "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
-            "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
-            "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
-            "standard errors, which this program reads from the caches as phos-sense does. Only the page and "
-            "the light of the named files are served. Ctrl-C ends the program.",
-            stage::kViewAlgorithm, Tool::Output::none);
+  Tool tool(
+      program("phos-view"),
+      "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
+      "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
+      "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
+      "standard errors, which this program reads from the caches as phos-sense does. Only the page and "
+      "the light of the named files are served. Ctrl-C ends the program. --static writes the page and its "
+      "data as one file instead, which needs no server.",
+      stage::kViewAlgorithm, Tool::Output::none);
   tool.takes_strict();
   Options& options = tool.options();
   stage::ViewCommand asked;
@@ -20,22 +22,31 @@ int main(int argc, char** argv) {
   options.text("host", asked.address.host, "ADDRESS",
                "address of this machine to serve at; 0.0.0.0 is all, and lets other machines in",
                Recorded::no);
+  options.section("Page without a server");
+  options.file("static", asked.static_path,
+               "write one HTML file that a browser opens from disk, and serve nothing; values under the "
+               "cursor are then of the picture, without standard errors",
+               FileUse::written);
+  options.integer("texture-size", asked.texture_size, "N",
+                  "with --static: most texels on the longer side of a texture; greater textures are reduced",
+                  {1, 32768}, Recorded::unless_default);
   options.section("Picture");
   options.number(
       "accuracy", asked.accuracy, "A",
       "accuracy at which records are read (default: 2.5 times the cache's own, at most 0.5); the page "
       "has a slider for it",
-      {0, 10, true}, Recorded::no);
+      {0, 10, true});
   options.integer(
       "lamp-places", asked.lamp_places, "N",
       "shadow maps of each area lamp, and a quarter of those of a sky; fewer where there are many "
       "lamps",
-      {1, 256}, Recorded::no);
+      {1, 256});
   options.flag("allow-mismatch", asked.allow_mismatch, "accept caches of another version of the scene",
                Recorded::no);
   declare_options(options, asked.scene);
   options.example("phos-view room.glb room.irradiance", "then open http://127.0.0.1:8080/");
   options.example("phos-view room.glb room.irradiance --port 0", "any free port, which is printed");
+  options.example("phos-view room.glb room.irradiance --static room.html", "one page for others to open");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -9,7 +9,8 @@ inline constexpr Limit kMostQuestionBytes{"bytes of a message that a page sends 
                                           "`phos-view` closes the connection"};
 inline constexpr Limit kMostConnections{"connections to `phos-view` at the same time", 64,
                                         "`phos-view` closes the newest connection"};
+inline constexpr Limit kMostStaticBytes{"bytes of a page of `phos-view --static`", 1 << 28, "exit code 2"};
 
-inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections};
+inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections, &kMostStaticBytes};
 
 }  // namespace phos::inline view

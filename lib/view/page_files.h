@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/json.h"
 #include "view/server.h"
@@ -19,6 +20,8 @@ class PageFiles {
   PageFiles(std::string scene_message, std::string records_message, const Json& about);
 
   std::optional<ServedFile> find(std::string_view path) const;
+  /// Of every file, in rising order.
+  std::vector<std::string_view> paths() const;
 
  private:
   struct Owned {

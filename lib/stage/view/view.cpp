@@ -12,6 +12,7 @@
 #include "splat/caches.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
+#include "stage/view/static.h"
 #include "temporal/film/inputs.h"
 #include "view/light_reader.h"
 #include "view/page_files.h"
@@ -49,6 +50,7 @@ Json about(const std::string& scene_path, const std::vector<std::string>& notes)
 }  // namespace
 
 void run(Tool& tool, ViewCommand& asked) {
+  require_static_options(tool, asked);
   const InputFiles inputs = scene_and_others(asked.scene_path, asked.caches);
   take_site(tool, inputs.phos, asked.allow_mismatch);
   tool.add_input("scene", scene_files(inputs.scene, asked.scene));
@@ -70,14 +72,18 @@ void run(Tool& tool, ViewCommand& asked) {
   SensorOptions sense;
   sense.seed = tool.seed();
   const LightReader reader(rays, lights, caches, sense);
-  const std::vector<std::string> notes = notes_of(scene, rays, cache);
-  const PageFiles page(scene_message(scene, static_cast<int>(asked.lamp_places)),
+  std::vector<std::string> notes = notes_of(scene, rays, cache);
+  std::string drawn = scene_message(scene, static_cast<int>(asked.lamp_places));
+  const bool is_static = !asked.static_path.empty();
+  if (is_static) drawn = message_for_static_page(std::move(drawn), asked, scene, notes);
+  const PageFiles page(std::move(drawn),
                        records_message(cache, asked.accuracy.value_or(reading_accuracy(cache.accuracy))),
                        about(inputs.scene, notes));
+  for (const std::string& note : notes) tool.say(note);
+  if (is_static) return write_static_page(tool, asked, scene, page);
 
   ViewServer server(asked.address, {[&](std::string_view path) { return page.find(path); },
                                     [&](std::string_view message) { return reader.answer(message); }});
-  for (const std::string& note : notes) tool.say(note);
   tool.say("open the address in a browser; Ctrl-C ends the walk");
   set_progress_mode(ProgressMode::never);  // of readings
   std::printf("%s\n", server.url().c_str());

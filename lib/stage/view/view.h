@@ -1,4 +1,4 @@
-// phos-view: scene, caches -> a walk through them in a browser.
+// phos-view: scene, caches -> a walk through them in a browser, served or as one page.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace phos::stage {
 
-/// Nothing is written that could depend on it.
+/// Of --static, which alone writes.
 inline constexpr int kViewAlgorithm = 1;
 
 struct ViewCommand {
@@ -20,12 +20,14 @@ struct ViewCommand {
   std::vector<std::string> caches;  ///< of irradiance and radiance
   SceneOptions scene;
   ServerAddress address;
-  std::optional<double> accuracy;  ///< of reading records
-  std::int64_t lamp_places = 16;   ///< of an area lamp
+  std::optional<double> accuracy;    ///< of reading records
+  std::int64_t lamp_places = 16;     ///< of an area lamp
+  std::string static_path;           ///< of a page that needs no server; "": a server
+  std::int64_t texture_size = 1024;  ///< of static pages: texels of the longer side at most
   bool allow_mismatch = false;
 };
 
-/// The body of the program: serves until it is interrupted.
+/// The body of the program: serves until it is interrupted, or writes the static page.
 void run(Tool& tool, ViewCommand& asked);
 
 }  // namespace phos::stage

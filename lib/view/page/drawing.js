@@ -118,11 +118,11 @@ export class Drawing {
     gl.disable(gl.BLEND);
   }
 
-  #read(target, quantity) {
+  #read(target, quantity, measured_size = [target.width, target.height]) {
     const gl = this.gl, {width, height} = target, values = new Float32Array(4 * width * height);
     target.bind();
     this.programs.measure.use({...this.view, ...this.#textures(), picture_size: [this.canvas.width, this.canvas.height],
-                               measured_size: [width, height], quantity});
+                               measured_size, quantity});
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, values);
     return values;
@@ -136,6 +136,21 @@ export class Drawing {
     for (let i = 0; i < found.length; ++i)
       if (read[4 * i + 1] > 0) found[n++] = read[4 * i];
     return found.subarray(0, n).sort();
+  }
+
+  // A quantity at one pixel from the bottom left; 1 where a surface is visible; 1 where no record reaches it.
+  valueAt([x, y], quantity) {
+    this.onePixel ??= new Target(this.gl, 1, 1, [this.gl.RGBA32F]);
+    const {width, height} = this.canvas;  // measure.frag.glsl then looks at the middle of that pixel
+    return this.#read(this.onePixel, quantity, [0.5 * width / (x + 0.5), 0.5 * height / (y + 0.5)]);
+  }
+
+  // The place that is visible there, m.
+  placeAt([x, y]) {
+    const gl = this.gl, place = new Float32Array(4);
+    this.surfaces.bind();
+    gl.readPixels(x, y, 1, 1, gl.RGBA, gl.FLOAT, place);
+    return place.subarray(0, 3);
   }
 
   // Luminance of a quantity in each pixel, from the top.

@@ -4,20 +4,16 @@
 // number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump.
 import {Drawing, loadShaders} from './drawing.js';
 import {exposureOf, number, scaleEnd} from './exposure.js';
+import {load, served} from './files.js';
 import {LightQuestions} from './light.js';
 import {Messages, names} from './message.js';
+import {PictureLight} from './picture_light.js';
 import {Eye, Walk} from './walk.js';
 
 const $ = (id) => document.getElementById(id);
 const UNITS = ['cd/m²', 'lx', 'lx', 'lx'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
-
-async function load(path, as) {
-  const response = await fetch(path);
-  if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
-  return response[as]();
-}
 
 class View {
   constructor(drawing, scene, about, messages) {
@@ -31,8 +27,9 @@ class View {
     this.fillPanel();
     this.listen();
     this.takeCamera(Number(asked.get('camera') ?? 0));
-    this.questions = new LightQuestions(messages, (reading) => this.tell(reading),
-                                        () => $('state').textContent = 'phos-view has ended');
+    const tell = (reading) => this.tell(reading);
+    this.questions = served ? new LightQuestions(messages, tell, () => $('state').textContent = 'phos-view has ended')
+                            : new PictureLight(drawing, tell);
   }
 
   get quantity() { return Number($('quantity').value); }
@@ -77,7 +74,7 @@ class View {
       if (this.walk.dragging) return;
       const box = this.canvas.getBoundingClientRect();
       const x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height;
-      this.questions.ask(this.eye.ray(x, y, box.width / box.height));
+      this.questions.ask(this.eye.ray(x, y, box.width / box.height), [x, y]);
     });
     this.canvas.addEventListener('webglcontextlost', () => {
       $('state').textContent = 'The browser has given the graphics memory away; load the page anew';
@@ -123,7 +120,7 @@ class View {
   }
 
   tell(reading) {
-    const with_error = (value, error, unit) => `${number(value)} ± ${number(error)} ${unit}`;
+    const with_error = (value, error, unit) => number(value) + (error === undefined ? '' : ` ± ${number(error)}`) + ` ${unit}`;
     const hit = reading.hit !== 0;
     $('illuminance').textContent = hit ? with_error(reading.illuminance, reading.illuminance_stderr, 'lx') : '—';
     $('direct').textContent = hit ? `${number(reading.direct)} lx` : '—';
