@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text/base64.h"
 #include "view/limits.h"
-#include "view/static/base64.h"
 #include "view/static/deflate.h"
 #include "view/static/packed_message.h"
 

@@ -1,8 +1,8 @@
-#include "view/static/base64.h"
+#include "core/text/base64.h"
 
 #include <cstdint>
 
-namespace phos::inline view {
+namespace phos {
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -18,4 +18,4 @@ std::string base64(std::string_view bytes) {
   return s;
 }
 
-}  // namespace phos::inline view
+}  // namespace phos
