@@ -6,6 +6,7 @@
 
 namespace {
 
+using namespace phos;
 using namespace phos::test;
 
 const std::string kBox = data("cornell-measured.glb");
@@ -32,7 +33,7 @@ std::size_t files_in(const std::string& path) {
 
 TEST(ViewStaticTool, WritesOneFileAndEnds) {
   const std::string one = folder() + "/one.html", two = folder() + "/two.html";
-  const Run run = run_tool({"view", kBox, cache(), "--static", one});
+  const test::Run run = run_tool({"view", kBox, cache(), "--static", one});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out, "");  // no address
   EXPECT_NE(run.err.find("rounded"), std::string::npos) << run.err;

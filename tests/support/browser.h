@@ -1,4 +1,4 @@
-// A browser without a screen.
+// Pages in a browser without a screen.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "support/from_base64.h"
 #include "support/run.h"
 
 namespace phos::test {
@@ -37,15 +36,32 @@ inline Shown open_page(const std::string& url, const std::string& folder) {
   return shown;
 }
 
-/// The values of a quantity that the page says.
-inline std::vector<float> values_of(const Shown& shown) {
-  const std::string begin = "<pre id=\"dump\">";
-  const std::size_t at = shown.page.find(begin);
-  if (at == std::string::npos) return {};
-  const std::string bytes = from_base64(std::string_view(shown.page).substr(at + begin.size()));
+inline std::vector<float> from_base64(const std::string& text) {
+  std::string bytes;
+  unsigned value = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string_view::npos) break;
+    value = value << 6 | static_cast<unsigned>(digit);
+    if ((bits += 6) >= 8) bits -= 8, bytes += static_cast<char>(value >> bits & 255);
+  }
   std::vector<float> values(bytes.size() / sizeof(float));
   std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
   return values;
 }
+
+/// What the page says in an element: "dump"; "" where there is none.
+inline std::string words_of(const Shown& shown, const std::string& id) {
+  const std::string begin = "<pre id=\"" + id + "\">";
+  const std::size_t at = shown.page.find(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size();
+  return shown.page.substr(from, shown.page.find('<', from) - from);
+}
+
+/// The values of a quantity that the page says.
+inline std::vector<float> values_of(const Shown& shown) { return from_base64(words_of(shown, "dump")); }
 
 }  // namespace phos::test

@@ -7,7 +7,7 @@
 namespace phos::test {
 
 /// Up to the first character that is no digit: "=", "<".
-inline std::string from_base64(std::string_view text) {
+inline std::string bytes_from_base64(std::string_view text) {
   std::string bytes;
   unsigned value = 0;
   int bits = 0;

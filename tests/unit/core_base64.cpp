@@ -22,7 +22,7 @@ TEST(Base64, EveryByteComesBack) {
   std::string bytes;
   for (int i = 0; i < 256; ++i) bytes += static_cast<char>(i);
   for (std::size_t n = 253; n <= 256; ++n)
-    EXPECT_EQ(test::from_base64(base64(bytes.substr(0, n))), bytes.substr(0, n));
+    EXPECT_EQ(test::bytes_from_base64(base64(bytes.substr(0, n))), bytes.substr(0, n));
 }
 
 }  // namespace

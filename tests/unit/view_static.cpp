@@ -280,7 +280,7 @@ TEST(ViewStatic, ThePageHoldsAllThatItNeeds) {
       import("['\"](page/|\\./)([a-z_]+\\.js)['\"]");
   std::map<std::string, std::string> scripts;
   for (std::sregex_iterator m(page.begin(), page.end(), module), end; m != end; ++m)
-    scripts[m->str(1)] = test::from_base64(m->str(2));
+    scripts[m->str(1)] = test::bytes_from_base64(m->str(2));
   EXPECT_TRUE(scripts.contains("view.js"));
   int imports = 0;
   for (const auto& [name, script] : scripts)
