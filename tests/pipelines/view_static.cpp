@@ -45,7 +45,7 @@ struct Place {
         const std::vector<std::string>& records)
       : folder(scratch(name)), scene(model), cache(folder + "/a.irradiance"), page(folder + "/a.html") {
     make({"photons", scene, "-o", folder + "/a.photons"}, photons);
-    make({"irradiance", scene, folder + "/a.photons", "--place", "surface", "-o", cache}, records);
+    make({"irradiance", scene, folder + "/a.photons", "-o", cache}, records);
     make({"view", scene, cache, "--static", page}, {});
   }
   ~Place() { std::filesystem::remove_all(folder); }
@@ -68,7 +68,7 @@ class StaticPage : public testing::Test {
     if (has_chromium())
       box_ = std::make_unique<Place>("static-box", data("cornell-measured.glb"),
                                      std::vector<std::string>{"--photons", "100000"},
-                                     std::vector<std::string>{});
+                                     std::vector<std::string>{"--place", "surface"});
   }
   static void TearDownTestSuite() { box_.reset(); }
   void SetUp() override {
@@ -158,7 +158,8 @@ TEST_F(StaticPage, AsksNobody) {
 TEST_F(StaticPage, Sponza) {
   const std::string model = shared("scenes/sponza.glb");
   if (model.empty()) GTEST_SKIP() << "../shared/scenes/sponza.glb is not here";
-  const Place place("static-sponza", model, {"--photons", "100000"}, {"--accuracy", "0.5"});
+  const Place place("static-sponza", model, {"--photons", "100000"},
+                    {"--place", "photons", "--max-candidates", "4000"});
   std::printf("[ FIGURES  ] Sponza: %.1f MB\n",
               static_cast<double>(std::filesystem::file_size(place.page)) / 1e6);
   expect_the_served_picture(place, "Sponza");
