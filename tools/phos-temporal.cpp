@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   declare_light_options(options, asked.scene);
   declare_options(options, asked.gloss);
   declare_options(options, asked.job.light.records);
+  declare_footprint_options(options, asked.job.light.records);
   declare_raster_options(options, asked.job.light.records, Recorded::unless_default);
   declare_place_options(options, asked.job.placement);
   declare_isa(options, asked.isa);

@@ -59,6 +59,9 @@ void run(Tool& tool, TemporalCommand& asked) {
   refuse_inputs(files);
   job.of_radiance = asked.kind == RecordKind::radiance;
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
+  if (job.of_radiance && records.footprint != Footprint::circle)
+    throw Error(ExitCode::usage, "--footprint",
+                "the zones of radiance records in films are discs; leave it out, or leave --kind radiance out");
   use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
   register_raster_estimator();

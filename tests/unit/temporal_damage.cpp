@@ -108,7 +108,9 @@ const std::map<std::string, SoundFile>& sound_files() {
       {"part", {write_part_of_records, [](const Container& f) { RecordColumns(f, FileForm::part); }}},
       {"film",
        {[](const std::string& path, Provenance p) {
-          write_film(path, test::random_film(6, true, TemporalGradients::interpolated), std::move(p));
+          Film film = test::random_film(6, true, TemporalGradients::interpolated);
+          test::add_footprints(film);
+          write_film(path, film, std::move(p));
         },
         [](const Container& f) { read_film(f); }}},
       {"radiance", {write_radiance_records, [](const Container& f) { read_radiance(f); }}},

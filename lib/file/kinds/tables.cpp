@@ -163,6 +163,18 @@ constexpr TensorRow kIrradianceChanges[] = {
     {"translation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/m/frame", kFinite,
      "change of `translation_gradient` per frame"},
 };
+constexpr TensorRow kFootprintChanges[] = {
+    {"footprint_length_change", Dtype::f32, "n,8", "m/frame", kFinite,
+     "change of `footprint_length` per frame", "f8"},
+    {"footprint_slope_change", Dtype::f32, "n,rgb,8", "lx/frame", kFinite,
+     "change of `footprint_slope` per frame"},
+    {"footprint_bend_change", Dtype::f32, "n,rgb,8", "lx/frame", kFinite,
+     "change of `footprint_bend` per frame"},
+    {"footprint_turn_slope_change", Dtype::f32, "n,rgb,8", "lx/rad/frame", kFinite,
+     "change of `footprint_turn_slope` per frame"},
+    {"footprint_turn_bend_change", Dtype::f32, "n,rgb,8", "lx/rad2/frame", kFinite,
+     "change of `footprint_turn_bend` per frame"},
+};
 constexpr TensorGroup kIrradianceGroups[] = {
     {always, "", kIrradiance},
     kSharedGroup,
@@ -178,6 +190,8 @@ constexpr TensorGroup kIrradianceGroups[] = {
     kAnchorGroup,
     kRadiusChangeGroup,
     {optional, "", kIrradianceChanges, FileForm::film},
+    {optional, "With `--footprint adaptive`, unless the film was made with `--temporal-gradients none`:",
+     kFootprintChanges, FileForm::film},
 };
 
 // --- radiance ---

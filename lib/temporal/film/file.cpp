@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "radiance/columns.h"
+#include "record/footprint_columns.h"
 #include "temporal/film/cache.h"
 #include "temporal/film/lives.h"
 
@@ -16,12 +17,17 @@ namespace {
 
 // --- changes ---
 
+constexpr const char* kChangeEnding = "_change";  // of a column of changes per frame
+
 struct IrradianceChanges {
   std::vector<Vec3> irradiance, rotation, translation;
   std::vector<float> radius_m;
+  std::optional<AxisColumns> axes;  // where records have footprints
 
   explicit IrradianceChanges(const Film& film) {
+    if (!film.records.empty() && film.records.front().record.footprint) axes.emplace();
     for (const FilmRecord& r : film.records) {
+      if (axes) axes->append(r.change.footprint ? *r.change.footprint : AdaptiveFootprint::Axes());
       irradiance.push_back(r.change.irradiance), radius_m.push_back(r.change.radius_m);
       rotation.insert(rotation.end(), std::begin(r.change.rotation), std::end(r.change.rotation));
       translation.insert(translation.end(), std::begin(r.change.translation), std::end(r.change.translation));
@@ -32,6 +38,7 @@ struct IrradianceChanges {
     file.add_vectors("rotation_gradient_change", rotation);
     file.add_vectors("translation_gradient_change", translation);
     file.add<float>("radius_change", radius_m);
+    if (axes) axes->add_to(file, kChangeEnding);
   }
 };
 
@@ -41,7 +48,10 @@ void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows
              rotation = file.vectors("rotation_gradient_change"),
              translation = file.vectors("translation_gradient_change");
   const auto radius_m = file.values<float>("radius_change");
+  const std::vector<AdaptiveFootprint::Axes> axes = read_axes(file, kChangeEnding);
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!axes.empty() && film.records[k].record.footprint)
+      film.records[k].change.footprint = std::make_shared<const AdaptiveFootprint::Axes>(axes[rows[k]]);
     IrradianceChange& change = film.records[k].change;
     const std::size_t i = rows[k];
     change.irradiance = irradiance[i], change.radius_m = radius_m[i];
@@ -122,7 +132,7 @@ bool all_finite(const IrradianceRecord& r) {
   bool finite = is_finite(r.irradiance) && std::isfinite(r.radius_m);
   for (int c = 0; c < 3; ++c)
     finite = finite && is_finite(r.rotation_gradient[c]) && is_finite(r.translation_gradient[c]);
-  return finite;
+  return finite && !(r.footprint && what_is_wrong(*r.footprint, r.normal));
 }
 bool all_finite(const RadianceRecord& r) { return is_finite(r); }
 
