@@ -21,12 +21,13 @@ struct Shown {
   std::string console;  ///< what it said
 };
 
-/// Opens an address in a Chromium of its own.
-inline Shown open_page(const std::string& url, const std::string& folder) {
+/// Opens an address in a Chromium of its own, with these words more on its command line.
+inline Shown open_page(const std::string& url, const std::string& folder, const std::string& words = "") {
   const std::string command =
       "timeout 180 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
       "--disable-dev-shm-usage --enable-logging=stderr --virtual-time-budget=60000 --user-data-dir='" +
-      folder + "/profile' --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder + "/log'";
+      folder + "/profile' " + words + " --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder +
+      "/log'";
   std::filesystem::create_directories(folder);
   EXPECT_EQ(std::system(command.c_str()), 0) << slurp(folder + "/log");
   Shown shown{slurp(folder + "/page"), ""};

@@ -146,7 +146,8 @@ void expect_kept(const MessageField& field, FieldCoding coding, const std::vecto
 }
 
 TEST(ViewStatic, PackedMessagesKeepWhatTheTableSays) {
-  for (const MessageKind kind : {MessageKind::scene, MessageKind::records, MessageKind::question})
+  for (const MessageKind kind :
+       {MessageKind::scene, MessageKind::records, MessageKind::gloss, MessageKind::question})
     for (const bool optional : {true, false}) {
       RandomStream random(1, Stage::test, 2);
       const std::string message = any_message(kind, optional, random);

@@ -10,27 +10,25 @@ export class PictureLight {
     document.getElementById('place').closest('section').append(said);
   }
 
-  // Of a place of the picture, -1 to 1 rightwards and upwards; once a frame, the newest.
-  ask(_ray, [x, y]) {
+  // Of a place of the picture, from 0 to 1 from the upper left, by a set of caches; once a frame, the newest.
+  ask(_ray, set, _weights, [x, y]) {
     if (!this.waiting) requestAnimationFrame(() => this.#answer());
-    this.waiting = [x, y];
+    this.waiting = {set, x, y};
   }
 
   #answer() {
-    const {drawing} = this, {width, height} = drawing.canvas, [x, y] = this.waiting;
-    const pixel = [[x, width], [y, height]].map(([v, n]) => Math.min(Math.max(Math.floor((v + 1) / 2 * n), 0), n - 1));
+    const {drawing} = this, {set, x, y} = this.waiting;
     this.waiting = null;
-    if (drawing.view) this.answered(readingAt(drawing, pixel));
+    if (drawing.view) this.answered(readingAt(drawing, set, x, y));
   }
 }
 
 // As the server's reading (view/message/format.h), without standard errors. Light that no record gives is unknown.
-export function readingAt(drawing, pixel) {
-  const [luminance, hit, hole] = drawing.valueAt(pixel, 0), [illuminance] = drawing.valueAt(pixel, 1);
-  const [indirect] = drawing.valueAt(pixel, 2), [direct] = drawing.valueAt(pixel, 3), all = drawing.records.holdsDirect;
-  const unless = (unknown, value) => unknown ? NaN : value;
+export function readingAt(drawing, set, x, y) {
+  const at = (quantity) => drawing.valueAt(x, y, quantity, set), unless = (unknown, value) => unknown ? NaN : value;
+  const [luminance, hit, hole] = at(0), [illuminance] = at(1), [indirect] = at(2), [direct] = at(3), all = drawing.sets[set].holdsDirect;
   return {
-    hit, position: drawing.placeAt(pixel), luminance: unless(hole, luminance), illuminance: unless(hole, illuminance),
+    hit, position: drawing.pointAt(x, y) ?? [0, 0, 0], luminance: unless(hole, luminance), illuminance: unless(hole, illuminance),
     indirect: unless(hole || all, indirect), direct: unless(all, direct), has_gloss: 0,
   };
 }

@@ -30,6 +30,15 @@ constexpr CodedField kCoded[] = {
     {MessageKind::records, "record", "over_limit", {rounded, 13}},
     {MessageKind::records, "record", "turn", {rounded, 10}},
     {MessageKind::records, "record", "translation", {rounded, 10}},
+    {MessageKind::gloss, "lobe_number", "value", {rounded, 12}},
+    {MessageKind::gloss, "record", "position", {box, 21}},
+    {MessageKind::gloss, "record", "inverse_radius", {rounded, 13}},
+    {MessageKind::gloss, "record", "normal", {octahedral}},
+    {MessageKind::gloss, "record", "front_limit", {rounded, 13}},
+    {MessageKind::gloss, "record", "axis_x", {octahedral}},
+    {MessageKind::gloss, "record", "over_limit", {rounded, 13}},
+    {MessageKind::gloss, "record", "weight", {rounded, 11}},
+    {MessageKind::gloss, "number", "value", {rounded, 12}},
 };
 
 }  // namespace

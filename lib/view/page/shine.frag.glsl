@@ -1,0 +1,37 @@
+// Light that a mirror or a pane reflects towards the eye, after specular.glsl: of a mirrored view of the scene, or of a
+// cube map about it. The cube map holds distances too, with which the reflected ray is followed to what it shows
+// (Szirmay-Kalos et al. 2005, approximate ray-tracing with distance impostors).
+in vec3 at, facing;
+in float depth;
+uniform vec3 eye;
+uniform mat3 axes;
+uniform bool perspective;
+uniform vec3 reflects[33];
+uniform bool by_cube;
+uniform sampler2D mirrored_map;
+uniform samplerCube cube_map;             // w: distance from its middle, m
+uniform vec3 cube_middle;
+layout(location = 0) out vec4 shine;
+
+vec3 from_cube(vec3 way) {
+  vec3 p = at;
+  float along = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    vec3 d = p - cube_middle;
+    float apart = length(d);
+    float seen = min(textureLod(cube_map, apart > 0.0 ? d / apart : way, 0.0).w, 1e6);
+    along = max(0.0, along + (apart > 0.0 ? (seen - apart) : seen));
+    p = at + along * way;
+  }
+  return textureLod(cube_map, p - cube_middle, 0.0).rgb;
+}
+
+void main() {
+  vec3 towards = perspective ? normalize(eye - at) : vec3(axes[0].z, axes[1].z, axes[2].z);
+  vec3 n = normalize(facing);
+  if (dot(n, towards) < 0.0) n = -n;
+  vec3 seen = by_cube ? from_cube(2.0 * dot(n, towards) * n - towards)
+                      : texelFetch(mirrored_map, ivec2(gl_FragCoord.xy), 0).rgb;
+  shine = vec4(share_at(reflects, dot(n, towards)) * seen, 0.0);
+  gl_FragDepth = depth * 0.99999;         // nearer than the same surface in the G-buffer
+}
