@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   declare_options(options, asked.job.options);
   declare_light_options(options, asked.scene);
   declare_options(options, asked.gloss);
+  declare_options(options, asked.store);
   declare_options(options, asked.job.light.records);
   declare_footprint_options(options, asked.job.light.records);
   declare_raster_options(options, asked.job.light.records, Recorded::unless_default);

@@ -180,7 +180,7 @@ TEST(ViewTool, GroupsOfLamps) {
   const HttpClient client(view.port());
   client.send(handshake(""));
   ASSERT_EQ(status(client.read_to("\r\n\r\n")), 101);
-  const std::vector<float> from{1, 2, 1.5f}, down{0.1f, -1, 0};
+  const std::vector<float> from{1.8f, 2, 1.3f}, down{0.1f, -1, 0};
   const auto read = [&](const std::vector<float>& weights, std::uint32_t set) {
     return answer(client, question(from, down, weights, set));
   };

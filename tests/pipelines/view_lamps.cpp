@@ -115,7 +115,7 @@ TEST_F(Lamps, UnknownGroupIsNamedWithTheLikest) {
 }
 
 TEST_F(Lamps, FramesAreTimed) {
-  const Shown shown = open("?bench=5", "bench");
+  const Shown shown = open("?bench=5&width=64&height=48", "bench");
   EXPECT_EQ(shown.console, "");
   const Json times = parse_json(words_of(shown, "bench"), "bench");
   ASSERT_NE(times.find("frames"), nullptr);

@@ -334,6 +334,32 @@ TEST(CacheAt, OfAFileIsTheSame) {
   }
 }
 
+/// Light and its changes to 11 bits, gradients and their changes to a byte.
+TEST(FilmFile, CompactRadianceIsNearlyTheSame) {
+  const RadianceFilm film =
+      test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, TemporalGradients::interpolated);
+  const std::string path = scratch_file("compact.radiance");
+  write_film(path, film, test::radiance_provenance(), Store::compact);
+  const RadianceFilm back = read_radiance_film(Container::open(path));
+  ASSERT_EQ(back.records.size(), film.records.size());
+  const auto expect_close = [](const std::vector<float>& a, const std::vector<float>& b, float within) {
+    if (a.empty() && b.empty()) return;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], within) << i;
+  };
+  for (std::size_t i = 0; i < film.records.size(); ++i) {
+    const FilmRadianceRecord &a = film.records[i], &b = back.records[i];
+    EXPECT_EQ(a.life.birth, b.life.birth);
+    EXPECT_EQ(a.change.radius_m, b.change.radius_m);
+    // All numbers are from 0 to 1.
+    expect_close(a.record.light, b.record.light, 0x1p-12f);
+    expect_close(a.record.gradient_x, b.record.gradient_x, 0x1p-7f);
+    expect_close(a.change.light, b.change.light, 0x1p-12f);
+    expect_close(a.change.gradient_x, b.change.gradient_x, 0x1p-7f);
+    expect_close(a.change.gradient_y, b.change.gradient_y, 0x1p-7f);
+  }
+}
+
 // --- on surfaces that move ---
 
 const glm::quat kTurn = glm::angleAxis(0.7f, glm::normalize(Vec3(1, -2, 3)));

@@ -1,5 +1,5 @@
 // Light that a mirror or a pane reflects towards the eye, after specular.glsl: of a mirrored view of the scene, or of a
-// cube map about it. The cube map holds distances too, with which the reflected ray is followed to what it shows
+// cube map about it. The cube map holds distances too, with which the reflected ray is followed to the surface that it meets
 // (Szirmay-Kalos et al. 2005, approximate ray-tracing with distance impostors).
 in vec3 at, facing;
 in float depth;
@@ -13,17 +13,20 @@ uniform samplerCube cube_map;             // w: distance from its middle, m
 uniform vec3 cube_middle;
 layout(location = 0) out vec4 shine;
 
+// Is a place behind the surface that the cube map shows there?
+bool behind(vec3 d) { return length(d) >= textureLod(cube_map, d, 0.0).w; }
+
 vec3 from_cube(vec3 way) {
-  vec3 p = at;
-  float along = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    vec3 d = p - cube_middle;
-    float apart = length(d);
-    float seen = min(textureLod(cube_map, apart > 0.0 ? d / apart : way, 0.0).w, 1e6);
-    along = max(0.0, along + (apart > 0.0 ? (seen - apart) : seen));
-    p = at + along * way;
+  vec3 start = at - cube_middle;
+  float near = 0.0, far = max(0.25 * length(start), 0.02 * min(textureLod(cube_map, way, 0.0).w, 10.0));
+  int steps = 0;
+  while (steps < 24 && !behind(start + far * way)) near = far, far *= 1.3, ++steps;
+  if (steps == 24) return textureLod(cube_map, way, 0.0).rgb;  // far away, where the place does not matter
+  for (int i = 0; i < 8; ++i) {
+    float middle = 0.5 * (near + far);
+    if (behind(start + middle * way)) far = middle; else near = middle;
   }
-  return textureLod(cube_map, p - cube_middle, 0.0).rgb;
+  return textureLod(cube_map, start + far * way, 0.0).rgb;
 }
 
 void main() {
