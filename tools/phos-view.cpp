@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
       "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
       "standard errors, which this program reads from the caches as phos-sense does. Where the view finds no "
       "record, this program makes new ones, from the photons or by gathered rays. Only the page and "
-      "the light of the named files are served. Ctrl-C ends the program.",
+      "the light of the named files are served. Ctrl-C ends the program. --static writes the page and its "
+      "data as one file instead, which needs no server.",
       stage::kViewAlgorithm, Tool::Output::none);
   tool.takes_strict();
   Options& options = tool.options();
@@ -28,12 +29,20 @@ int main(int argc, char** argv) {
   options.text("host", asked.address.host, "ADDRESS",
                "address of this machine to serve at; 0.0.0.0 is all, and lets other machines in",
                Recorded::no);
+  options.section("Page without a server");
+  options.file("static", asked.static_path,
+               "write one HTML file that a browser opens from disk, and serve nothing; values under the "
+               "cursor are then of the picture, without standard errors",
+               FileUse::written);
+  options.integer("texture-size", asked.texture_size, "N",
+                  "with --static: most texels on the longer side of a texture; greater textures are reduced",
+                  {1, 32768}, Recorded::unless_default);
   options.section("Picture");
   options.number(
       "accuracy", asked.accuracy, "A",
       "accuracy at which records are read (default: 2.5 times the cache's own, at most 0.5); the page "
       "has a slider for it",
-      {0, 10, true}, Recorded::no);
+      {0, 10, true});
   options.list("compare", asked.compare, "CACHE",
                "a second set of caches, CACHE or NAME=CACHE, which the page shows to the right of a wipe",
                Recorded::no);
@@ -41,7 +50,7 @@ int main(int argc, char** argv) {
       "lamp-places", asked.lamp_places, "N",
       "shadow maps of each area lamp, and a quarter of those of a sky; fewer where there are many "
       "lamps",
-      {1, 256}, Recorded::no);
+      {1, 256});
   options.section("Growth");
   options.integer("records-per-frame", asked.growth.records_per_frame, "N",
                   "most records that a page gets made for one frame; 0: the cache does not grow",
@@ -61,6 +70,7 @@ int main(int argc, char** argv) {
   options.example("phos-view room.glb room.irradiance --port 0", "any free port, which is printed");
   options.example("phos-view room.glb room.irradiance room.photons --save walked.irradiance",
                   "new records from photons; Ctrl-C saves them");
+  options.example("phos-view room.glb room.irradiance --static room.html", "one page for others to open");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -13,6 +13,7 @@ inline constexpr Limit kMostPageTexels{"pixels of all textures that `phos-view` 
                                        "`phos-view` halves the sides of the largest textures until they fit"};
 inline constexpr Limit kMostPageBytes{"bytes of a scene that `phos-view` sends to a page", 1 << 30,
                                       "exit code 2"};
+inline constexpr Limit kMostStaticBytes{"bytes of a page of `phos-view --static`", 1 << 28, "exit code 2"};
 
 inline constexpr Limit kMostPointsAsked{
     "points of a message that a page sends to `phos-view`, and so `--records-per-frame`", 1000,
@@ -21,6 +22,7 @@ inline constexpr Limit kMostGrownRecords{"records that `phos-view` adds to a cac
                                          "`phos-view` adds no more, and the page says so"};
 
 inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections, &kMostPageTexels,
-                                               &kMostPageBytes,     &kMostPointsAsked, &kMostGrownRecords};
+                                               &kMostPageBytes,     &kMostStaticBytes, &kMostPointsAsked,
+                                               &kMostGrownRecords};
 
 }  // namespace phos::inline view

@@ -12,6 +12,7 @@
 #include "stage/site.h"
 #include "stage/view/cache_sets.h"
 #include "stage/view/lit_scene.h"
+#include "stage/view/static.h"
 #include "view/drawing_notes.h"
 #include "view/gloss_message.h"
 #include "view/light_reader.h"
@@ -144,6 +145,7 @@ void take_surroundings(Tool& tool, const ViewCommand& asked, std::vector<CacheSe
 }  // namespace
 
 void run(Tool& tool, ViewCommand& asked) {
+  require_static_options(tool, asked);
   if (!asked.growth.save.empty()) require_writable(asked.growth.save);
   asked.growth.allow_mismatch = asked.allow_mismatch;
   std::vector<CacheSet> asked_sets = sets_of(asked);
@@ -181,13 +183,23 @@ void run(Tool& tool, ViewCommand& asked) {
     }
   }
   const LightReader reader(lights, sense);
-  const std::unique_ptr<WalkGrowth> growth =
-      growth_of(tool, {scene_path, asked_sets[0].paths(), asked.growth.photons}, sets, asked.growth, notes);
+  const bool is_static = !asked.static_path.empty();
+  std::unique_ptr<WalkGrowth> growth;
+  if (is_static && !asked.growth.photons.empty())
+    throw Error(ExitCode::usage, asked.growth.photons,
+                "is for new records, which a page without a server does not get; leave it out");
+  if (!is_static)
+    growth =
+        growth_of(tool, {scene_path, asked_sets[0].paths(), asked.growth.photons}, sets, asked.growth, notes);
+  std::string drawn = scene_message(lit.scene, static_cast<int>(asked.lamp_places));
+  if (is_static) drawn = message_for_static_page(std::move(drawn), asked, lit.scene, notes);
   Json facts = about(scene_path, notes, asked_sets, sets);
   if (growth) facts["growth"] = growth->facts();
-  PageFiles page(scene_message(lit.scene, static_cast<int>(asked.lamp_places)), std::move(records[0]), facts);
+  PageFiles page(std::move(drawn), std::move(records[0]), facts);
   for (std::size_t i = 1; i < records.size(); ++i) page.add(path_of("records", i), std::move(records[i]));
   for (std::size_t i = 0; i < gloss.size(); ++i) page.add(path_of("gloss", i), std::move(gloss[i]));
+  for (const std::string& note : notes) tool.say(note);
+  if (is_static) return write_static_page(tool, asked, lit.scene, page);
 
   ViewServer server(asked.address, {[&](std::string_view path) { return page.find(path); },
                                     [&](std::string_view message) {
@@ -197,7 +209,6 @@ void run(Tool& tool, ViewCommand& asked) {
                                       growth->refresh(sets[0][0].caches);
                                       return reader.answer(message);
                                     }});
-  for (const std::string& note : notes) tool.say(note);
   tool.say("open the address in a browser; Ctrl-C ends the walk");
   set_progress_mode(ProgressMode::never);  // of readings and new records
   if (growth) growth->start();

@@ -1,4 +1,4 @@
-// phos-view: scene, caches -> a walk through them in a browser.
+// phos-view: scene, caches -> a walk through them in a browser, served or as one page.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace phos::stage {
 
-/// Of the caches that it grows. Nothing compares it: their records depend on the walk too.
+/// Of --static, and of the caches that grow. Nothing compares it for these: their records depend on the walk
+/// too.
 inline constexpr int kViewAlgorithm = 1;
 
 struct ViewCommand {
@@ -26,10 +27,12 @@ struct ViewCommand {
   std::optional<double> accuracy;  ///< of reading records
   std::int64_t lamp_places = 16;   ///< of an area lamp
   GrowthCommand growth;
+  std::string static_path;           ///< of a page that needs no server; "": a server
+  std::int64_t texture_size = 1024;  ///< of static pages: texels of the longer side at most
   bool allow_mismatch = false;
 };
 
-/// The body of the program: serves until it is interrupted.
+/// The body of the program: serves until it is interrupted, or writes the static page.
 void run(Tool& tool, ViewCommand& asked);
 
 }  // namespace phos::stage

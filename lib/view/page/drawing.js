@@ -263,6 +263,20 @@ export class Drawing {
     return found.subarray(0, n).sort();
   }
 
+  // A quantity of a set at a place, from 0 to 1 from the upper left; 1 where a surface is visible; 1 where no record reaches.
+  valueAt(x, y, quantity, set) {
+    const gl = this.gl, {width, height} = this.canvas, value = new Float32Array(4);
+    const middle = (share, size) => Math.min(size - 1, Math.max(0, Math.floor(share * size))) + 0.5;
+    const target = this.onePixel ??= new Target(gl, 1, 1, [gl.RGBA32F]);
+    target.bind();
+    // measure.frag.glsl then looks at the middle of that pixel.
+    const measured_size = [0.5 * width / middle(x, width), 0.5 * height / (height - middle(y, height))];
+    this.programs.measure.use({...this.view, ...this.#textures(this.sets[set]), picture_size: [width, height], measured_size, quantity});
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, value);
+    return value;
+  }
+
   // Luminance of a quantity in each pixel, from the top.
   pixels(quantity) { return this.#fromTop((target) => this.measure(quantity, target)); }
 

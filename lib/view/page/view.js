@@ -10,11 +10,13 @@ import {Dimming} from './dimming.js';
 import {Distance} from './distance.js';
 import {Drawing, loadShaders, MEASURED} from './drawing.js';
 import {exposureOf, number, scaleEnd} from './exposure.js';
+import {load, served} from './files.js';
 import {Growth} from './growth.js';
 import {labelsOf, stepFor} from './isolux.js';
 import {LightQuestions} from './light.js';
 import {Messages, names} from './message.js';
 import {Overlay} from './overlay.js';
+import {PictureLight} from './picture_light.js';
 import {followTheme} from './theme.js';
 import {Eye, Walk} from './walk.js';
 import {Wipe} from './wipe.js';
@@ -24,12 +26,6 @@ const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
 const WITHOUT_LAMPS = ['2', '4'].includes(asked.get('dump'));  // quantities of records alone
-
-async function load(path, as) {
-  const response = await fetch(path);
-  if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
-  return response[as]();
-}
 
 class View {
   constructor(drawing, scene, about, messages) {
@@ -50,8 +46,9 @@ class View {
     this.fillPanel();
     this.listen();
     this.takeCamera(Number(asked.get('camera') ?? 0));
-    this.questions = new LightQuestions(messages, (reading) => this.tell(reading),
-                                        () => $('state').textContent = 'phos-view has ended');
+    const tell = (reading) => this.tell(reading);
+    this.questions = served ? new LightQuestions(messages, tell, () => $('state').textContent = 'phos-view has ended')
+                            : new PictureLight(drawing, tell);
     if (about.growth)
       this.growth = new Growth(about.growth, messages, drawing, {section: $('growth'), text: $('grown'), grows: $('grows'),
                                                                  save: $('save'), saved: $('saved')}, () => this.change());
@@ -138,7 +135,7 @@ class View {
     if (!this.cursor) return;
     const [x, y] = this.cursor, set = this.wipe.setAt(x);
     this.questions.ask(this.eye.ray(2 * x - 1, 1 - 2 * y, this.canvas.clientWidth / this.canvas.clientHeight), set,
-                       this.drawing.sets[set].weights);
+                       this.drawing.sets[set].weights, [x, y]);
   }
 
   takeCamera(i) {
@@ -196,7 +193,7 @@ class View {
   }
 
   tell(reading) {
-    const with_error = (value, error, unit) => `${number(value)} ± ${number(error)} ${unit}`;
+    const with_error = (value, error, unit) => number(value) + (error === undefined ? '' : ` ± ${number(error)}`) + ` ${unit}`;
     const hit = reading.hit !== 0;
     $('illuminance').textContent = hit ? with_error(reading.illuminance, reading.illuminance_stderr, 'lx') : '—';
     $('direct').textContent = hit ? `${number(reading.direct)} lx` : '—';
