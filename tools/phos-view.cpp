@@ -1,35 +1,48 @@
 // phos-view: a walk through a lit scene in a browser.
 #include "stage/view/view.h"
+#include "view/limits.h"
 
 int main(int argc, char** argv) {
   using namespace phos;
-  Tool tool(program("phos-view"),
-            "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
-            "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
-            "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
-            "standard errors, which this program reads from the caches as phos-sense does. Only the page and "
-            "the light of the named files are served. Ctrl-C ends the program.",
-            stage::kViewAlgorithm, Tool::Output::none);
+  Tool tool(
+      program("phos-view"),
+      "Serves a page that a browser with WebGL 2 shows, and prints its address. The page draws the "
+      "records of the caches as phos-splat does, with direct light by shadow maps. W, A, S and D walk, "
+      "and dragging looks around. The panel shows illuminance and luminance under the cursor, with "
+      "standard errors, which this program reads from the caches as phos-sense does. Where the view finds no "
+      "record, this program makes new ones, from the photons or by gathered rays. Only the page and "
+      "the light of the named files are served. Ctrl-C ends the program. --static writes the page and its "
+      "data as one file instead, which needs no server.",
+      stage::kViewAlgorithm, Tool::Output::none);
   tool.takes_strict();
   Options& options = tool.options();
   stage::ViewCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
   options.inputs(
-      "CACHE", asked.caches,
+      "CACHE [PHOTONS]", asked.caches,
       "irradiance and radiance caches of the scene, which are joined; .brdf: lobes for the radiance "
-      "records; NAME=CACHE names a group of lamps (caches made with --lamps), which the page dims by "
+      "records; the photons that the caches were made from; NAME=CACHE names a group of lamps (caches made "
+      "with --lamps), which the page dims by "
       "itself");
   options.section("Server");
   options.integer("port", asked.address.port, "N", "port; 0: any that is free", {0, 65535}, Recorded::no);
   options.text("host", asked.address.host, "ADDRESS",
                "address of this machine to serve at; 0.0.0.0 is all, and lets other machines in",
                Recorded::no);
+  options.section("Page without a server");
+  options.file("static", asked.static_path,
+               "write one HTML file that a browser opens from disk, and serve nothing; values under the "
+               "cursor are then of the picture, without standard errors",
+               FileUse::written);
+  options.integer("texture-size", asked.texture_size, "N",
+                  "with --static: most texels on the longer side of a texture; greater textures are reduced",
+                  {1, 32768}, Recorded::unless_default);
   options.section("Picture");
   options.number(
       "accuracy", asked.accuracy, "A",
       "accuracy at which records are read (default: 2.5 times the cache's own, at most 0.5); the page "
       "has a slider for it",
-      {0, 10, true}, Recorded::no);
+      {0, 10, true});
   options.list("compare", asked.compare, "CACHE",
                "a second set of caches, CACHE or NAME=CACHE, which the page shows to the right of a wipe",
                Recorded::no);
@@ -37,7 +50,16 @@ int main(int argc, char** argv) {
       "lamp-places", asked.lamp_places, "N",
       "shadow maps of each area lamp, and a quarter of those of a sky; fewer where there are many "
       "lamps",
-      {1, 256}, Recorded::no);
+      {1, 256});
+  options.section("Growth");
+  options.integer("records-per-frame", asked.growth.records_per_frame, "N",
+                  "most records that a page gets made for one frame; 0: the cache does not grow",
+                  {0, kMostPointsAsked.as<double>()}, Recorded::no);
+  options.file(
+      "save", asked.growth.save,
+      "file for the first irradiance cache with its new records, which is written at the end and when a "
+      "page asks for it",
+      FileUse::written);
   options.flag("allow-mismatch", asked.allow_mismatch, "accept caches of another version of the scene",
                Recorded::no);
   declare_options(options, asked.scene);
@@ -46,6 +68,9 @@ int main(int argc, char** argv) {
                   "groups of lamps, dimmed live");
   options.example("phos-view room.glb room.irradiance --compare coarse.irradiance", "two caches by a wipe");
   options.example("phos-view room.glb room.irradiance --port 0", "any free port, which is printed");
+  options.example("phos-view room.glb room.irradiance room.photons --save walked.irradiance",
+                  "new records from photons; Ctrl-C saves them");
+  options.example("phos-view room.glb room.irradiance --static room.html", "one page for others to open");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -36,6 +36,8 @@ void install_interrupt_handler() {
 
 bool interrupted() { return asked_to_stop.load(std::memory_order_relaxed); }
 
+bool take_interrupt() { return asked_to_stop.exchange(false); }
+
 void throw_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "", said.load());
 }

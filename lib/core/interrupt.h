@@ -9,6 +9,9 @@ namespace phos {
 /// files.
 void install_interrupt_handler();
 bool interrupted();
+/// For a program that ends by a signal and saves its results then: forgets the signal, so that work may go on
+/// until the next one. False: none has come.
+bool take_interrupt();
 /// Throws Error(interrupted) if a signal has come.
 void throw_if_interrupted();
 /// What a process that is interrupted from now on says in place of "nothing was written": for work in several

@@ -68,6 +68,7 @@ float RadiusRules::radius_m(std::size_t i) const {
 }
 
 void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance) {
+  raised_to_least_ = 0;
   for (std::size_t i = kept_; i < made_.size(); ++i) {
     IrradianceRecord r = made_[i].record;
     r.radius_m = radius_m(i);

@@ -47,7 +47,8 @@ class RadiusRules {
   float lower(std::size_t record, float radius_m);
   /// Appends the new records with their final radii. Where a lower bound is above the right radius, gradients
   /// are reduced so that extrapolation stays bounded. Of those that stand for radiance records, these are
-  /// appended to `radiance` (if it is not null), treated alike.
+  /// appended to `radiance` (if it is not null), treated alike. More records may follow, and a later call
+  /// appends all of them again, as they are then.
   void finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance = nullptr);
 
   std::size_t size() const { return made_.size(); }

@@ -210,6 +210,12 @@ void SensorCaches::add(const IrradianceCache& cache, const std::string& name) {
   for (const IrradianceRecord& r : cache.records) made.tree.insert(r);
 }
 
+void SensorCaches::replace_last(const IrradianceCache& cache, const std::string& name) {
+  PHOS_CHECK(!trees_.empty(), "no cache in memory");
+  trees_.pop_back();
+  add(cache, name);
+}
+
 void SensorCaches::require_light(bool direct, const std::shared_ptr<const CausticPhotons>& caustics,
                                  const std::string& name) {
   if (!empty()) require_same_caustics(caustics != nullptr, caustics_ != nullptr, name);

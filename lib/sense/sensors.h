@@ -79,6 +79,8 @@ class SensorCaches {
   SensorCaches(std::span<const Container> files, const RayScene* leak_test);
   /// The same of a cache in memory; `name` is its own in messages.
   void add(const IrradianceCache& cache, const std::string& name);
+  /// The same in place of the cache in memory that was added last.
+  void replace_last(const IrradianceCache& cache, const std::string& name);
   bool empty() const { return lookups_.empty() && trees_.empty(); }
   bool holds_direct() const { return holds_direct_; }
   /// Caustic photons of the first, where records hold no caustic light; null: they hold it, or there is none.

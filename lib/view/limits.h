@@ -5,7 +5,7 @@
 
 namespace phos::inline view {
 
-inline constexpr Limit kMostQuestionBytes{"bytes of a message that a page sends to `phos-view`", 4096,
+inline constexpr Limit kMostQuestionBytes{"bytes of a message that a page sends to `phos-view`", 32768,
                                           "`phos-view` closes the connection"};
 inline constexpr Limit kMostConnections{"connections to `phos-view` at the same time", 64,
                                         "`phos-view` closes the newest connection"};
@@ -13,8 +13,16 @@ inline constexpr Limit kMostPageTexels{"pixels of all textures that `phos-view` 
                                        "`phos-view` halves the sides of the largest textures until they fit"};
 inline constexpr Limit kMostPageBytes{"bytes of a scene that `phos-view` sends to a page", 1 << 30,
                                       "exit code 2"};
+inline constexpr Limit kMostStaticBytes{"bytes of a page of `phos-view --static`", 1 << 28, "exit code 2"};
+
+inline constexpr Limit kMostPointsAsked{
+    "points of a message that a page sends to `phos-view`, and so `--records-per-frame`", 1000,
+    "exit code 2; `phos-view` closes the connection"};
+inline constexpr Limit kMostGrownRecords{"records that `phos-view` adds to a cache", 1 << 17,
+                                         "`phos-view` adds no more, and the page says so"};
 
 inline constexpr const Limit* kViewLimits[] = {&kMostQuestionBytes, &kMostConnections, &kMostPageTexels,
-                                               &kMostPageBytes};
+                                               &kMostPageBytes,     &kMostStaticBytes, &kMostPointsAsked,
+                                               &kMostGrownRecords};
 
 }  // namespace phos::inline view

@@ -58,4 +58,10 @@ std::optional<ServedFile> PageFiles::find(std::string_view path) const {
   return ServedFile{found->second.type, found->second.bytes};
 }
 
+std::vector<std::string_view> PageFiles::paths() const {
+  std::vector<std::string_view> paths;
+  for (const auto& [path, file] : files_) paths.push_back(path);
+  return paths;
+}
+
 }  // namespace phos::inline view

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/json.h"
 #include "view/server.h"
@@ -22,6 +23,8 @@ class PageFiles {
   void add(const std::string& path, std::string message);
 
   std::optional<ServedFile> find(std::string_view path) const;
+  /// Of every file, in rising order.
+  std::vector<std::string_view> paths() const;
 
  private:
   struct Owned {

@@ -5,15 +5,18 @@
 #include <filesystem>
 
 #include "core/progress.h"
+#include "file/atomic_file.h"
 #include "scene/nested_glass.h"
 #include "scene/report/unsampled.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "stage/view/cache_sets.h"
 #include "stage/view/lit_scene.h"
+#include "stage/view/static.h"
 #include "view/drawing_notes.h"
 #include "view/gloss_message.h"
 #include "view/light_reader.h"
+#include "view/message/reader.h"
 #include "view/page_files.h"
 #include "view/records_message.h"
 #include "view/scene_message.h"
@@ -32,6 +35,29 @@ std::vector<std::string> notes_of(const LitScene& lit, const LitSets& sets) {
       for (const std::string& note : drawing_notes(lit.rays, group.records, group.radiance()))
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   return notes;
+}
+
+/// The growing cache; nothing, with a note, where no cache can grow and nobody asks for it.
+std::unique_ptr<WalkGrowth> growth_of(Tool& tool, const WalkFiles& paths, const LitSets& sets,
+                                      const GrowthCommand& asked, std::vector<std::string>& notes) {
+  if (asked.records_per_frame == 0) {
+    if (asked.save.empty()) return nullptr;
+    throw Error(ExitCode::usage, "--save", "needs new records; leave out --records-per-frame 0");
+  }
+  try {
+    if (sets.size() > 1 || sets[0].size() > 1 || !sets[0][0].name.empty())
+      throw Error(ExitCode::usage, "CACHE",
+                  "caches with names, and two sets of caches, do not grow; give one set without names");
+    const LitGroup& group = sets[0][0];
+    return std::make_unique<WalkGrowth>(tool, paths, group.files, group.lit->rays, group.records, asked);
+  } catch (const Error& e) {
+    const bool wanted =
+        !paths.photons.empty() || !asked.save.empty() || tool.options().given("records-per-frame");
+    if (wanted || e.code() == ExitCode::interrupted) throw;
+    notes.push_back(
+        text("surfaces without a record stay so: ", e.where(), e.where().empty() ? "" : " ", e.what()));
+    return nullptr;
+  }
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -80,11 +106,14 @@ Json about(const std::string& scene_path, const std::vector<std::string>& notes,
 
 /// The caches of the command line: the set that is shown, and the set to compare it with, if any.
 std::vector<CacheSet> sets_of(ViewCommand& asked) {
+  take_photons(asked.caches, asked.growth.photons);
   CacheSet first = cache_set(asked.caches, "CACHE");
   if (!first.named()) {  // the scene may stand among them
     const InputFiles inputs = scene_and_others(asked.scene_path, first.paths());
     asked.scene_path = inputs.scene;
-    first = cache_set(inputs.phos, "CACHE");
+    std::vector<std::string> caches = inputs.phos;
+    take_photons(caches, asked.growth.photons);
+    first = cache_set(caches, "CACHE");
   }
   std::vector<CacheSet> sets{std::move(first)};
   if (!asked.compare.empty()) {
@@ -116,6 +145,9 @@ void take_surroundings(Tool& tool, const ViewCommand& asked, std::vector<CacheSe
 }  // namespace
 
 void run(Tool& tool, ViewCommand& asked) {
+  require_static_options(tool, asked);
+  if (!asked.growth.save.empty()) require_writable(asked.growth.save);
+  asked.growth.allow_mismatch = asked.allow_mismatch;
   std::vector<CacheSet> asked_sets = sets_of(asked);
   const std::string& scene_path = asked.scene_path;
   take_surroundings(tool, asked, asked_sets);
@@ -151,19 +183,39 @@ void run(Tool& tool, ViewCommand& asked) {
     }
   }
   const LightReader reader(lights, sense);
-  PageFiles page(scene_message(lit.scene, static_cast<int>(asked.lamp_places)), std::move(records[0]),
-                 about(scene_path, notes, asked_sets, sets));
+  const bool is_static = !asked.static_path.empty();
+  std::unique_ptr<WalkGrowth> growth;
+  if (is_static && !asked.growth.photons.empty())
+    throw Error(ExitCode::usage, asked.growth.photons,
+                "is for new records, which a page without a server does not get; leave it out");
+  if (!is_static)
+    growth =
+        growth_of(tool, {scene_path, asked_sets[0].paths(), asked.growth.photons}, sets, asked.growth, notes);
+  std::string drawn = scene_message(lit.scene, static_cast<int>(asked.lamp_places));
+  if (is_static) drawn = message_for_static_page(std::move(drawn), asked, lit.scene, notes);
+  Json facts = about(scene_path, notes, asked_sets, sets);
+  if (growth) facts["growth"] = growth->facts();
+  PageFiles page(std::move(drawn), std::move(records[0]), facts);
   for (std::size_t i = 1; i < records.size(); ++i) page.add(path_of("records", i), std::move(records[i]));
   for (std::size_t i = 0; i < gloss.size(); ++i) page.add(path_of("gloss", i), std::move(gloss[i]));
+  for (const std::string& note : notes) tool.say(note);
+  if (is_static) return write_static_page(tool, asked, lit.scene, page);
 
   ViewServer server(asked.address, {[&](std::string_view path) { return page.find(path); },
-                                    [&](std::string_view message) { return reader.answer(message); }});
-  for (const std::string& note : notes) tool.say(note);
+                                    [&](std::string_view message) {
+                                      if (!growth) return reader.answer(message);
+                                      if (states_kind(message, MessageKind::wish))
+                                        return growth->answer(message);
+                                      growth->refresh(sets[0][0].caches);
+                                      return reader.answer(message);
+                                    }});
   tool.say("open the address in a browser; Ctrl-C ends the walk");
-  set_progress_mode(ProgressMode::never);  // of readings
+  set_progress_mode(ProgressMode::never);  // of readings and new records
+  if (growth) growth->start();
   std::printf("%s\n", server.url().c_str());
   std::fflush(stdout);
   server.run();
+  if (growth) growth->finish();
 }
 
 }  // namespace phos::stage

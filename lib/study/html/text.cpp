@@ -1,31 +1,15 @@
 #include "study/html/text.h"
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 
 #include "core/error.h"
 #include "core/json.h"
+#include "core/text/base64.h"
 #include "core/text/markup.h"
 #include "image/png.h"
 
 namespace phos::inline study {
-
-std::string base64(std::string_view bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve(4 * ((bytes.size() + 2) / 3));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[k])) : 0u;
-    };
-    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    out += kDigits[three >> 18 & 63], out += kDigits[three >> 12 & 63];
-    out += i + 1 < bytes.size() ? kDigits[three >> 6 & 63] : '=';
-    out += i + 2 < bytes.size() ? kDigits[three & 63] : '=';
-  }
-  return out;
-}
 
 std::string data_uri(const Picture& picture) {
   std::string uri = "data:image/png;base64,";

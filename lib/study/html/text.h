@@ -10,8 +10,6 @@
 
 namespace phos::inline study {
 
-/// RFC 4648.
-std::string base64(std::string_view bytes);
 /// "data:image/png;base64,..."
 std::string data_uri(const Picture& picture);
 /// "data:image/svg+xml;base64,..."

@@ -1,6 +1,7 @@
 #include "view/message/format.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "core/json.h"
@@ -101,6 +102,36 @@ constexpr MessageField kRecordFields[] = {
     {"record", "translation", f32, 9, "lx/m", "by colour: the gradient along the surface"},
 };
 
+constexpr MessageField kWishFields[] = {
+    {"wish", "since", u32, 1, "", "serial number of the last change that the page has; 0: none"},
+    {"wish", "share", f32, 1, "", "of the cache's accuracy, at which records are to cover the points"},
+    {"wish", "save", u32, 1, "", "1: write the file"},
+    {"point", "position", f32, 3, "m", ""},
+    {"point", "normal", f32, 3, "", "of any length but 0, on the side that is lit"},
+};
+
+constexpr MessageField kGrowthFields[] = {
+    {"growth", "serial", u32, 1, "", "of the last change in this message"},
+    {"growth", "more", u32, 1, "", "1: there are further changes"},
+    {"growth", "state", u32, 1, "", "GrowthState: 0 preparing, 1 growing, 2 full, 3 ended by an error"},
+    {"growth", "waiting", u32, 1, "", "points of all pages that no record has been tried at yet"},
+    {"growth", "records", u32, 1, "", "all new ones"},
+    {"growth", "saves", u32, 1, "", "number of times that the file was written"},
+    {"growth", "save_failed", u32, 1, "", "1: the last time failed"},
+    {"record", "row", u32, 1, "", "of all new ones; a later message may state it again"},
+};
+
+/// kGrowthFields, and the fields of a record.
+constexpr auto kGrownFields = [] {
+  constexpr std::size_t own = std::size(kGrowthFields);
+  constexpr auto of_record = [](const MessageField& f) { return f.table == "record"; };
+  std::array<MessageField, own + std::count_if(std::begin(kRecordFields), std::end(kRecordFields), of_record)>
+      fields{};
+  auto* end = std::copy(std::begin(kGrowthFields), std::end(kGrowthFields), fields.data());
+  std::copy_if(std::begin(kRecordFields), std::end(kRecordFields), end, of_record);
+  return fields;
+}();
+
 constexpr MessageField kGlossFields[] = {
     {"cache", "accuracy", f32, 1, "", "a of the weight of radiance records"},
     {"lobe", "material", u32, 1, "", "row of the scene's materials that reads radiance records"},
@@ -155,6 +186,8 @@ constexpr MessageLayout kLayouts[] = {{MessageKind::scene, "scene", kSceneFields
                                       {MessageKind::records, "records", kRecordFields},
                                       {MessageKind::question, "question", kQuestionFields},
                                       {MessageKind::reading, "reading", kReadingFields},
+                                      {MessageKind::wish, "wish", kWishFields},
+                                      {MessageKind::grown, "grown", kGrownFields},
                                       {MessageKind::gloss, "gloss", kGlossFields}};
 
 std::string_view name_of_type(FieldType type) { return type == u8 ? "u8" : type == u32 ? "u32" : "f32"; }

@@ -29,6 +29,8 @@ enum class MessageKind : std::uint16_t {
   records = 2,   ///< to the page: irradiance records
   question = 3,  ///< to the server: the light where a ray lands
   reading = 4,   ///< to the page: the answer
+  wish = 5,      ///< to the server: points that need records, and the changes that the page has
+  grown = 6,     ///< to the page: the answer, with new records
   gloss = 7,     ///< to the page: radiance records, and the lobes that read them
 };
 

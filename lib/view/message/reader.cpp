@@ -32,6 +32,11 @@ template <class... Args>
 
 }  // namespace
 
+bool states_kind(std::string_view bytes, MessageKind kind) {
+  return bytes.size() >= kMessageHeaderBytes &&
+         value_at<std::uint16_t>(bytes, 6) == static_cast<std::uint16_t>(kind);
+}
+
 MessageReader::MessageReader(std::string_view bytes, MessageKind kind)
     : layout_(layout_of(kind)), parts_(layout_.fields.size()) {
   if (bytes.size() < kMessageHeaderBytes) refuse("is cut off within its header");

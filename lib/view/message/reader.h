@@ -9,6 +9,9 @@
 
 namespace phos::inline view {
 
+/// Does a message state this kind? It may be damaged nevertheless.
+bool states_kind(std::string_view bytes, MessageKind kind);
+
 class MessageReader {
  public:
   /// Throws Error(bad_input) unless `bytes` are a whole message of this kind: header, lengths, rows of the

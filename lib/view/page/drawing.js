@@ -15,7 +15,7 @@ export const MEASURED = 96;  // pixels on a side of a measurement
 
 const SHADERS = ['scene.vert', 'holes', 'gbuffer.frag', 'shadow.frag', 'picture.vert', 'direct.frag', 'rectangle', 'splat.vert', 'splat.frag',
                  'compose.frag', 'data', 'glint', 'gloss.vert', 'gloss.frag', 'specular', 'veil.frag', 'shine.frag', 'bake.frag', 'quantity',
-                 'measure.frag', 'show.frag', 'isolux.frag', 'overlay.vert', 'overlay.frag'];
+                 'measure.frag', 'show.frag', 'isolux.frag', 'overlay.vert', 'overlay.frag', 'open.frag'];
 
 // The texts of the shaders, and of the weight.
 export async function loadShaders(load) {
@@ -48,6 +48,7 @@ export class Drawing {
       show: program('show', 'picture.vert', 'data', 'quantity', 'show.frag'),
       isolux: program('isolux', 'picture.vert', 'data', 'quantity', 'isolux.frag'),
       overlay: program('overlay', 'overlay.vert', 'overlay.frag'),
+      open: program('open', 'picture.vert', 'open.frag'),
     };
     this.canvas = canvas;
     this.mesh = new Mesh(gl, scene);
@@ -260,6 +261,20 @@ export class Drawing {
     for (let i = 0; i < found.length; ++i)
       if (read[4 * i + 1] > 0) found[n++] = read[4 * i];
     return found.subarray(0, n).sort();
+  }
+
+  // A quantity of a set at a place, from 0 to 1 from the upper left; 1 where a surface is visible; 1 where no record reaches.
+  valueAt(x, y, quantity, set) {
+    const gl = this.gl, {width, height} = this.canvas, value = new Float32Array(4);
+    const middle = (share, size) => Math.min(size - 1, Math.max(0, Math.floor(share * size))) + 0.5;
+    const target = this.onePixel ??= new Target(gl, 1, 1, [gl.RGBA32F]);
+    target.bind();
+    // measure.frag.glsl then looks at the middle of that pixel.
+    const measured_size = [0.5 * width / middle(x, width), 0.5 * height / (height - middle(y, height))];
+    this.programs.measure.use({...this.view, ...this.#textures(this.sets[set]), picture_size: [width, height], measured_size, quantity});
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, value);
+    return value;
   }
 
   // Luminance of a quantity in each pixel, from the top.

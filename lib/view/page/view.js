@@ -3,16 +3,20 @@
 // The address may hold ?camera=N&width=W&height=H, a picture of that size without the panel. With &dump=Q (the
 // number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump; &dump=isolux&step=LX
 // gives 1 where a line is. &weight=NAME:W dims a group of lamps (?weight=W: caches without names), &wipe=SHARE sets the
-// wipe, and ?bench=FRAMES measures frames, whose times become the text of #bench.
+// wipe, and ?bench=FRAMES measures frames, whose times become the text of #bench. &grow=FRAMES lets the cache grow before
+// the values are dumped, for so many frames.
 import {bench} from './bench.js';
 import {Dimming} from './dimming.js';
 import {Distance} from './distance.js';
 import {Drawing, loadShaders, MEASURED} from './drawing.js';
 import {exposureOf, number, scaleEnd} from './exposure.js';
+import {load, served} from './files.js';
+import {Growth} from './growth.js';
 import {labelsOf, stepFor} from './isolux.js';
 import {LightQuestions} from './light.js';
 import {Messages, names} from './message.js';
 import {Overlay} from './overlay.js';
+import {PictureLight} from './picture_light.js';
 import {followTheme} from './theme.js';
 import {Eye, Walk} from './walk.js';
 import {Wipe} from './wipe.js';
@@ -22,12 +26,6 @@ const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
 const WITHOUT_LAMPS = ['2', '4'].includes(asked.get('dump'));  // quantities of records alone
-
-async function load(path, as) {
-  const response = await fetch(path);
-  if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
-  return response[as]();
-}
 
 class View {
   constructor(drawing, scene, about, messages) {
@@ -48,11 +46,18 @@ class View {
     this.fillPanel();
     this.listen();
     this.takeCamera(Number(asked.get('camera') ?? 0));
-    this.questions = new LightQuestions(messages, (reading) => this.tell(reading),
-                                        () => $('state').textContent = 'phos-view has ended');
+    const tell = (reading) => this.tell(reading);
+    this.questions = served ? new LightQuestions(messages, tell, () => $('state').textContent = 'phos-view has ended')
+                            : new PictureLight(drawing, tell);
+    if (about.growth)
+      this.growth = new Growth(about.growth, messages, drawing, {section: $('growth'), text: $('grown'), grows: $('grows'),
+                                                                 save: $('save'), saved: $('saved')}, () => this.change());
   }
 
   get quantity() { return Number($('quantity').value); }
+
+  // Of the records, as they are drawn: smaller than `accuracy` where many have been made.
+  get reach() { return this.accuracy * (this.growth?.share ?? 1); }
 
   // Something has moved: the light is computed anew.
   change() { this.stale = true; }
@@ -130,7 +135,7 @@ class View {
     if (!this.cursor) return;
     const [x, y] = this.cursor, set = this.wipe.setAt(x);
     this.questions.ask(this.eye.ray(2 * x - 1, 1 - 2 * y, this.canvas.clientWidth / this.canvas.clientHeight), set,
-                       this.drawing.sets[set].weights);
+                       this.drawing.sets[set].weights, [x, y]);
   }
 
   takeCamera(i) {
@@ -169,7 +174,7 @@ class View {
       quantity: this.quantity, false_colour: $('false').checked, logarithmic, scale_ends: [low, high],
       key: this.exposure.key * factor, white: this.exposure.white * factor, show_holes: $('holes').checked,
       isolux_step: this.isoluxStep,
-    }, $('overlay').value, this.accuracy);
+    }, $('overlay').value, this.reach);
     this.drawOver();
   }
 
@@ -188,7 +193,7 @@ class View {
   }
 
   tell(reading) {
-    const with_error = (value, error, unit) => `${number(value)} ± ${number(error)} ${unit}`;
+    const with_error = (value, error, unit) => number(value) + (error === undefined ? '' : ` ± ${number(error)}`) + ` ${unit}`;
     const hit = reading.hit !== 0;
     $('illuminance').textContent = hit ? with_error(reading.illuminance, reading.illuminance_stderr, 'lx') : '—';
     $('direct').textContent = hit ? `${number(reading.direct)} lx` : '—';
@@ -216,7 +221,7 @@ class View {
     const height = Number(asked.get('height')) || Math.round(this.canvas.clientHeight * devicePixelRatio);
     this.drawing.resize(Math.max(width, 1), Math.max(height, 1));
     this.drawing.share = this.wipe.share;
-    this.drawing.light(this.eye, this.accuracy);
+    this.drawing.light(this.eye, this.reach);
     if (this.measures) this.automatic(); else this.show();
     this.measures = false;
     return true;
@@ -265,14 +270,21 @@ try {
   const view = new View(drawing, read, {...about, palette: Array.from(colours)}, messages);
   $('state').textContent = '';
   if (asked.has('dump')) {
-    while (view.frame(0));
+    const draw = () => { while (view.frame(0)); };
+    draw();
+    if (asked.has('grow'))
+      await view.growth.settle(Number(asked.get('grow')), view.accuracy, draw, () => load('/about.json', 'json'));
     view.dump(asked.get('dump'));
   } else {
     if (asked.has('bench')) {
       while (view.frame(0));
       view.bench(Number(asked.get('bench')) || 120);
     }
-    const next = (now) => { view.frame(now); requestAnimationFrame(next); };
+    const next = (now) => {
+      view.frame(now);
+      if (!view.lost) view.growth?.step(now, view.eye, view.accuracy);
+      requestAnimationFrame(next);
+    };
     requestAnimationFrame(next);
   }
 } catch (error) {
