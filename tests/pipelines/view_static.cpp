@@ -129,12 +129,13 @@ std::string with_script(const Place& place, const std::string& action) {
 TEST_F(StaticPage, ValuesUnderTheCursorAreOfThePicture) {
   constexpr int kX = 40, kY = 100;  // pixels from the top left
   const auto middle_of = [](int pixel) { return std::to_string((pixel + 0.5) / kSide); };
-  const std::string page =
-      with_script(*box_,
-                  "document.querySelector('main').style.minWidth = '400px';"  // #dump is wide
-                  "const picture = document.getElementById('picture'), box = picture.getBoundingClientRect();"
-                  "picture.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + box.width * " +
-                      middle_of(kX) + ", clientY: box.top + box.height * " + middle_of(kY) + "}));");
+  const std::string page = with_script(
+      *box_,
+      "document.querySelector('main').style.minWidth = '400px';"  // #dump is wide
+      "window.requestAnimationFrame = (f) => setTimeout(f, 0);"   // no frame need come before the end
+      "const picture = document.getElementById('picture'), box = picture.getBoundingClientRect();"
+      "picture.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + box.width * " +
+          middle_of(kX) + ", clientY: box.top + box.height * " + middle_of(kY) + "}));");
   const Shown shown = open_page(address_of(page) + dump_of(1), box_->folder + "/one");
   const std::vector<float> lux = values_of(shown);
   ASSERT_EQ(lux.size(), static_cast<std::size_t>(kSide * kSide));
