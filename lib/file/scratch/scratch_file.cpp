@@ -16,7 +16,7 @@
 namespace phos::inline file {
 namespace {
 
-constexpr std::size_t kCollected = std::size_t{256} << 10;
+constexpr std::size_t kCollected = std::size_t{64} << 10;
 
 std::string folder_for(const std::string& output) {
   std::error_code ignored;

@@ -119,12 +119,12 @@ class Blocks {
 
 void compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents,
                    const std::function<void(std::span<const std::byte>, std::size_t)>& give) {
-  constexpr std::size_t kAtATime = 256;
+  const std::size_t at_a_time = std::max<std::size_t>(64, 2 * static_cast<std::size_t>(thread_count()));
   const Blocks blocks(contents, header.size());
   std::vector<std::byte> piece(header.begin(), header.end());
-  std::vector<std::vector<std::byte>> compressed(kAtATime);
-  for (std::size_t begin = 0; begin < blocks.count(); begin += kAtATime) {
-    const std::size_t n = std::min(kAtATime, blocks.count() - begin);
+  std::vector<std::vector<std::byte>> compressed(at_a_time);
+  for (std::size_t begin = 0; begin < blocks.count(); begin += at_a_time) {
+    const std::size_t n = std::min(at_a_time, blocks.count() - begin);
     parallel_for(n, 1, [&](std::size_t i) { compressed[i] = blocks.compressed(begin + i); });
     if (begin == 0) {
       const std::uint64_t first = compressed.front().size();
