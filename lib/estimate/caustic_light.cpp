@@ -65,10 +65,9 @@ LocalDensity CausticLight::on_surface(const Vec3& p, const Vec3& n, std::size_t 
     const float slab = slab_m(place, radius_m);
     map_->landed(p, n, k, slab, slab, radius_m, worker.map, worker.hits);
     estimate = density(radius_m, {}, worker);
-    if (estimate.settled || k == most_photons || !(radius_m < most_m_)) break;
     const float unsure_lx = luminance(estimate.stderr_lx());
     if (kLeastShare * enough_lx > luminance(estimate.irradiance) + 2 * unsure_lx) return estimate;
-    if (unsure_lx < enough_lx) break;
+    if (estimate.settled || k == most_photons || !(radius_m < most_m_) || unsure_lx < enough_lx) break;
   }
   if (!(radius_m > 0)) return {};
   if (worker.hits.empty()) return estimate;

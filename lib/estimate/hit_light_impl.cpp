@@ -26,6 +26,8 @@ constexpr float kLeastGloss = 0.25f;
 /// the mouldings of Sponza, by a million photons with a noise of 1.2 %, irradiance was 8 % off where all is
 /// read, 1.3 % off by 1/2, and 1.2 % off by 1 and by 2.
 constexpr double kNear = 0.5;
+/// An error of this part of the light at a place is no matter: a record has many rays.
+constexpr float kNoMatter = 0.02f;
 /// So often at most, from one such place to the next.
 constexpr std::uint32_t kMostFollowed = 8;
 
@@ -76,10 +78,11 @@ Rgb HitLight::Impl::cached_lx(const SurfacePoint& point, std::uint64_t item, Wor
   return lux;
 }
 
-/// Caustic light that records do not hold; 0: they do.
-LocalDensity HitLight::Impl::caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker) {
+/// Caustic light that records do not hold; 0: they do. `other_lx`: light of other ways there.
+LocalDensity HitLight::Impl::caustic(const CausticLight* light, const SurfacePoint& point, float other_lx,
+                                     Worker& worker) {
   if (!light) return {};
-  return light->on_surface(point.position, point.smooth_normal, worker.caustics);
+  return light->on_surface(point.position, point.smooth_normal, worker.caustics, kNoMatter * other_lx);
 }
 
 /// May a walk that begins at the record, or after as many places that were followed instead of read, count
@@ -111,7 +114,7 @@ Rgb HitLight::Impl::indirect(const SurfacePoint& point, const Vec3& wo, const Rg
                              std::uint32_t followed, Worker& worker) const {
   const std::uint64_t item = ray.key();
   Rgb lux = cached_lx(point, item, worker);
-  const Rgb apart = caustic(source.caustics, point, worker).irradiance;
+  const Rgb apart = caustic(source.caustics, point, luminance(lux), worker).irradiance;
   const bool cut = kPi * max_component(glm::abs(f)) > kMostFollowedThroughput || worker.dark >= kMostDark;
   if (followed == kMostFollowed || cut || !is_near(point, lux)) {
     lux += apart;
@@ -189,7 +192,7 @@ std::optional<Rgb> HitLight::Impl::recorded(const SurfacePoint& point, const Bsd
   if (light->weight > 0) {
     if (!source.gloss_caustics) return light->radiance;
     return light->radiance +
-           CausticLight::gloss(caustic(source.gloss_caustics, point, worker), bsdf, wo, worker.caustics);
+           CausticLight::gloss(caustic(source.gloss_caustics, point, 0, worker), bsdf, wo, worker.caustics);
   }
   ++worker.without_radiance;
   return {};

@@ -72,7 +72,8 @@ struct HitLight::Impl {
   }
   Rgb cached_lx(const SurfacePoint& point, std::uint64_t item, Worker& worker) const;
   Rgb reflectance(const SurfacePoint& point) const;
-  static LocalDensity caustic(const CausticLight* light, const SurfacePoint& point, Worker& worker);
+  static LocalDensity caustic(const CausticLight* light, const SurfacePoint& point, float other_lx,
+                              Worker& worker);
   bool counts_lamps_in_mirrors(std::uint32_t followed) const;
   bool is_near(const SurfacePoint& point, const Rgb& lux) const;
   double common_error(const SurfacePoint& point) const;

@@ -13,6 +13,8 @@ namespace {
 /// This part of the paths goes to all mirrors and pieces of glass alike, the rest by their area: so each has
 /// many, and large ones are no noisier than they must be.
 constexpr double kAlike = 0.5;
+/// Targets that turn as much of the light as this get as many paths as there are others.
+constexpr double kMostTurned = 0.5;
 
 double area_of(const Scene& scene, std::uint32_t triangle) {
   const auto& v = scene.triangle[triangle].v;
@@ -38,11 +40,18 @@ CausticAim::CausticAim(const RayScene& rays) : rays_(rays), luminaires_(rays.sce
     }
     if (!(target.area_m2 > 0)) continue;
     area += target.area_m2;
+    turned_ = std::max(turned_, turned_share(scene, instance.material));
     target_.push_back(std::move(target));
   }
   for (Target& target : target_)
     target.share = kAlike / static_cast<double>(target_.size()) + (1 - kAlike) * target.area_m2 / area;
   far_m_ = 2.002f * scene.bounds.diagonal_m();
+}
+
+std::uint64_t CausticAim::paths_for(std::uint64_t paths) const {
+  const double turned = static_cast<double>(turned_);
+  if (turned >= kMostTurned) return paths;
+  return static_cast<std::uint64_t>(std::ceil(turned * static_cast<double>(paths)));
 }
 
 CausticAim::Start CausticAim::start(std::size_t light, RandomStream& random) const {

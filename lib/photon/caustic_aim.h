@@ -23,6 +23,10 @@ class CausticAim {
   bool takes(std::uint32_t material) const { return taken_[material] != 0; }
   /// Is there anything to aim at?
   bool empty() const { return target_.empty(); }
+  /// Number of aimed paths that go well with `paths` others: as many where a mirror or glass turns at least
+  /// half of the light that comes to it, and else in proportion to the share that is turned (turned_share()).
+  /// Where there are only panes, a sixth does.
+  std::uint64_t paths_for(std::uint64_t paths) const;
 
   struct Start {
     EmittedPhoton photon;  ///< flux 0: no light goes there
@@ -44,7 +48,8 @@ class CausticAim {
   Luminaires luminaires_;
   std::vector<std::uint8_t> taken_;  // by material
   std::vector<Target> target_;
-  float far_m_ = 0;  // longer than any way within the scene
+  float turned_ = 0;  // the largest share of light that a target turns
+  float far_m_ = 0;   // longer than any way within the scene
 };
 
 }  // namespace phos::inline photon

@@ -115,7 +115,8 @@ void declare_options(Options& options, PhotonOptions& p) {
   options.integer("caustic-photons", p.caustic_paths, "N",
                   "number of paths aimed from the lamps at mirrors and glass, in scenes that have them; "
                   "these paths find all light that reaches surfaces by way of mirrors and glass alone. -1: "
-                  "as many as --photons; 0: none, and --photons find this light by chance",
+                  "as many as --photons, or fewer where panes turn little of the light; 0: none, and "
+                  "--photons find this light by chance",
                   {-1, 0x1p40}, Recorded::unless_default);
   options.number("minimum-share", p.minimum_share, "SHARE",
                  "least number of paths of a light, as a share of the equal share, so that small lamps are "
@@ -141,11 +142,12 @@ Photons trace_photons(const RayScene& rays, const PhotonOptions& options, std::u
   if (options.paths == 0) return photons;
   const Emitter emitter(rays.scene(), options.minimum_share, totals.emitted, seed);
   totals.flux_exponent = emitter.flux_exponent();
-  const std::uint64_t aimed =
-      static_cast<std::uint64_t>(options.caustic_paths < 0 ? options.paths : options.caustic_paths);
   std::optional<CausticAim> aim;
-  if (aimed > 0 && casts_caustics(rays.scene())) aim.emplace(rays);
+  if (options.caustic_paths != 0 && casts_caustics(rays.scene())) aim.emplace(rays);
   if (aim && aim->empty()) aim.reset();
+  const std::uint64_t aimed = options.caustic_paths >= 0 ? static_cast<std::uint64_t>(options.caustic_paths)
+                              : aim                      ? aim->paths_for(totals.emitted)
+                                                         : 0;
   const PathTracer tracer(rays, emitter, aim ? &*aim : nullptr, totals.emitted, aimed, seed, log != nullptr);
   Progress progress("photons", range.count, "paths");
   std::vector<PathPart> parts;

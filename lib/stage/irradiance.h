@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kIrradianceAlgorithm = 23;
+inline constexpr int kIrradianceAlgorithm = 24;
 
 struct IrradianceCommand {
   std::vector<std::string> inputs;

@@ -10,7 +10,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kPhotonsAlgorithm = 7;
+inline constexpr int kPhotonsAlgorithm = 8;
 
 struct PhotonsCommand {
   std::string scene_path;

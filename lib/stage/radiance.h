@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 20;
+inline constexpr int kRadianceAlgorithm = 21;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;

@@ -14,7 +14,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kSenseAlgorithm = 15;
+inline constexpr int kSenseAlgorithm = 16;
 
 struct SenseCommand {
   std::vector<std::string> inputs;  ///< scene and caches

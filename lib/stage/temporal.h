@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 22;
+inline constexpr int kTemporalAlgorithm = 23;
 
 enum class RecordKind { irradiance, radiance };
 

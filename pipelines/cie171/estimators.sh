@@ -19,8 +19,13 @@ from_rays() {
 
 # Path tracing at each point.
 estimate_exact() { sense --exact --samples 4000000 --error "$error"; }
-# Photons counted about each point, photons of direct light included.
+# Records of photons for indirect light. Direct light comes from shadow rays. These are the default settings of the programs.
 estimate_records() {
+  from_photons
+  sense "$folder/light.irradiance" --light-samples "$light_samples"
+}
+# Photons counted about each point, photons of direct light included.
+estimate_photons() {
   from_photons --direct cached
   sense "$folder/light.irradiance" --light-samples 0
 }

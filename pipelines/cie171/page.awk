@@ -41,9 +41,9 @@ END {
     "same integrals (to 2e-6), because the tables of the report have errata and coarse quadratures. The values of cases 5.9 to 5.14 are percent of " \
     "the illuminance on open ground under the same sky. The sun stands 60 degrees high in the south and is hidden: it shapes the sky, and gives no " \
     "light of its own.")
-  paragraph("The estimator \"exact\" traces paths at each point. \"Records\" counts the photons about each point, photons of direct light included. " \
+  paragraph("The estimator \"exact\" traces paths at each point. \"Records\" counts photons about each point, and takes direct light from shadow rays. " \
     "\"Gathered\" sends rays that read records of photons, and takes direct light from shadow rays. \"Cached\" is as \"gathered\", with direct light " \
-    "in the records. \"Picture\" reads the pixels of a picture of phos-splat.")
+    "in the records. \"Picture\" reads the pixels of a picture of phos-splat. \"Photons\" is as \"records\", but counts direct light too.")
   paragraph("Of " all " values, " all - all_outside " (" sprintf("%.1f", 100 * (all - all_outside) / all) " %) are within 2 % or two standard errors of the " \
     "true value. Where the standard error is above 1 %, chance alone puts one value in 22 outside. Settings: " settings ".")
   if (format == "html") print "<table>"

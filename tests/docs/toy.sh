@@ -29,6 +29,7 @@ if given --frames && [[ $value == *:* ]]; then
   first=${value%%:*} last=${value##*:}
   ((last <= first + 2)) || replace "$first:$((first + 2))"
 fi
+most --frame 2 # films have three frames
 case $name in
   phos-photons) most --photons 20000; add --photons 20000; most --caustic-photons 20000 ;;
   phos-irradiance | phos-radiance | phos-temporal)

@@ -32,7 +32,9 @@ echo "$(basename "$package"), $(du -h "$package" | cut -f1)"
 for need in libosmesa6 jq libembree libc6; do
   [[ $(field Depends) == *"$need"* ]] || wrong "it does not depend on $need: $(field Depends)"
 done
-[[ $(field Suggests) == libegl1 ]] || wrong "it does not suggest libegl1: $(field Suggests)"
+for aid in libegl1 snakemake slurm-client parallel; do
+  [[ $(field Suggests) == *"$aid"* ]] || wrong "it does not suggest $aid: $(field Suggests)"
+done
 TMPDIR=$scratch lintian --allow-root --fail-on error "$package" >"$scratch/log" 2>/dev/null || wrong "lintian finds errors"
 sed 's/^/lintian: /' "$scratch/log"
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "hsh/basis.h"
 
 namespace phos::inline radiance {
@@ -25,9 +26,8 @@ std::size_t entry_at(const BrdfTable& table, double x, double y) {
 }
 
 template <class Value>
-DiscPlot plot_of(std::span<const BrdfTable> tables, const Value& value) {
-  DiscPlot plot;
-  plot.absent = "traced";
+DiscPlot plot_of(std::span<const BrdfTable> tables, const char* unit, const Value& value) {
+  DiscPlot plot{.rows = {}, .title = {}, .unit = unit, .absent = "traced"};
   std::vector<Disc>& row = plot.rows.emplace_back();
   for (const BrdfTable& table : tables)
     row.push_back({table.material, [&table, value](double x, double y) {
@@ -38,10 +38,9 @@ DiscPlot plot_of(std::span<const BrdfTable> tables, const Value& value) {
 }
 
 DiscPlot errors(std::span<const BrdfTable> tables) {
-  DiscPlot plot = plot_of(tables, [](const BrdfTable& table, std::size_t e) {
+  DiscPlot plot = plot_of(tables, "%", [](const BrdfTable& table, std::size_t e) {
     return 100 * static_cast<double>(table.error[e]);
   });
-  plot.unit = "%";
   double most = 0;
   for (const BrdfTable& table : tables) most = std::max(most, summarize(table).worst_error);
   plot.hi = most > 0 ? round_up_125(100 * most) : 1;
@@ -50,7 +49,7 @@ DiscPlot errors(std::span<const BrdfTable> tables) {
 
 DiscPlot orders(std::span<const BrdfTable> tables) {
   DiscPlot plot = plot_of(
-      tables, [](const BrdfTable& table, std::size_t e) { return static_cast<double>(table.orders[e]); });
+      tables, "", [](const BrdfTable& table, std::size_t e) { return static_cast<double>(table.orders[e]); });
   plot.hi = kLeastOrderScale;
   for (const BrdfTable& table : tables) plot.hi = std::max(plot.hi, static_cast<double>(table.order));
   return plot;
@@ -62,8 +61,12 @@ DiscPlot harmonics(std::span<const BrdfTable> tables) {
   if (order == 0)
     throw Error(ExitCode::bad_input, "", "all directions are traced: the tables have no harmonics to draw");
   const auto basis = std::make_shared<const HarmonicBasis<double>>(order);
-  DiscPlot plot;
-  plot.unit = "1/sqrt(sr)", plot.about_zero = true, plot.diameter = kHarmonicPixels;
+  DiscPlot plot{.rows = {},
+                .title = {},
+                .unit = "1/sqrt(sr)",
+                .about_zero = true,
+                .absent = {},
+                .diameter = kHarmonicPixels};
   for (int l = 0; l < order; ++l) {
     std::vector<Disc>& row = plot.rows.emplace_back();
     for (int m = -l; m <= l; ++m)

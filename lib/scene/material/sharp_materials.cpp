@@ -30,14 +30,17 @@ bool reflects_sharply(const Material& m) {
   return gloss.kind == GlossWidth::Kind::rough && std::min(gloss.alpha_x, gloss.alpha_y) < kSharpAlpha;
 }
 
-bool turns_light(const Scene& scene, std::uint32_t material) {
-  const Vec3 slanted(0.6f, 0, 0.8f);
+float turned_share(const Scene& scene, std::uint32_t material) {
+  const Vec3 slanted(std::sqrt(0.75f), 0, 0.5f);
   BsdfSample branch[2];
   const int branches = Bsdf(scene, material).specular_branches(slanted, branch);
+  float share = 0;
   for (int b = 0; b < branches; ++b)
-    if (!branch[b].straight && max_component(branch[b].weight) > 0) return true;
-  return false;
+    if (!branch[b].straight) share += max_component(branch[b].weight);
+  return share;
 }
+
+bool turns_light(const Scene& scene, std::uint32_t material) { return turned_share(scene, material) > 0; }
 
 bool casts_caustics(const Scene& scene) {
   for (std::uint32_t m = 0; m < scene.material.size(); ++m)

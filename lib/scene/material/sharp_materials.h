@@ -18,6 +18,9 @@ bool reflects_as_mirror(const Material& material);
 /// Does a material reflect or refract light as a mirror or smooth glass does, its textures at their mean?
 /// Films and sheets that pass light straight and reflect none do not.
 bool turns_light(const Scene& scene, std::uint32_t material);
+/// Share of light from 60 degrees off the normal that it turns so, of the colour that it turns most. About
+/// 0.17 of a clear pane, nearly 1 of solid glass.
+float turned_share(const Scene& scene, std::uint32_t material);
 /// Does any material, so that light of a lamp can reach surfaces by way of mirrors or glass (caustic light)?
 bool casts_caustics(const Scene& scene);
 
