@@ -101,12 +101,14 @@ const PhotonTotals& MergeOnDisk::totals() const { return impl_->header.totals; }
 /// Of all positions, after a look at every number of every shard.
 Bounds MergeOnDisk::Impl::checked_bounds() const {
   Bounds found;
+  Progress progress("checking shards", shards.size(), "shards");
   for (const PhotonShard& s : shards) {
     const Container& file = s.shard.file;
     file.require_sound_in(std::clamp<std::size_t>(memory_bytes / 8, 4096, std::size_t{16} << 20));
     for_parts(file, s.columns.position, [&](std::span<const Vec3> part) {
       for (const Vec3& p : part) found.include(p);
     });
+    progress.advance();
   }
   KdTree::require_fit(static_cast<std::size_t>(header.totals.stored));
   return found;

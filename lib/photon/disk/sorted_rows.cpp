@@ -5,6 +5,7 @@
 
 #include "core/interrupt.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 
 namespace phos::inline photon {
 namespace {
@@ -63,11 +64,13 @@ SortedRows::SortedRows(std::span<const PhotonShard> shards, const Bounds& bounds
 }
 
 void SortedRows::add_runs(std::span<const PhotonShard> shards, std::size_t rows_of_run) {
-  std::size_t shard = 0, row = 0;
-  for (std::size_t rest = rows_of(shards); rest > 0;) {
+  std::size_t shard = 0, row = 0, rest = rows_of(shards);
+  Progress progress("sorting photons", rest, "photons");
+  while (rest > 0) {
     const std::size_t count = std::min(rest, rows_of_run);
     add_run(shards, shard, row, count);
     rest -= count;
+    progress.advance(count);
     for (row += count; shard < shards.size() && row >= shards[shard].columns.position.size(); ++shard)
       row -= shards[shard].columns.position.size();
   }

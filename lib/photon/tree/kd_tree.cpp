@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "file/mapped_file.h"
 #include "file/scratch/scratch_file.h"
 #include "photon/limits.h"
@@ -271,13 +272,16 @@ void KdTree::save_on_disk(ScratchFile& points, std::size_t count, std::uint64_t 
   build_tree_on_disk(points, count, kLeafSize, memory_bytes, output, file);
   const flann::IndexHeader header = header_of(count);
   const std::span<const std::byte> contents = file.map();
+  Progress progress("compressing the kd-tree", contents.size(), "bytes");
   std::size_t released = 0;
   compress_tree(std::as_bytes(std::span(&header, 1)), contents,
                 [&](std::span<const std::byte> piece, std::size_t done) {
                   saved.write(piece);
                   release_pages(contents.subspan(released, done - released));
+                  progress.advance(done - released);
                   released = done;
                 });
+  progress.advance(contents.size() - released);
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {

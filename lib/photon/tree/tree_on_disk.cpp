@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/interrupt.h"
+#include "core/progress.h"
 #include "photon/tree/build.h"
 #include "photon/tree/split.h"
 
@@ -26,7 +27,10 @@ class TreeOnDisk {
 
   void write(std::size_t count, ScratchFile& contents) {
     Bounds box = tight_box_of(0, count);
-    divide(0, count, box);
+    {
+      Progress progress("building the kd-tree", count, "photons");
+      divide(0, count, box, progress);
+    }
     contents.write(saved_index(count, leaf_size_, box));
     Column<std::int32_t> rows;
     for_points(0, count, [&](std::span<const TreePoint> points) {
@@ -73,12 +77,13 @@ class TreeOnDisk {
   }
 
   /// `box` becomes the one about the points.
-  void divide(std::size_t begin, std::size_t end, Bounds& box) {
+  void divide(std::size_t begin, std::size_t end, Bounds& box, Progress& progress) {
     throw_if_interrupted();
     if (end - begin <= in_memory_) {
       Column<TreePoint> points = read(begin, end);
       nodes_.write(build_nodes(points, begin, leaf_size_, box));
       write_back(begin, points);
+      progress.advance(end - begin);
       return;
     }
     const std::uint64_t at = nodes_.size();
@@ -86,8 +91,8 @@ class TreeOnDisk {
     const TreeSplit split = split_on_disk(begin, end, box);
     Bounds first = box, second = box;
     first.hi[split.axis] = second.lo[split.axis] = split.plane;
-    divide(begin, begin + split.first, first);
-    divide(begin + split.first, end, second);
+    divide(begin, begin + split.first, first, progress);
+    divide(begin + split.first, end, second, progress);
     nodes_.write_at(at, saved_node(split.axis, first, second));
     box = box_of_both(first, second);
   }

@@ -88,6 +88,7 @@ for ((i = 0; i < 600; ++i)); do
 done
 site_kill node2
 scontrol update nodename=node2 state=down reason=test
+refused 3 "still in Slurm's queue" cluster box.yaml dies --profile sbatch
 site_node node2
 scontrol update nodename=node2 state=resume
 # Slurm lets jobs of dead nodes wait for two minutes
@@ -100,12 +101,12 @@ grep -c '^\$ ' -r dies/log/*/ | grep -q ':2$' || wrong "dies: no job was lost wi
 
 step "an array is cancelled"
 cluster box.yaml cancelled --profile sbatch
-wait_for 60 stored cancelled photons 1
-refused 3 "still in Slurm's queue" cluster box.yaml cancelled --profile sbatch
+wait_for 120 stored cancelled photons 1
 scancel --name="phos-$(<cancelled/.shared)"
 wait_for 60 idle
 stamps cancelled >before
 [[ ! -e cancelled/results/results.csv ]] || wrong "cancelled: was not cancelled in time"
+[[ -z $(find cancelled/store/sense -type f 2>/dev/null) ]] || wrong "cancelled: little was left to do"
 cluster box.yaml cancelled --profile sbatch --wait yes
 check_results cancelled truth
 stamps cancelled | comm -23 before - >lost
