@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 
 #include "core/error.h"
 #include "file/mapped_file.h"
@@ -109,6 +110,7 @@ std::span<const std::byte> ScratchFile::map() {
   unwritten_ = {};
   if (!mapping_.empty() || size_ == 0) return mapping_;
   void* const mapping = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, fd_, 0);
+  if (mapping == MAP_FAILED && errno == ENOMEM) throw std::bad_alloc();
   if (mapping == MAP_FAILED) fail("map", errno);
   mapping_ = {static_cast<const std::byte*>(mapping), static_cast<std::size_t>(size_)};
   return mapping_;

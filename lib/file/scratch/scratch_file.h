@@ -11,7 +11,8 @@ namespace phos::inline file {
 
 /// A file without a name that goes with the process, however that ends. It lies in the folder of an output,
 /// where there is room for the output; in the system's folder for temporary files where the output is no
-/// regular file. Every failure (no right, full disk) throws Error(bad_input) with the reason.
+/// regular file. Every failure (no right, full disk) throws Error(bad_input) with the reason; map() throws
+/// std::bad_alloc where the address space is full.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& output);
