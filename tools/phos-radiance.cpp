@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                  "to gather from");
   declare_options(options, asked.scene);
   declare_options(options, asked.gloss);
+  declare_options(options, asked.store);
   declare_options(options, asked.radiance);
   declare_place_options(options, asked.placement);
   declare_isa(options, asked.isa);

@@ -27,7 +27,9 @@ int main(int argc, char** argv) {
   declare_options(options, asked.job.options);
   declare_light_options(options, asked.scene);
   declare_options(options, asked.gloss);
+  declare_options(options, asked.store);
   declare_options(options, asked.job.light.records);
+  declare_footprint_options(options, asked.job.light.records);
   declare_raster_options(options, asked.job.light.records, Recorded::unless_default);
   declare_place_options(options, asked.job.placement);
   declare_isa(options, asked.isa);

@@ -193,7 +193,7 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
       "zone that a record serves: circle: a disc. With --estimate gather also circle-min: a disc by the "
       "least distance; circle-harmonic: a disc by the harmonic mean distance, which shrinks where "
       "neighbouring records disagree; adaptive: eight axes, each with its length and its change of light "
-      "(half the records, each at more cost; drawn on the CPU)",
+      "(half the records, each at more cost)",
       {Recorded::unless_default, Adopted::estimate});
   options.number("rho", r.rho, "R",
                  "with --footprint adaptive: relative error of light along an axis, which is halved until "

@@ -65,8 +65,7 @@ const Json& member(const Json& entry, const std::string& where, const std::strin
 }
 
 Dtype as_dtype(const Json& v, const std::string& where, const std::string& tensor) {
-  for (const Dtype d :
-       {Dtype::u8, Dtype::u16, Dtype::i32, Dtype::u32, Dtype::i64, Dtype::u64, Dtype::f32, Dtype::f64})
+  for (const Dtype d : kDtypes)
     if (v.is_string() && v.as_string() == dtype_name(d)) return d;
   damaged(where, text("tensor \"", tensor, "\" has the unknown dtype ", v.dump()));
 }

@@ -64,8 +64,7 @@ float RadiusRules::lower(std::size_t record, float radius_m) {
 float RadiusRules::radius_m(std::size_t i) const {
   const IrradianceRecord& r = made_[i].record;
   if (!r.footprint) return within_bounds_m(std::min(clamp_.radius_m(i), limit_m_[i]), made_[i], bounds_);
-  const float least_m = bounds_.least_m * (r.footprint->longest_m() / r.footprint->shortest_m());
-  return std::min(r.radius_m, std::max(limit_m_[i], least_m));
+  return std::min(r.radius_m, std::max(limit_m_[i], least_radius_m(bounds_, r)));
 }
 
 void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<RadianceRecord>* radiance) {
@@ -96,6 +95,10 @@ void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<Rad
 void RadiusRules::count_into(Counters& counters) const {
   if (clamped_to_neighbour_ > 0) counters.count(kClampedEvent, clamped_to_neighbour_);
   if (raised_to_least_ > 0) counters.count(kRaisedEvent, raised_to_least_);
+}
+
+float least_radius_m(const RadiusBounds& bounds, const IrradianceRecord& shaped) {
+  return bounds.least_m * (shaped.footprint->longest_m() / shaped.footprint->shortest_m());
 }
 
 float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& bounds) {

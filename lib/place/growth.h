@@ -23,6 +23,9 @@ struct RadiusBounds {
 /// A radius within the bounds of its record, and then of all.
 float within_bounds_m(float radius_m, const Made& made, const RadiusBounds& bounds);
 
+/// The least radius of a record with a footprint: its shortest axis keeps the least radius.
+float least_radius_m(const RadiusBounds& bounds, const IrradianceRecord& shaped);
+
 /// Final radii of records in the order in which they come (docs/methods.md#a7): clamped to their neighbours
 /// as they were made, and only then to the bounds, so that a lower bound does not spread. Records with
 /// footprints have looked in eight directions, and in bounds, when they were made: they neither clamp nor are

@@ -90,7 +90,21 @@ inline constexpr double kFewUntrusted = 0.1;
 /// the number from above; a third is chosen.
 inline constexpr double kLeastGain = 1.0 / 3;
 
+/// Part of the frames of a film at which the light of a record is computed (computed_share of phos-temporal).
+/// Frames 0 to 39 at 48 pixels wide: cube-in-a-box 0.13, moving-light 0.13, spheres 0.17.
+inline constexpr double kFilmLight = 0.15;
+
 // 3. Rules of thumb.
+
+/// Radiance records show gloss where that is predicted to take less than this part of the time of rays (where
+/// seconds are asked for: to leave less than this part of the error). Both predictions are in doubt by
+/// kTimeDoubt, and by kErrorDoubt of the mean square.
+inline constexpr double kLeastGlossGain = 0.75;
+/// Relative change of light that the records of a film may miss, over the error asked for; kMostFilmChange at
+/// most.
+inline constexpr double kFilmChange = 1;
+/// The default of phos-temporal --temporal-accuracy.
+inline constexpr double kMostFilmChange = 0.05;
 
 /// Power of the number of pixels: seconds of more samples in the pixels in which surfaces meet. Lone edges
 /// have 0.5, textures 1.

@@ -15,6 +15,7 @@ Json json_of(const Prediction& p, const PlanTask& task) {
   Json out;
   Json& settings = out["settings"];
   for (const Knob knob : {Knob::photons, Knob::accuracy}) settings[name_of(knob)] = p.knobs[at(knob)];
+  if (task.cached_gloss) settings["gloss"] = "cached";
   if (!task.by_photons) settings[name_of(Knob::rays)] = p.knobs[at(Knob::rays)];
   if (task.image) {
     for (const Knob knob : {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays})
@@ -36,6 +37,7 @@ Json plan_json(const PlanTask& task, const Needs& needs, const Pilot& pilot, con
   out["scene"] = task.scene;
   Json& asked = out["asked"];
   asked["quantity"] = task.image ? (task.lux ? "both" : "image") : "lux";
+  if (task.frames) asked["frames"] = Json::Array{task.frames->first, task.frames->last};
   if (goal.error) asked["error"] = *goal.error;
   if (goal.seconds) asked["seconds"] = *goal.seconds;
   if (task.image) out["size"] = Json::Array{task.width, task.height};

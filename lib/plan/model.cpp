@@ -13,9 +13,9 @@ constexpr double kNormal95 = 1.6449;  ///< 95th percentile of the standard norma
 }  // namespace
 
 const char* name_of(Knob knob) {
-  constexpr const char* kNames[] = {"photons",      "accuracy",     "rays",       "pixel_samples",
-                                    "edge_samples", "light_rays",   "gloss_rays", "sensor_rays",
-                                    "records",      "records_read", "pixels"};
+  constexpr const char* kNames[] = {"photons",      "accuracy",      "rays",         "pixel_samples",
+                                    "edge_samples", "light_rays",    "gloss_rays",   "sensor_rays",
+                                    "records",      "gloss_records", "records_read", "pixels"};
   return kNames[at(knob)];
 }
 

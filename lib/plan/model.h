@@ -24,6 +24,7 @@ enum class Knob : std::size_t {
   gloss_rays,     ///< of a pixel on a glossy surface
   sensor_rays,    ///< shadow rays of a sensor to each area light
   records,        ///< that lie where they are wanted
+  gloss_records,  ///< radiance records beside them, on gloss that the camera sees
   read,           ///< of them, of a place: records_read()
   pixels,         ///< of the picture
   count

@@ -28,6 +28,7 @@ void declare_options(Options& options, PlanOptions& p) {
   options.integer("height", p.height, "PIXELS",
                   "height of the picture; 0: from the width; both 0: 1000 on the longer side",
                   {0, kMostPictureSide.as<double>()});
+  declare_frames(options, p.frames, Recorded::no);
   options.section("Sensors");
   options.file("sensors", p.points,
                "CSV with the columns x,y,z,nx,ny,nz in metres, and id where wanted, or six numbers a line");
@@ -50,6 +51,12 @@ void declare_options(Options& options, PlanOptions& p) {
            calibration::kManyLamps,
            " lamps of an extent or more (the environment is one), takes twice the pilot, and keeps the "
            "records where they promise a third of the time or of the error"));
+  options.choice<PlanGloss>(
+      "gloss", p.gloss,
+      {{"auto", PlanGloss::automatic}, {"cached", PlanGloss::cached}, {"traced", PlanGloss::traced}},
+      text("gloss that harmonics hold: cached: by radiance records; traced: by rays; auto: tries both for a "
+           "picture, takes twice the pilot, and keeps the records where they promise ",
+           percent(calibration::kLeastGlossGain), " of the time or of the error, or less"));
   options.choice<PlanRecords>(
       "estimate", p.records,
       {{"auto", PlanRecords::automatic}, {"gather", PlanRecords::gather}, {"hull", PlanRecords::hull}},
@@ -97,6 +104,21 @@ PlanGoal goal_of(const Options& options, const PlanOptions& p) {
   if (p.seconds > 0) goal.seconds = p.seconds;
   if (!goal.error && !goal.seconds)
     throw Error(ExitCode::usage, "", "no goal is given; give --error 5% or --seconds 60");
+  if (options.given("frames")) {
+    const auto refuse = [](const char* what, const char* why) { throw Error(ExitCode::usage, what, why); };
+    parse_frames(p.frames);
+    if (!goal.error || goal.seconds)
+      refuse("--seconds",
+             "does not go with --frames: the time of a film depends on how its light changes; give --error");
+    if (p.run) refuse("--run", "measures one picture, not a film; leave it out, and run the script");
+    for (const char* name : {"frame", "time"})
+      if (options.given(name))
+        refuse("--frames", "plans a film, and --frame or --time one picture; give one");
+    if (p.direct == PlanDirect::cached)
+      refuse("--direct", "cached is for one picture: records of a film hold indirect light; leave it out");
+    if (p.quantity != PlanOptions::Of::image)
+      refuse("--quantity", "of a film is image: phos-sense --frames reads lux; leave it out");
+  }
   if (p.json && p.script) throw Error(ExitCode::usage, "--json", "and --sh exclude each other; give one");
   if (p.run && p.output.empty())
     throw Error(ExitCode::usage, "--run", "needs a folder for its files: -o folder");
@@ -134,10 +156,15 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
   if (!scene_options.portals.empty()) add(words, "--portals", scene_options.portals);
   for (const std::string& word : luminaire_words(scene_options.luminaires)) words.push_back(word);
   for (const std::string& word : band_words(scene_options.bands)) words.push_back(word);
+  if (!p.frames.empty()) task.frames = parse_frames(p.frames);
   task.image = p.quantity != PlanOptions::Of::lux, task.lux = p.quantity != PlanOptions::Of::image;
   if (task.lux && p.direct == PlanDirect::cached)
     throw Error(ExitCode::usage, "--direct",
                 "cached is for pictures: sensors always send shadow rays; leave it out");
+  if (p.gloss == PlanGloss::cached && (task.lux || p.direct == PlanDirect::cached))
+    throw Error(ExitCode::usage, "--gloss",
+                text("cached does not go with ", task.lux ? "sensors, which see no gloss" : "--direct cached",
+                     "; leave one of them out"));
   for (const char* name : {"camera", "width", "height"})
     if (!task.image && options.given(name))
       throw Error(ExitCode::usage, text("--", name),

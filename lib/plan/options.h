@@ -6,6 +6,7 @@
 #include "core/options.h"
 #include "plan/direct.h"
 #include "plan/estimate.h"
+#include "plan/gloss.h"
 #include "scene/load.h"
 #include "sense/grid.h"
 
@@ -16,9 +17,11 @@ struct PlanOptions {
   double seconds = 0;
   enum class Of { image, lux, both } quantity = Of::image;
   std::string camera, points, output;
+  std::string frames;  ///< "0:47"; "": one picture
   GridOptions grid;
   std::int64_t width = 0, height = 0;
   PlanDirect direct = PlanDirect::automatic;
+  PlanGloss gloss = PlanGloss::automatic;
   PlanRecords records = PlanRecords::automatic;
   double pilot_s = 10, reference_s = 0;
   std::int64_t rounds = 5;

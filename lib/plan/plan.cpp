@@ -50,9 +50,10 @@ std::vector<KnobGroup> groups_of(const PlanTask& task, const Pilot& pilot) {
                                        ? std::vector<double>{1}
                                        : rays_of_rings(task.lux ? calibration::kSensorRings : 2, 16384);
   KnobGroup records{{Knob::accuracy, Knob::rays}, {kAccuracies, rays}};
-  records.derived = {Knob::records, Knob::read};
-  records.derive = [count = pilot.records](Knobs& k) {
+  records.derived = {Knob::records, Knob::gloss_records, Knob::read};
+  records.derive = [count = pilot.records, gloss = pilot.gloss_records](Knobs& k) {
     k[at(Knob::records)] = count.at(k[at(Knob::accuracy)]);
+    k[at(Knob::gloss_records)] = gloss.at(k[at(Knob::accuracy)]);
     k[at(Knob::read)] = records_read(k[at(Knob::accuracy)]);
   };
   groups.push_back(records);

@@ -27,7 +27,7 @@ bool has(const std::vector<Requirement>& list, const char* what) {
   return std::any_of(list.begin(), list.end(), [&](const Requirement& r) { return r.what == what; });
 }
 
-/// What the report of gloss says, for one picture.
+/// The gloss that harmonics hold, or the reason why there is none.
 void tell_of_gloss(const Json& gloss, Needs& needs) {
   std::vector<std::string> recorded, sharp;
   std::int64_t least = 0, most = 0;
@@ -38,22 +38,21 @@ void tell_of_gloss(const Json& gloss, Needs& needs) {
     least = least == 0 ? order : std::min(least, order);
     most = std::max(most, order);
   }
-  std::string why;
   if (!recorded.empty()) {
-    why = text("harmonics of order ", least);
-    if (most > least) why += text(" to ", most);
-    why += " hold the lobes of " + list_of(recorded) +
-           ", but one picture is cheaper by rays; for several views use phos-brdf and phos-radiance";
+    needs.held_gloss = text("harmonics of order ", least);
+    if (most > least) needs.held_gloss += text(" to ", most);
+    needs.held_gloss += " hold the lobes of " + list_of(recorded);
   }
-  if (!sharp.empty())
-    why += text(why.empty() ? "" : "; ", "the lobes of ", list_of(sharp), " are too sharp for harmonics");
-  if (why.empty()) why = "nothing is glossy";
-  needs.unwanted.push_back({"radiance records", why});
+  const std::string too_sharp =
+      sharp.empty() ? "" : text("the lobes of ", list_of(sharp), " are too sharp for harmonics");
+  if (!recorded.empty() && !sharp.empty()) needs.held_gloss += " (" + too_sharp + ")";
+  if (recorded.empty())
+    needs.unwanted.push_back({"radiance records", sharp.empty() ? "nothing is glossy" : too_sharp});
 }
 
 }  // namespace
 
-Needs plan_needs(const Scene& scene, const Json& gloss) {
+Needs plan_needs(const Scene& scene, const Json& gloss, bool film) {
   Needs needs;
   needs.lit = !scene.light.empty();
   needs.animated = !scene.animation.empty();
@@ -62,11 +61,10 @@ Needs plan_needs(const Scene& scene, const Json& gloss) {
     if (r.what == "gloss") {
       needs.wanted.push_back({"traced gloss", r.why});
       needs.gloss = true;
-    } else if (r.what == "temporal data") {
+    } else if (r.what == "temporal data" && !film) {
       needs.unwanted.push_back(
-          {"temporal data",
-           text(r.why, ", and this plan is for one of them; for all: phos-temporal --frames 0:",
-                std::max<std::int64_t>(scene.frames, 1) - 1)});
+          {"temporal data", text(r.why, ", and this plan is for one of them; for all: --frames 0:",
+                                 std::max<std::int64_t>(scene.frames, 1) - 1)});
     } else {
       if (r.what == "specular tracing") needs.gloss = needs.specular = true;
       needs.wanted.push_back(r);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/json.h"
@@ -16,6 +17,7 @@ struct Needs {
   bool lit = false;            ///< there is a lamp
   bool gloss = false;          ///< something glossy, a mirror or glass: rays of the picture follow it
   bool specular = false;       ///< mirrors or smooth glass among them
+  std::string held_gloss;      ///< the gloss that harmonics hold, in words; "": none, and `unwanted` says why
   std::vector<LightWay> ways;  ///< of lamps to surfaces, by mirrors, curved glass or sharp gloss
   bool animated = false;
   std::int64_t frames = 0;
@@ -23,9 +25,9 @@ struct Needs {
   std::vector<Requirement> unwanted;  ///< the parts that it leaves out, and why
 };
 
-/// `gloss`: gloss_report() of the scene. A picture is one view: gloss is traced, and the gloss that
-/// radiance records could serve is named.
-Needs plan_needs(const Scene& scene, const Json& gloss);
+/// `gloss`: gloss_report() of the scene; `film`: of many frames of an animated scene. Whether radiance
+/// records show the gloss that harmonics hold is left to plan_gloss().
+Needs plan_needs(const Scene& scene, const Json& gloss, bool film);
 
 Json to_json(const Needs& needs);
 

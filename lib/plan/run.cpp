@@ -60,8 +60,9 @@ double left_over_s(const PlanTask& task, const Pilot& pilot, const Knobs& there,
   const auto same = [&](Knob knob) { return there[at(knob)] == knobs[at(knob)]; };
   std::vector<const char*> parts;
   if (same(Knob::photons)) parts.push_back("photons");
+  parts.push_back("lobes");
   if (same(Knob::photons) && same(Knob::accuracy) && same(Knob::rays) && !(task.image && task.lux))
-    parts.insert(parts.end(), {"coarse records", "records"});
+    parts.insert(parts.end(), {"coarse records", "records", "coarse records, for gloss", "gloss records"});
   double sum = 0;
   for (const char* name : parts)
     if (const Posynomial* p = pilot.time.find(name)) sum += p->best(knobs);
@@ -151,8 +152,8 @@ std::optional<Prediction> next_try(const PlanTask& task, const Pilot& pilot, dou
 }
 
 std::vector<std::string> files_of_run(bool with_sensors) {
-  std::vector<std::string> names = {kPlanPhotons, kPlanRecords, kPlanPicture,
-                                    kPlanLux,     "plan.json",  "plan.sh"};
+  std::vector<std::string> names = {kPlanPhotons, kPlanLobes, kPlanGloss,  kPlanRecords,
+                                    kPlanPicture, kPlanLux,   "plan.json", "plan.sh"};
   if (with_sensors) names.push_back(kPlanPoints);
   return names;
 }

@@ -74,7 +74,7 @@ void PlanRunner::measure(PlanRound& round) const {
     const Image image = read_image(file(kPlanPicture)), a = read_image(reference(false, 0)),
                 b = read_image(reference(false, 1));
     round.image = measure_picture(image, a, &b, {"beauty", true});
-    if (task_.cached_direct)
+    if (task_.records_hold_more())
       round.indirect = round.image->magnitude > 0 ? round.image->rmse / round.image->magnitude : 0;
     else if (image.has_layer("indirect") && a.has_layer("indirect") && round.image->magnitude > 0)
       round.indirect = measure_picture(image, a, &b, {"indirect", true}).rmse / round.image->magnitude;

@@ -21,7 +21,17 @@ Words view(const PlanTask& task) {
   Words words;
   if (!task.camera.empty()) words = {"--camera", task.camera};
   add(words, {"--width", std::to_string(task.width), "--height", std::to_string(task.height)});
+  if (task.frames) add(words, {"--frames", text(task.frames->first, ':', task.frames->last)});
   return words;
+}
+
+/// Where the light of records comes from: a file of photons, or of a film photons that phos-temporal traces.
+void add_light(Words& words, const PlanTask& task, const Knobs& k, const std::string& photons) {
+  if (task.frames)
+    add(words,
+        {"--photons", knob_word(k, Knob::photons), "--temporal-accuracy", shortest(task.temporal_accuracy)});
+  else
+    words.push_back(photons);
 }
 
 Words estimated(const PlanTask& task, const Knobs& k) {
@@ -51,10 +61,30 @@ Command photons_command(const PlanTask& task, const Knobs& knobs, const std::str
   return {"phos-photons", words, out};
 }
 
-Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                             const std::string& photons, const std::string& out) {
+Command lobes_command(const PlanTask& task, const std::string& scene, const std::string& out) {
+  return {"phos-brdf", of_scene(task, scene), out};
+}
+
+Command gloss_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                              const std::string& photons, const GlossFiles& files) {
   Words words = of_scene(task, scene);
-  add(words, {photons, "--place", "view"});
+  words.push_back(files.lobes);
+  add_light(words, task, knobs, photons);
+  add(words, {"--place", "view"});
+  add(words, view(task));
+  add(words, estimated(task, knobs));
+  if (task.pixels_of_final < 1)
+    add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
+  if (task.frames) add(words, {"--kind", "radiance"});
+  return {task.frames ? "phos-temporal" : "phos-radiance", words, files.records};
+}
+
+Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                             const std::string& photons, const std::string& out, const GlossFiles& gloss) {
+  Words words = of_scene(task, scene);
+  if (!gloss.empty()) add(words, {gloss.records, gloss.lobes});
+  add_light(words, task, knobs, photons);
+  add(words, {"--place", "view"});
   add(words, view(task));
   add(words, estimated(task, knobs));
   if (task.cached_direct)
@@ -65,7 +95,7 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
                                   task.typical_m)});
   if (task.pixels_of_final < 1)
     add(words, {"--min-radius-pixels", shortest(task.pixels_of_final / knobs[at(Knob::accuracy)])});
-  return {"phos-irradiance", words, out};
+  return {task.frames ? "phos-temporal" : "phos-irradiance", words, out};
 }
 
 Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
@@ -85,9 +115,10 @@ Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const s
 namespace {
 
 Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene, const std::string& cache,
-              const Words& light, const std::string& out) {
+              const GlossFiles& gloss, const Words& light, const std::string& out) {
   Words words = of_scene(task, scene);
   words.push_back(cache);
+  if (!gloss.empty()) add(words, {gloss.records, gloss.lobes});
   add(words, view(task));
   const std::int64_t samples = std::llround(knobs[at(Knob::pixel_samples)]),
                      asked = std::llround(knobs[at(Knob::edge_samples)]) - samples;
@@ -95,21 +126,22 @@ Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene
   add(words, {"--pixel-samples", std::to_string(samples)});
   if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
   add(words, light);
+  if (task.cached_direct) add(words, {"--splat", "cpu"});  // the faster one for footprints
   return {"phos-splat", words, out};
 }
 
 }  // namespace
 
 Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                        const std::string& cache, const std::string& out) {
+                        const std::string& cache, const std::string& out, const GlossFiles& gloss) {
   Words light{"--direct", "interleaved", "--light-samples", knob_word(knobs, Knob::light_rays)};
   if (task.gloss) add(light, {"--gloss-samples", knob_word(knobs, Knob::gloss_rays)});
-  return drawn(task, knobs, scene, cache, light, out);
+  return drawn(task, knobs, scene, cache, gloss, light, out);
 }
 
 Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                                 const std::string& cache, const std::string& out) {
-  return drawn(task, knobs, scene, cache,
+                                 const std::string& cache, const std::string& out, const GlossFiles& gloss) {
+  return drawn(task, knobs, scene, cache, gloss,
                {"--direct", "none", "--gloss-samples", "0", "--layers", "indirect"}, out);
 }
 
@@ -152,24 +184,36 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
   const std::string points = task.grid.empty() ? task.points : file(kPlanPoints);
   if (task.lux && !task.grid.empty())
     stage("sensors", "where the sensors are", points_command(task, scene, points));
-  stage("photons", "light from the lamps, and a tree over it", photons_command(task, knobs, scene, photons));
+  if (!task.frames)
+    stage("photons", "light from the lamps, and a tree over it",
+          photons_command(task, knobs, scene, photons));
+  GlossFiles gloss;
+  if (task.cached_gloss) {
+    gloss = {file(kPlanLobes), file(kPlanGloss)};
+    stage("lobes", "how glossy surfaces reflect, as harmonics", lobes_command(task, scene, gloss.lobes));
+    stage("gloss records", "light from every direction, on the gloss that the camera sees",
+          gloss_records_command(task, knobs, scene, photons, gloss));
+  }
   if (task.image)
     stage("records",
-          task.cached_direct
+          task.frames ? "indirect light where the camera looks, in records that live through the frames"
+          : task.cached_direct
               ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
                 "photons"
           : task.by_photons
               ? "indirect light where the camera looks, of the photons there"
               : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
-          view_records_command(task, knobs, scene, photons, records));
+          view_records_command(task, knobs, scene, photons, records, gloss));
   if (task.lux)
     stage(task.image ? "sensor records" : "records", "indirect light where the sensors are",
           sensor_records_command(task, knobs, scene, photons, points, task.image ? records : "", records));
   if (task.image)
-    stage("picture",
-          task.cached_direct ? "records drawn, what mirrors and gloss show by rays"
-                             : "records drawn, direct light and what mirrors and gloss show by rays",
-          picture_command(task, knobs, scene, records, file(kPlanPicture)));
+    stage(
+        "picture",
+        task.cached_direct  ? "records drawn, what mirrors and gloss show by rays"
+        : task.cached_gloss ? "records drawn, direct light and what mirrors and sharp gloss show by rays"
+                            : "records drawn, direct light and what mirrors and gloss show by rays",
+        picture_command(task, knobs, scene, records, file(task.frames ? kPlanFrames : kPlanPicture), gloss));
   if (task.lux)
     stage("lux", "direct light by rays, indirect light from the records",
           sense_command(task, knobs, scene, records, points, file(kPlanLux)));

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "file/frames.h"
 #include "plan/model.h"
 #include "study/command.h"
 
@@ -25,6 +27,18 @@ struct PlanTask {
   bool specular = false;          ///< mirrors or smooth glass are
   bool by_photons = false;        ///< records are made of photons alone (hull), not by gathered rays
   bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
+  bool cached_gloss = false;      ///< radiance records show the gloss that harmonics hold
+  std::optional<FrameRange> frames{};  ///< of a film; none: one picture
+  double temporal_accuracy = 0.05;     ///< relative change of light that records of a film may miss
+
+  /// Do the records hold light that references do not call indirect?
+  bool records_hold_more() const { return cached_direct || cached_gloss; }
+};
+
+/// The files of gloss by records; empty names: gloss is traced.
+struct GlossFiles {
+  std::string lobes, records;
+  bool empty() const { return records.empty(); }
 };
 
 /// One line of the pipeline.
@@ -36,28 +50,39 @@ struct PlanStage {
 
 /// Names of the files in the folder of a plan.
 inline constexpr const char *kPlanPhotons = "light.photons", *kPlanRecords = "light.irradiance",
-                            *kPlanPicture = "image.exr", *kPlanPoints = "sensors.csv", *kPlanLux = "lux.csv";
+                            *kPlanLobes = "light.brdf", *kPlanGloss = "light.radiance",
+                            *kPlanPicture = "image.exr", *kPlanFrames = "image-%04d.exr",
+                            *kPlanPoints = "sensors.csv", *kPlanLux = "lux.csv";
 
-/// The pipeline: photons, records, and the picture or the table of lux or both. `scene` stands in for the
-/// path of the task's, `folder` before every file that is written; `seed` is given to each stage that draws.
+/// The pipeline (of a film: records that live through its frames, by phos-temporal, and pictures of all
+/// frames): photons, records (with cached_gloss also lobes and radiance records), and the picture or the
+/// table of lux or both. `scene` stands in for the path of the task's, `folder` before every file that is
+/// written; `seed` is given to each stage that draws.
 std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                                    const std::string& folder, std::uint64_t seed);
 
 // The single commands.
 Command photons_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                         const std::string& out);
-/// Records where the camera looks.
+/// The lobes of glossy materials as harmonics.
+Command lobes_command(const PlanTask& task, const std::string& scene, const std::string& out);
+/// Radiance records on the gloss that the camera sees, with the accuracy and the rays of the other records.
+Command gloss_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
+                              const std::string& photons, const GlossFiles& files);
+/// Records where the camera looks, except on surfaces that radiance records cover.
 Command view_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                             const std::string& photons, const std::string& out);
+                             const std::string& photons, const std::string& out,
+                             const GlossFiles& gloss = {});
 /// Records where sensors are, added to the records of a file unless `add_to` is empty.
 Command sensor_records_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                                const std::string& photons, const std::string& points,
                                const std::string& add_to, const std::string& out);
 Command picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                        const std::string& cache, const std::string& out);
+                        const std::string& cache, const std::string& out, const GlossFiles& gloss = {});
 /// The same with indirect light alone.
 Command indirect_picture_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
-                                 const std::string& cache, const std::string& out);
+                                 const std::string& cache, const std::string& out,
+                                 const GlossFiles& gloss = {});
 Command sense_command(const PlanTask& task, const Knobs& knobs, const std::string& scene,
                       const std::string& cache, const std::string& points, const std::string& out);
 /// A table that sets out a grid's points: their places, and direct light with a ray to each lamp.

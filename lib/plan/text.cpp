@@ -113,6 +113,7 @@ std::string largest_parts(const PlanModel& model, const Knobs& knobs) {
 
 std::string goal_line(const PlanTask& task, const PlanGoal& goal) {
   std::string out;
+  if (task.frames) out += text("film of frames ", task.frames->first, " to ", task.frames->last, ", ");
   if (task.image) out += text("image of ", task.width, " x ", task.height);
   if (task.image && !task.camera.empty()) out += " from camera " + task.camera;
   if (task.lux)

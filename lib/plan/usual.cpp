@@ -63,11 +63,25 @@ PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanO
   const auto usual = [&](const std::string& why) {
     PlannedWay way{task, {}, usual_plan(task, goal, plan.usual_error, lamps.lamps, why)};
     way.task.cached_direct = plan.direct == PlanDirect::cached;
+    way.task.cached_gloss = plan.gloss == PlanGloss::cached && !needs.held_gloss.empty();
+    if (!needs.held_gloss.empty())
+      (way.task.cached_gloss ? needs.wanted : needs.unwanted)
+          .push_back(
+              {"radiance records",
+               text(needs.held_gloss, way.task.cached_gloss ? "" : "; no pilot compares them with rays")});
     return way;
   };
   if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
   try {
-    return plan_direct(task, goal, plan.direct, lamps, pilot, needs);
+    Needs told = needs;  // of a pilot that ends
+    const auto direct = [&](const PlanTask& with) {
+      if (with.cached_gloss || with.frames)
+        return plan_direct(with, goal, PlanDirect::traced, lamps, pilot, told);
+      return plan_direct(with, goal, plan.direct, lamps, pilot, told);
+    };
+    PlannedWay way = plan_gloss(task, goal, plan.gloss, direct, told);
+    needs = std::move(told);
+    return way;
   } catch (const PilotTooLong& late) {
     return usual(
         text("the pilot was given up after ", duration(late.seconds),

@@ -10,6 +10,7 @@
 #include "hsh/rotation.h"
 #include "radiance/check.h"
 #include "radiance/columns.h"
+#include "radiance/compact_columns.h"
 
 namespace phos::inline radiance {
 namespace {
@@ -114,7 +115,7 @@ void settle_slopes(RadianceRecord& r, double accuracy) {
   }
 }
 
-void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
+void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance, Store store,
                     TensorWriter file) {
   const std::size_t n = cache.records.size(), bands = static_cast<std::size_t>(cache.order()),
                     count = count_of(cache.order());
@@ -143,9 +144,22 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   file.extent("n", n), file.extent("N", bands);
   file.add_vectors("position", position);
   file.add_vectors("frame", frame);
-  file.add<float>("coefficients", light);
-  file.add<float>("stderr", error);
-  if (gradients) {
+  const HalfColumns halves = store == Store::compact ? HalfColumns(n, {light, error}) : HalfColumns(0, {});
+  const ByteColumns bytes = store == Store::compact && gradients ? ByteColumns(n, bands, {along[0], along[1]})
+                                                                 : ByteColumns(0, 0, {});
+  if (store == Store::compact) {
+    file.add<float>("light_scale", halves.unit);
+    file.add<Half>("coefficients", halves.columns[0]);
+    file.add<Half>("stderr", halves.columns[1]);
+  } else {
+    file.add<float>("coefficients", light);
+    file.add<float>("stderr", error);
+  }
+  if (gradients && store == Store::compact) {
+    file.add<std::int8_t>("gradient_exponent", bytes.exponent);
+    file.add<std::int8_t>("gradient_x", bytes.columns[0]);
+    file.add<std::int8_t>("gradient_y", bytes.columns[1]);
+  } else if (gradients) {
     file.add<float>("gradient_x", along[0]);
     file.add<float>("gradient_y", along[1]);
   }
@@ -192,12 +206,13 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
                      "; make the file again"));
   const auto column = [&](const char* name) { return tensors.values<float>(name).data(); };
   const std::span<const Vec3> position = tensors.vectors("position");
-  const float *frame = column("frame"), *light = column("coefficients"), *error = column("stderr"),
-              *distance = column("distance"), *radius = column("radius");
+  const float *frame = column("frame"), *distance = column("distance"), *radius = column("radius");
+  const StoredColumn light(tensors, "coefficients", "light_scale"), error(tensors, "stderr", "light_scale");
   const float* shared = tensors.has("shared") ? column("shared") : nullptr;
-  const bool gradients = tensors.has("gradient_x");
-  const float* along[2] = {gradients ? column("gradient_x") : nullptr,
-                           gradients ? column("gradient_y") : nullptr};
+  std::vector<StoredColumn> along;
+  if (tensors.has("gradient_x"))
+    for (const char* name : {"gradient_x", "gradient_y"})
+      along.emplace_back(tensors, name, "gradient_exponent");
   const std::uint8_t* own_order =
       tensors.has("order") ? tensors.values<std::uint8_t>("order").data() : nullptr;
   RadianceCache cache;
@@ -215,8 +230,9 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
       wrong[record] = "no order that the file holds";
       return;
     }
-    const auto take = [&](const float* of_all, std::size_t stride, std::size_t used) {
-      const float* row = of_all + 3 * i * stride;
+    std::vector<float> space;
+    const auto take = [&](const StoredColumn& of_all, std::size_t stride, std::size_t used) {
+      const float* row = of_all.row(i, space);
       if (!rest_is_zero(row, stride, used)) wrong[record] = "numbers beyond its own order";
       return from_column(row, stride, used);
     };
@@ -228,7 +244,7 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
     if (shared) r.shared = shared[i];
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
-    if (gradients) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
+    if (!along.empty()) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);
   });
   for (std::size_t record = 0; record < wrong.size(); ++record) {
     if (wrong[record]) {

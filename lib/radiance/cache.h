@@ -9,6 +9,7 @@
 
 #include "core/vector.h"
 #include "file/container.h"
+#include "radiance/store.h"
 #include "record/irradiance_cache.h"
 
 namespace phos::inline radiance {
@@ -79,7 +80,7 @@ void settle_slopes(RadianceRecord& record, double accuracy);
 /// The `.radiance` file (file/kinds/tables.cpp). The header names the basis. Of a film there are `more`
 /// columns.
 void write_radiance(const std::string& path, const RadianceCache& cache, Provenance provenance,
-                    TensorWriter more = TensorWriter(FileKind::radiance));
+                    Store store = Store::floats, TensorWriter more = TensorWriter(FileKind::radiance));
 /// Throws Error(bad_input) for a damaged file (checksums verified, the first bad record named), one of
 /// another kind or form.
 RadianceCache read_radiance(const Container& file, FileForm form = FileForm::whole);

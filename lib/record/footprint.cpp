@@ -82,6 +82,42 @@ Rgb AdaptiveFootprint::change(const Vec3& step, const Vec3& n_p) const {
   return sum;
 }
 
+AdaptiveFootprint AdaptiveFootprint::with_axes_from(const Vec3& x, const Vec3& n) const {
+  if (x == x_) return *this;
+  const Vec3 y = glm::cross(n, x);
+  Axes axes;
+  for (int k = 0; k < kAxes; ++k) {
+    const Vec3 u = kAxisX[k] * x + kAxisY[k] * y;
+    const float ux = glm::dot(u, x_), uy = glm::dot(u, y_);
+    const Sector s = sector_of(ux, uy);
+    const auto i = static_cast<std::size_t>(s.first), j = static_cast<std::size_t>(s.second);
+    const float along = s.a + s.b, share = s.b / along;
+    const float a = s.a * inverse_m_[i], b = s.b * inverse_m_[j];
+    Axis& axis = axes[static_cast<std::size_t>(k)];
+    axis.length_m = 1 / border_reach(ux, uy, along, a + b);
+    axis.slope = axis.length_m * (a * axes_[i].slope + b * axes_[j].slope);
+    axis.bend = (1 - share) * axes_[i].bend + share * axes_[j].bend;
+    axis.turn_slope = s.a * axes_[i].turn_slope + s.b * axes_[j].turn_slope;
+    axis.turn_bend = (1 - share) * axes_[i].turn_bend + share * axes_[j].turn_bend;
+  }
+  return {x, n, axes};
+}
+
+AdaptiveFootprint AdaptiveFootprint::moved_to(const Vec3& x, const Vec3& n) const {
+  return {glm::normalize(x - glm::dot(x, n) * n), n, axes_};
+}
+
+AdaptiveFootprint::Axis with_length(const AdaptiveFootprint::Axis& axis, float length_m) {
+  const auto change_at = [&](float distance_m) {
+    const float s = std::min(distance_m / axis.length_m, 1.f);
+    return axis.slope * s + axis.bend * (0.5f * s * s);
+  };
+  const Rgb half = change_at(0.5f * length_m), all = change_at(length_m);
+  AdaptiveFootprint::Axis told = axis;
+  told.length_m = length_m, told.slope = 4.f * half - all, told.bend = 4.f * (all - 2.f * half);
+  return told;
+}
+
 const char* what_is_wrong(const AdaptiveFootprint& f, const Vec3& normal) {
   bool finite = is_finite(f.x()), positive = true;
   for (const AdaptiveFootprint::Axis& a : f.axes()) {

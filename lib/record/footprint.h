@@ -59,12 +59,24 @@ class AdaptiveFootprint {
   /// E - E_R at `step` where the normal is n_p, before limits. lx
   Rgb change(const Vec3& step, const Vec3& n_p) const;
 
+  /// The same zone and light, told by axes that start at unit x of the tangent plane. Exact along the new
+  /// axes; exact everywhere where x lies along one of its own.
+  AdaptiveFootprint with_axes_from(const Vec3& x, const Vec3& n) const;
+  /// The footprint where its surface has turned: the first axis lies as near to x as the tangent plane of n
+  /// allows.
+  AdaptiveFootprint moved_to(const Vec3& x, const Vec3& n) const;
+
  private:
   Vec3 x_, y_;
   Axes axes_;
   std::array<float, kAxes> inverse_m_;
   float longest_m_, shortest_m_;
 };
+
+/// The axis as far as `length_m`, told by the parabola through its own light there, halfway and at the record
+/// (docs/methods.md#e4): exact where it is no longer than the axis. Beyond the axis the light of its end
+/// stands.
+AdaptiveFootprint::Axis with_length(const AdaptiveFootprint::Axis& axis, float length_m);
 
 /// What is wrong with one that was read, in words that follow "has"; nullptr: nothing.
 const char* what_is_wrong(const AdaptiveFootprint& footprint, const Vec3& normal);

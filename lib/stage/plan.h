@@ -10,7 +10,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kPlanAlgorithm = 2;
+inline constexpr int kPlanAlgorithm = 3;
 
 struct PlanCommand {
   std::string scene_path;

@@ -101,7 +101,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   }
   Provenance provenance = tool.provenance(FileKind::radiance, scene.hash, scene.parts);
   note_unsampled(provenance, missed);
-  write_radiance(tool.output(), cache, provenance);
+  write_radiance(tool.output(), cache, provenance, asked.store);
 }
 
 }  // namespace phos::stage

@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kRadianceAlgorithm = 21;
+inline constexpr int kRadianceAlgorithm = 22;
 
 struct RadianceCommand {
   std::vector<std::string> inputs;
@@ -21,6 +21,7 @@ struct RadianceCommand {
   RadianceOptions radiance;
   PlacementOptions placement;
   GlossBy gloss = GlossBy::automatic;
+  Store store = Store::compact;
   std::string at, add_to;  ///< files
   std::string isa;
   bool allow_mismatch = false;

@@ -93,10 +93,9 @@ void run(Tool& tool, SplatCommand& asked) {
   SplatCaches caches = read_caches(files, scene, glossy, render.overlay_colour == OverlayColour::life);
   if (caches.irradiance.quantity == Quantity::all)
     tool.say("the cache holds direct light too: only gloss is lit by shadow rays");
-  resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
-
   if (render.splat == SplatBy::gl && any_footprint(caches.irradiance.records))
-    tool.say("the cache has adaptive records: they are drawn on the CPU (--splat cpu)");
+    tool.say("the records have footprints, which OpenGL draws one at a time: --splat cpu is faster");
+  resolve(render, find_camera(scene, render.camera), caches.irradiance, caches.radiance);
 
   if (const std::string memory = require_memory(render); !memory.empty()) tool.say(memory);
   const RayScene rays = [&] {

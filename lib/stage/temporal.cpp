@@ -58,7 +58,13 @@ void run(Tool& tool, TemporalCommand& asked) {
   add_inputs(tool, files, asked.scene);
   refuse_inputs(files);
   job.of_radiance = asked.kind == RecordKind::radiance;
+  if (!job.of_radiance && tool.options().given("store"))
+    throw Error(ExitCode::usage, "--store",
+                "shortens radiance records; add --kind radiance, or leave it out");
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
+  if (job.of_radiance && records.footprint != Footprint::circle)
+    throw Error(ExitCode::usage, "--footprint",
+                "the zones of radiance records in films are discs; leave it out, or leave --kind radiance out");
   use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
   register_raster_estimator();
@@ -107,7 +113,7 @@ void run(Tool& tool, TemporalCommand& asked) {
   if (!job.survey.light_changes) {
     const std::vector<Key> keys = make_still(job, scenes, read, tool.counters(), report);
     if (job.of_radiance)
-      write_radiance(tool.output(), still_radiance(job, keys), provenance());
+      write_radiance(tool.output(), still_radiance(job, keys), provenance(), asked.store);
     else
       write_irradiance(tool.output(), still_irradiance(job, keys), provenance());
   } else {
@@ -118,7 +124,7 @@ void run(Tool& tool, TemporalCommand& asked) {
     const FilmChains film = journal.keeping([&] { return make_chains(job, scenes, read, tool.counters()); });
     report = film.report;
     if (job.of_radiance)
-      write_film(tool.output(), radiance_film_of(film.chains, info_of(job)), provenance());
+      write_film(tool.output(), radiance_film_of(film.chains, info_of(job)), provenance(), asked.store);
     else
       write_film(tool.output(), film_of(film.chains, info_of(job), records.paths), provenance());
     journal.finish();

@@ -13,7 +13,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kTemporalAlgorithm = 23;
+inline constexpr int kTemporalAlgorithm = 24;
 
 enum class RecordKind { irradiance, radiance };
 
@@ -26,6 +26,7 @@ struct TemporalCommand {
   FilmJob job;
   RecordKind kind = RecordKind::irradiance;
   GlossBy gloss = GlossBy::automatic;
+  Store store = Store::compact;
 };
 
 /// The body of the program: `asked` holds the values that the options of `tool` are declared to set, and gets

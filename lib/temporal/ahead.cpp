@@ -241,7 +241,7 @@ Ahead AheadEstimator::Impl::reprojected(const Made& made, const RecordSite& from
   if (!options.whole && !made.radiance && records.paths == Quantity::indirect) {
     Ahead ahead{made.record, {}, share};
     ahead.record.position = to.position, ahead.record.normal = to.normal;
-    ahead.record.irradiance = Rgb(irradiance / cells);
+    ahead.record.irradiance = Rgb(irradiance / cells), ahead.record.footprint.reset();
     return ahead;
   }
   Made then = next_seer->record_from(to, w.passes, *w.next);

@@ -20,7 +20,7 @@ struct AheadOptions {
   double share = 0.125;      ///< the greatest share of hits at which the lamps are asked again; in (0, 1]
   double most_holes = 0.03;  ///< of the hemisphere; above it the next frame is traced (docs/methods.md#f6)
   /// The record ahead has gradients and a radius of its own. Else, by reprojection, it is the record as it
-  /// is, at its place one frame on, but for its irradiance: a third of the cost. (Of radiance records all is
+  /// is, at its place one frame on, but for its irradiance, and without a footprint: a third of the cost. (Of radiance records all is
   /// always had.)
   bool whole = true;
 };

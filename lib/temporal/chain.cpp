@@ -59,10 +59,7 @@ std::vector<Record> records_of(std::span<const Chain> chains, const FilmInfo& in
         record.change = change_between(record, with_life(*next));
       } else if (info.gradients == TemporalGradients::extrapolated) {
         if (const std::optional<Key> then = expected(key)) {
-          Record to = with_life(*then);
-          to.record.radius_m =
-              record.record.radius_m;  // neighbours and bounds do not change the expected light
-          record.change = change_between(record, to);
+          record.change = change_between(record, with_life(*then), Reach::stays);
         }
       }
       records.push_back(std::move(record));
@@ -102,7 +99,11 @@ bool add_as_it_was(const Chain& chain, const Scene& scene, IrradianceCache& to) 
   const std::optional<RecordSite> site = site_of(chain, scene, pose);
   if (!site) return false;
   to.records.push_back(chain.keys.back().record);
-  to.records.back().position = site->position, to.records.back().normal = site->normal;
+  IrradianceRecord& record = to.records.back();
+  record.position = site->position, record.normal = site->normal;
+  if (record.footprint && chain.anchor.triangle != kNoTriangle)
+    record.footprint = std::make_shared<AdaptiveFootprint>(record.footprint->moved_to(
+        turned(chain.keys.back().pose, pose, record.footprint->x()), record.normal));
   return true;
 }
 
@@ -114,6 +115,10 @@ Key key_of(const Chain& chain, const Made& made, const RadiusBounds& bounds, std
     key.record.position = site.position;
   }
   const float raw = made.record.radius_m * chain.share;
+  if (made.record.footprint) {  // has looked in bounds: its share alone can take it below them
+    key.record.radius_m = std::min(made.record.radius_m, std::max(raw, least_radius_m(bounds, made.record)));
+    return key;
+  }
   key.record.radius_m = within_bounds_m(raw, made, bounds);
   if (raw < key.record.radius_m) scale_gradients(key, raw / key.record.radius_m);
   return key;

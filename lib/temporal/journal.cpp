@@ -14,7 +14,7 @@
 namespace phos::inline temporal {
 namespace {
 
-constexpr std::string_view kHeader = "phos film journal 1 ";
+constexpr std::string_view kHeader = "phos film journal 2 ";
 constexpr std::uint64_t kMostNumbers = 1u << 20;  // in one vector of an entry: beyond it is damage
 
 class Writer {
@@ -83,6 +83,21 @@ void irradiance(Way& way, Record& r) {
   way.value(r.distance_m), way.value(r.radius_m), way.value(r.weight), way.value(r.shared);
   for (int c = 0; c < 3; ++c) way.value(r.rotation_gradient[c]), way.value(r.translation_gradient[c]);
 }
+void put(Writer& out, const IrradianceRecord& r) {
+  irradiance(out, r);
+  out.value(static_cast<std::uint8_t>(r.footprint != nullptr));
+  if (r.footprint) out.value(r.footprint->x()), out.value(r.footprint->axes());
+}
+void get(Reader& in, IrradianceRecord& r) {
+  irradiance(in, r);
+  std::uint8_t shaped = 0;
+  in.value(shaped);
+  if (!shaped) return;
+  Vec3 x(0);
+  AdaptiveFootprint::Axes axes;
+  in.value(x), in.value(axes);
+  r.footprint = std::make_shared<AdaptiveFootprint>(x, r.normal, axes);
+}
 template <class Way, class Record>
 void radiance(Way& way, Record& r) {
   way.value(r.position), way.value(r.frame), way.value(r.distance_m), way.value(r.radius_m),
@@ -104,18 +119,18 @@ std::shared_ptr<const RadianceRecord> get(Reader& in) {
 }
 
 void put(Writer& out, const Made& made) {
-  irradiance(out, made.record);
+  put(out, made.record);
   out.value(made.least_radius_m), out.value(made.site_least_m), out.value(made.site_most_m);
   out.value(made.least_share);
   put(out, made.radiance);
   out.value(static_cast<std::uint8_t>(made.ahead != nullptr));
   if (!made.ahead) return;
-  irradiance(out, made.ahead->record);
+  put(out, made.ahead->record);
   out.value(made.ahead->holes);
   put(out, made.ahead->radiance);
 }
 void get(Reader& in, Made& made) {
-  irradiance(in, made.record);
+  get(in, made.record);
   in.value(made.least_radius_m), in.value(made.site_least_m), in.value(made.site_most_m);
   in.value(made.least_share);
   made.radiance = get(in);
@@ -123,7 +138,7 @@ void get(Reader& in, Made& made) {
   in.value(looks_ahead);
   if (!looks_ahead) return;
   auto ahead = std::make_shared<Ahead>();
-  irradiance(in, ahead->record);
+  get(in, ahead->record);
   in.value(ahead->holes);
   ahead->radiance = get(in);
   made.ahead = std::move(ahead);

@@ -58,6 +58,42 @@ TEST(Footprint, BorderIsThatOfThePseudoEllipse) {
   }
 }
 
+/// The same footprint by other axes: exact everywhere by axes that lie along its own, along the new axes by
+/// any.
+TEST(Footprint, IsTheSameByAxesThatStartElsewhere) {
+  const AdaptiveFootprint f(kX, kUp, some_axes());
+  for (const double start : {45.0, 180.0, 20.0}) {
+    const AdaptiveFootprint other = f.with_axes_from(at_angle(start), kUp);
+    const bool along_own = start != 20;
+    for (int k = 0; k < kAxes; ++k)
+      for (const double psi : {0.0, 15.0}) {
+        if (psi > 0 && !along_own) continue;
+        for (const double length : {0.05, 0.2, 0.9}) {
+          const Vec3 p = at_angle(start + 45 * k + psi, length),
+                     n = glm::normalize(at_angle(start + 45 * k + psi, 0.3) + kUp);
+          EXPECT_NEAR(other.error(p, kUp, kUp, 2.5f * other.longest_m()),
+                      f.error(p, kUp, kUp, 2.5f * f.longest_m()), 1e-5 * (1 + length));
+          EXPECT_LT(glm::length(other.change(p, n) - f.change(p, n)), 1e-4) << start << ' ' << k;
+        }
+      }
+  }
+  EXPECT_EQ(f.with_axes_from(kX, kUp).axes()[3].bend, f.axes()[3].bend);
+}
+
+TEST(Footprint, AxisOfAnotherLengthTellsTheSameLight) {
+  const AdaptiveFootprint::Axis axis = some_axes()[3];
+  const auto light = [](const AdaptiveFootprint::Axis& a, float distance_m) {
+    const float s = std::min(distance_m / a.length_m, 1.f);
+    return a.slope * s + a.bend * (0.5f * s * s);
+  };
+  const AdaptiveFootprint::Axis shorter = with_length(axis, 0.3f), longer = with_length(axis, 1.2f);
+  for (const float d : {0.1f, 0.2f, 0.3f})
+    EXPECT_LT(glm::length(light(shorter, d) - light(axis, d)), 1e-5f) << d;
+  // Beyond its end the light of the end stands: the parabola meets it halfway and at its own end.
+  for (const float d : {0.6f, 1.2f}) EXPECT_LT(glm::length(light(longer, d) - light(axis, d)), 1e-5f) << d;
+  EXPECT_EQ(longer.turn_slope, axis.turn_slope);
+}
+
 TEST(Footprint, IsContinuousAcrossAxesAndOverTheRecord) {
   const AdaptiveFootprint f(kX, kUp, some_axes());
   const Vec3 tilted = glm::normalize(Vec3(0.1f, -0.2f, 1));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <functional>
 
 #include "splat/gl/hemisphere_raster.h"
 #include "support/animated.h"
@@ -66,7 +68,8 @@ double truth_lx(const Vec3& p, double back_m, double lux) {
           corner_form_factor_perpendicular(kHalfWidth + x, kHeight, c));
 }
 
-Film film_of_floor(const std::string& scene, Estimate estimate, const FilmOptions& options) {
+Film film_of_floor(const std::string& scene, Estimate estimate, const FilmOptions& options,
+                   const std::function<void(RecordOptions&)>& more = {}) {
   register_raster_estimator();
   FilmJob job;
   job.survey = survey(scene, {}, {0, kLast});
@@ -77,6 +80,7 @@ Film film_of_floor(const std::string& scene, Estimate estimate, const FilmOption
   records.estimate = estimate;
   records.accuracy = 0.3, records.rays = 1024, records.raster_side = 128, records.gather_bounces = 1;
   records.min_photons = 200, records.max_photons = 400;
+  if (more) more(records);
   job.light.photons.paths = 200'000, job.light.seed = 1;
   job.placement.width = 24;
   resolve_film_places(job.placement, first->scene, records.accuracy);
@@ -213,6 +217,62 @@ TEST(Film, RasterRecordsKeepTheirGradients) {
     }
     EXPECT_LT(due, 0);
     EXPECT_NEAR(found / due, 1, 0.3) << frame;
+  }
+}
+
+/// Relative errors of the light that the records of a film tell of at places of their zones, in eight
+/// directions, at frames from first to last; the records alive, on the mean.
+struct ToldLight {
+  double rms = 0, records = 0;
+};
+ToldLight told_light(const Film& film, const std::string& scene) {
+  ToldLight told;
+  double places = 0, frames = 0;
+  for (int frame = 0; frame <= kLast; frame += 3) {
+    const IrradianceCache cache = cache_at(film, frame, load_frame(scene, {}, frame));
+    told.records += static_cast<double>(cache.records.size()), ++frames;
+    for (const IrradianceRecord& r : cache.records) {
+      const Frame plane = make_frame(r.normal);
+      const Vec3 x = r.footprint ? r.footprint->x() : plane.x, y = glm::cross(r.normal, x);
+      for (int k = 0; k < AdaptiveFootprint::kAxes; ++k) {
+        const Vec2 u = AdaptiveFootprint::direction(k);
+        const Vec3 towards = u.x * x + u.y * y;
+        // At three quarters of the zone.
+        const float one_metre = record_error(r, r.position + towards, r.normal);
+        const Vec3 p = r.position + 0.75f * static_cast<float>(film.info.accuracy) / one_metre * towards;
+        const double due = truth_lx(p, kWallStep_m * frame, kLux);
+        if (glm::dot(DVec3(p), kOut) + kWallStep_m * frame < 0.05)
+          continue;  // behind the wall, or at its foot
+        const double off = static_cast<double>(extrapolate(r, p, r.normal).y) / due - 1;
+        told.rms += off * off, ++places;
+      }
+    }
+  }
+  told.rms = std::sqrt(told.rms / places), told.records /= frames;
+  return told;
+}
+
+// Zones of eight axes follow a wall that moves: as many records as of discs tell of light twice as right
+// (docs/methods.md#f8).
+TEST(Film, AdaptiveZonesTellMoreThanDiscs) {
+  const std::string scene = with_moving_wall("film-wall-zones");
+  const auto told_by = [&](Footprint footprint, double accuracy) {
+    const Film film =
+        film_of_floor(scene, Estimate::gather, {.temporal_accuracy = 0.02}, [&](RecordOptions& records) {
+          records.footprint = footprint, records.accuracy = accuracy;
+          records.rays = 8192, records.max_radius_m = 3;
+        });
+    for (const FilmRecord& r : film.records)
+      EXPECT_EQ(r.record.footprint != nullptr, footprint == Footprint::adaptive);
+    return told_light(film, scene);
+  };
+  for (const double accuracy : {0.3, 0.5, 0.8}) {
+    const ToldLight discs = told_by(Footprint::circle, accuracy),
+                    axes = told_by(Footprint::adaptive, accuracy);
+    std::printf("accuracy %g: %.1f discs off by %.2f %%, %.1f footprints off by %.2f %%\n", accuracy,
+                discs.records, 100 * discs.rms, axes.records, 100 * axes.rms);
+    EXPECT_LE(axes.records, 1.25 * discs.records + 1) << accuracy;
+    EXPECT_LT(axes.rms, 0.6 * discs.rms) << accuracy;
   }
 }
 

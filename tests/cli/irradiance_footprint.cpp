@@ -115,7 +115,6 @@ TEST(IrradianceFootprint, AreDrawnAndReadAlike) {
   ASSERT_EQ(view("drawn", {"--footprint", "adaptive", "--direct", "cached"}).code, 0);
   const auto gl = run_tool({"splat", scene(), at("drawn"), "--width", "40", "-o", at("gl.exr")});
   ASSERT_EQ(gl.code, 0) << gl.err;
-  EXPECT_NE(gl.err.find("drawn on the CPU"), std::string::npos) << gl.err;
   ASSERT_EQ(run_tool({"splat", scene(), at("drawn"), "--width", "40", "--splat", "cpu", "--threads", "1",
                       "-o", at("cpu.exr")})
                 .code,
@@ -126,13 +125,14 @@ TEST(IrradianceFootprint, AreDrawnAndReadAlike) {
       0);
   const Image drawn = read_image(at("gl.exr")), cpu = read_image(at("cpu.exr")),
               looked = read_image(at("look.exr"));
-  double sum = 0, off = 0;
+  double sum = 0, by_other = 0, off = 0;
   for (std::size_t i = 0; i < drawn.rgb("").size(); ++i) {
-    EXPECT_EQ(drawn.rgb("")[i], cpu.rgb("")[i]);
     sum += static_cast<double>(luminance(drawn.rgb("")[i]));
+    by_other += static_cast<double>(std::fabs(luminance(drawn.rgb("")[i] - cpu.rgb("")[i])));
     off += static_cast<double>(std::fabs(luminance(drawn.rgb("")[i] - looked.rgb("")[i])));
   }
-  EXPECT_LT(off, 0.03 * sum);  // rays keep some records out
+  EXPECT_LT(by_other, 0.002 * sum);  // but for a few pixels at edges, where surfaces are seen otherwise
+  EXPECT_LT(off, 0.03 * sum);        // rays keep some records out
   spill(at("sensor.csv"), "x,y,z,nx,ny,nz\n0.45,0.0001,0.15,0,1,0\n");
   const auto sensed = run_tool({"sense", scene(), at("drawn"), "--points", at("sensor.csv")});
   EXPECT_EQ(sensed.code, 0) << sensed.err;

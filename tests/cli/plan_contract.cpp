@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "file/container.h"
 #include "file/json_parse.h"
 #include "image/image.h"
 #include "support/refused.h"
@@ -147,6 +148,59 @@ TEST(PlanTool, TriesDirectLightInTheRecords) {
                  2, "cached is for pictures");
 }
 
+/// The script of a plan, run in a folder; returns the folder.
+std::string made_by(const std::string& plan, const std::string& name) {
+  const std::string folder = scratch(name);
+  spill(folder + "/plan.sh", plan);
+  const auto run = run_shell({"bash", folder + "/plan.sh", "made"}, folder);
+  EXPECT_EQ(run.code, 0) << run.err;
+  return folder + "/made";
+}
+
+TEST(PlanTool, ItsScriptShowsGlossByRecords) {
+  const std::string scene = data("cornell-glossy22.glb");
+  const auto plan = run_tool(plan_of({"--error", "40%", "--gloss", "cached"}, scene));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  for (const char* part : {"radiance records: harmonics of order 10 hold the lobes of back-glossy",
+                           "phos-brdf", "phos-radiance", "\"$out/light.radiance\""})
+    EXPECT_NE(plan.out.find(part), std::string::npos) << part << plan.out;
+  const std::string folder = made_by(plan.out, "plan-gloss");
+  EXPECT_GT(Container::open(folder + "/light.radiance", FileKind::radiance).vectors("position").size(), 0u);
+  const Image image = read_image(folder + "/image.exr");
+  float light = 0;
+  for (const float v : image.channel("glossy.G")) light = std::max(light, v);
+  EXPECT_GT(light, 0);
+  // Both ways are tried, and one is kept, with the reason.
+  const auto both = run_tool(plan_of({"--error", "40%"}, scene));
+  ASSERT_EQ(both.code, 0) << both.err;
+  const bool late = both.err.find("given up") != std::string::npos;  // on a busy machine
+  if (!late) {
+    EXPECT_NE(both.err.find("with --gloss cached"), std::string::npos) << both.err;
+    EXPECT_NE(both.out.find("by rays"), std::string::npos) << both.out;
+  }
+  expect_refused("plan", {scene, "--error", "30%", "--gloss", "cached", "--direct", "cached"}, 2, "--gloss");
+}
+
+TEST(PlanTool, ItsScriptMakesAFilm) {
+  const std::string scene = data("cube-in-a-box.glb");
+  const auto plan = run_tool(plan_of({"--error", "40%", "--frames", "0:2"}, scene));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  for (const char* part : {"# Asked for: film of frames 0 to 2, image of 32 x 32", "phos-temporal",
+                           "--frames 0:2", "image-%04d.exr", "temporal data: "})
+    EXPECT_NE(plan.out.find(part), std::string::npos) << part << plan.out;
+  EXPECT_EQ(plan.out.find("phos-photons"), std::string::npos) << plan.out;
+  const std::string folder = made_by(plan.out, "plan-film");
+  for (const char* name : {"0000", "0001", "0002"})
+    EXPECT_EQ(read_image(folder + "/image-" + name + ".exr").width(), 32);
+  for (const auto& [option, value] :
+       {std::pair{"--frame", "1"}, {"--quantity", "lux"}, {"--direct", "cached"}, {"--seconds", "9"}})
+    expect_refused("plan", {scene, "--error", "40%", "--frames", "0:2", option, value}, 2, "--");
+  expect_refused("plan", {scene, "--error", "40%", "--frames", "2:0"}, 2, "--frames");
+  expect_refused("plan", {scene, "--error", "40%", "--frames", "0:2", "--run", "-o", scratch("plan-none")}, 2,
+                 "--run");
+  expect_refused("plan", {kBox, "--error", "40%", "--frames", "0:2"}, 2, "not animated");
+}
+
 TEST(PlanTool, JsonForPrograms) {
   const auto plan = run_tool(plan_of({"--seconds", "5", "--json"}));
   ASSERT_EQ(plan.code, 0) << plan.err;
@@ -254,7 +308,7 @@ TEST(PlanTool, LuxComesOutAsFirstPredicted) {
 TEST(PlanTool, AnAnimatedSceneIsToldOfTemporalRecords) {
   const auto plan = run_tool(plan_of({"--error", "30%"}, data("cube-in-a-box.glb")));
   ASSERT_EQ(plan.code, 0) << plan.err;
-  EXPECT_NE(plan.err.find("phos-temporal --frames 0:"), std::string::npos) << plan.err;
+  EXPECT_NE(plan.err.find("give --frames 0:"), std::string::npos) << plan.err;
   EXPECT_NE(plan.out.find("temporal data"), std::string::npos);
 }
 

@@ -5,6 +5,7 @@
 
 #include "file/container.h"
 #include "file/json_parse.h"
+#include "image/image.h"
 #include "support/filmed_slabs.h"
 
 namespace phos::test {
@@ -47,6 +48,12 @@ TEST(Temporal, RefusesInOneLine) {
   expect_failure(temporal({scene, "--frames", "0:3", "--look-ahead", "none", "-o", out}), 2, "--lives rate");
   expect_failure(temporal({scene, "--frames", "0:3", "--lives", "rate", "--checks", "2", "-o", out}), 2,
                  "--checks");
+  expect_failure(
+      temporal({scene, "--frames", "0:3", "--footprint", "adaptive", "--estimate", "hull", "-o", out}), 2,
+      "--estimate gather");
+  expect_failure(
+      temporal({scene, "--frames", "0:3", "--footprint", "adaptive", "--kind", "radiance", "-o", out}), 2,
+      "--footprint");
   expect_failure(temporal({"nowhere.glb", "--frames", "0:3", "-o", out}), 3, "nowhere.glb");
   expect_failure(temporal({scene, "--frames", "0:3", "-o", folder + "/absent/o.irradiance"}), 3, "absent");
   EXPECT_TRUE(std::filesystem::is_empty(folder));
@@ -119,6 +126,38 @@ TEST(Temporal, FadingLampIsFollowed) {
   }
 }
 
+// Zones of eight axes: the light is followed as by discs, the bytes do not depend on threads, and both
+// splatters draw the film.
+TEST(Temporal, AdaptiveZonesFollowAFadingLamp) {
+  Slabs slabs;
+  slabs.animate("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 16}, {20, 100});
+  const std::string scene = slabs.write("temporal-axes", 17), folder = scratch("temporal-shaped"),
+                    film = folder + "/f.irradiance";
+  for (const char* threads : {"1", "4"}) {
+    const test::Run run = temporal(quick(
+        {scene, "--frames", "0:16", "--footprint", "adaptive", "--threads", threads, "-o", film + threads}));
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+  EXPECT_EQ(slurp(film + "1"), slurp(film + "4"));
+  EXPECT_TRUE(Container::open(film + "1", FileKind::irradiance).has("footprint_slope_change"));
+  const double last = lux(scene, film + "1", 16);
+  ASSERT_GT(last, 0);
+  for (const int frame : {0, 3, 8, 13}) {
+    const double due = last * (20 + 5 * frame) / 100;
+    EXPECT_NEAR(lux(scene, film + "1", frame), due, 0.01 * due) << frame;
+  }
+  double sum[2] = {0, 0};
+  for (const int by : {0, 1}) {
+    const std::string picture = folder + "/p.exr";
+    const test::Run run = run_tool({"splat", scene, film + "1", "--frame", "9", "--width", "24", "--splat",
+                                    by == 0 ? "cpu" : "gl", "--direct", "none", "--quiet", "-o", picture});
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const Rgb& c : read_image(picture).rgb("")) sum[by] += static_cast<double>(luminance(c));
+  }
+  EXPECT_GT(sum[0], 0);
+  EXPECT_NEAR(sum[1] / sum[0], 1, 0.002);
+}
+
 TEST(Temporal, SaysWhereAFilmIsHardlyWorthIt) {
   const std::string film = scratch("temporal-restless") + "/f.irradiance";
   const test::Run run =
@@ -146,11 +185,11 @@ TEST(Temporal, LivesAreNoLongerThanAsked) {
 }
 
 // What is done of an interrupted film is kept, and the film that goes on is that of an uninterrupted run.
-TEST(Temporal, InterruptedFilmGoesOn) {
-  const std::string scene = data("cube-in-a-box.glb"), folder = scratch("temporal-interrupted");
-  const std::vector<std::string> asked{"temporal", scene,       "--frames", "0:24",    "--rays",
-                                       "512",      "--photons", "5000",     "--width", "48",
-                                       "--lives",  "rate",      "--reuse",  "-o"};
+void expect_to_go_on(const std::string& footprint) {
+  const std::string scene = data("cube-in-a-box.glb"), folder = scratch("temporal-interrupted-" + footprint);
+  const std::vector<std::string> asked{"temporal",  scene,  "--frames", "0:24", "--rays",      "512",
+                                       "--photons", "5000", "--width",  "48",   "--footprint", footprint,
+                                       "--lives",   "rate", "--reuse",  "-o"};
   const auto into = [&](const std::string& name) {
     std::vector<std::string> words = asked;
     words.push_back(folder + "/" + name);
@@ -180,6 +219,9 @@ TEST(Temporal, InterruptedFilmGoesOn) {
   EXPECT_FALSE(std::filesystem::exists(journal));
   EXPECT_NE(run_tool(into("cut")).err.find("up to date"), std::string::npos);
 }
+
+TEST(Temporal, InterruptedFilmGoesOn) { expect_to_go_on("circle"); }
+TEST(Temporal, InterruptedFilmOfFootprintsGoesOn) { expect_to_go_on("adaptive"); }
 
 }  // namespace
 }  // namespace phos::test

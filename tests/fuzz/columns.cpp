@@ -8,31 +8,8 @@
 namespace phos::fuzz {
 namespace {
 
-template <class T>
-void add_as(ContainerWriter& file, const std::string& name, const Column& c) {
-  file.add<T>(name, {reinterpret_cast<const T*>(c.bytes.data()), c.bytes.size() / sizeof(T)}, c.shape,
-              c.unit);
-}
-
 void add(ContainerWriter& file, const std::string& name, const Column& c) {
-  switch (c.dtype) {
-    case Dtype::u8:
-      return add_as<std::uint8_t>(file, name, c);
-    case Dtype::u16:
-      return add_as<std::uint16_t>(file, name, c);
-    case Dtype::i32:
-      return add_as<std::int32_t>(file, name, c);
-    case Dtype::u32:
-      return add_as<std::uint32_t>(file, name, c);
-    case Dtype::i64:
-      return add_as<std::int64_t>(file, name, c);
-    case Dtype::u64:
-      return add_as<std::uint64_t>(file, name, c);
-    case Dtype::f32:
-      return add_as<float>(file, name, c);
-    case Dtype::f64:
-      return add_as<double>(file, name, c);
-  }
+  file.add(name, {c.dtype, c.shape, c.unit, c.bytes});
 }
 
 }  // namespace

@@ -74,6 +74,8 @@ void irradiance(const std::string& to) {
 void radiance_files(const std::string& to) {
   write_radiance(to + "none.radiance", test::random_radiance(0, 3), test::radiance_provenance());
   write_radiance(to + "same.radiance", test::random_radiance(3, 2), test::radiance_provenance());
+  write_radiance(to + "compact.radiance", test::random_radiance({3, 2}), test::radiance_provenance(),
+                 Store::compact);
   write_radiance(to + "orders.radiance", test::random_radiance({1, 3, 2}), test::radiance_provenance());
 }
 

@@ -85,9 +85,7 @@ void mutate_column(Columns& all, Choice& choice) {
       c.shape.push_back(1 + choice.below(4));
       return c.settle_rows();
     case 7: {  // another kind of number
-      constexpr Dtype kAll[] = {Dtype::u8,  Dtype::u16, Dtype::i32, Dtype::u32,
-                                Dtype::i64, Dtype::u64, Dtype::f32, Dtype::f64};
-      c.dtype = choice.of(kAll);
+      c.dtype = choice.of(kDtypes);
       return c.settle_rows();
     }
     default: {

@@ -17,7 +17,7 @@ class GoldenRadiance : public GoldenCornell {
     spill(path("csv"), points);
     must({"photons", scene, "--photons", "20000", "-o", path("glossy.photons")});
     must({"radiance", scene, path("glossy.photons"), "--place", "every", "--at", path("csv"), "--rays", "500",
-          "-o", path("radiance")});
+          "--store", "float", "-o", path("radiance")});
   }
 };
 

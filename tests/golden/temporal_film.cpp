@@ -17,7 +17,8 @@ class GoldenFilm : public GoldenCornell {
   static void make_radiance_film() {
     if (std::filesystem::exists(path("radiance-film"))) return;
     must({"temporal", data("spheres.glb"), "--kind", "radiance", "--frames", "10:14", "--photons", "5000",
-          "--rays", "64", "--accuracy", "0.6", "--width", "24", "-o", path("radiance-film")});
+          "--rays", "64", "--accuracy", "0.6", "--width", "24", "--store", "float", "-o",
+          path("radiance-film")});
   }
 };
 

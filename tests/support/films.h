@@ -70,6 +70,35 @@ inline Film random_film(std::size_t n, bool anchored, TemporalGradients gradient
   return film;
 }
 
+/// Axes of `scale` times a random length each, and light that changes along them by up to `lux`.
+inline AdaptiveFootprint::Axes random_axes(std::uint64_t item, float scale, float lux) {
+  RandomStream random(9, Stage::test, item);
+  const auto light = [&] {
+    const float r = random.uniform(), g = random.uniform(), b = random.uniform();
+    return lux * Rgb(2 * r - 1, 2 * g - 1, 2 * b - 1);
+  };
+  AdaptiveFootprint::Axes axes;
+  for (AdaptiveFootprint::Axis& axis : axes) {
+    axis.length_m = scale * (0.3f + 0.7f * random.uniform());
+    axis.slope = light(), axis.bend = light(), axis.turn_slope = light(), axis.turn_bend = light();
+  }
+  return axes;
+}
+
+/// Gives every record of a film a footprint, which changes as all else does.
+inline void add_footprints(Film& film) {
+  for (std::size_t i = 0; i < film.records.size(); ++i) {
+    FilmRecord& r = film.records[i];
+    r.record.footprint = std::make_shared<AdaptiveFootprint>(make_frame(r.record.normal).x, r.record.normal,
+                                                             random_axes(i, r.record.radius_m, 1));
+    if (film.info.gradients == TemporalGradients::none) continue;
+    AdaptiveFootprint::Axes change = random_axes(1000 + i, 0.05f * r.record.radius_m, 0.1f);
+    if (i % 2 == 0)
+      for (AdaptiveFootprint::Axis& axis : change) axis.length_m *= -1;
+    r.change.footprint = std::make_shared<const AdaptiveFootprint::Axes>(change);
+  }
+}
+
 inline RadianceFilm random_radiance_film(const std::vector<int>& orders, bool anchored,
                                          TemporalGradients gradients, bool slopes = true) {
   RadianceFilm film;

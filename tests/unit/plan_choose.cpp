@@ -9,6 +9,8 @@
 #include "estimate/hemisphere/hemisphere.h"
 #include "plan/calibration.h"
 #include "plan/direct.h"
+#include "plan/film.h"
+#include "plan/gloss.h"
 #include "plan/json.h"
 #include "plan/run.h"
 #include "plan/text.h"
@@ -219,6 +221,104 @@ TEST(StudyPlan, PutsDirectLightIntoRecordsWhereThatPaysWell) {
   const PlanGoal fine{0.02, {}};
   EXPECT_EQ(direct_way(1, 4, fine, PlanDirect::automatic, 1e-3), std::pair(true, 2));
   EXPECT_THROW(direct_way(1, 4, {{}, 0.01}), Error);
+}
+
+/// Radiance records take this part of the time; whether they are kept, after how many pilots.
+std::pair<bool, int> gloss_way(double part, const PlanGoal& goal, PlanGloss which = PlanGloss::automatic,
+                               const std::string& held = "harmonics hold the wall", bool lux = false,
+                               double unmended = 0) {
+  int pilots = 0;
+  Needs needs;
+  needs.held_gloss = held;
+  PlanTask task = picture();
+  task.lux = lux;
+  const PlannedWay way = plan_gloss(
+      task, goal, which,
+      [&](const PlanTask& with) {
+        ++pilots;
+        PlannedWay made{with, synthetic_pilot(with.cached_gloss ? 0 : unmended), {}};
+        for (auto& [name, p] : made.pilot.time.part)
+          if (with.cached_gloss) scale(p, part);
+        PlanTask image = with;
+        image.lux = false;
+        made.plan = make_plan(image, made.pilot, goal);
+        return made;
+      },
+      needs);
+  EXPECT_EQ(needs.wanted.size() + needs.unwanted.size(), held.empty() ? 0u : 1u);
+  const auto& said = way.task.cached_gloss ? needs.wanted : needs.unwanted;
+  EXPECT_EQ(said.size(), held.empty() ? 0u : 1u);
+  if (!said.empty()) {
+    EXPECT_EQ(said[0].why.rfind(held, 0), 0u) << said[0].why;
+  }
+  return {way.task.cached_gloss, pilots};
+}
+
+TEST(StudyPlan, ShowsGlossByRecordsWhereThatPays) {
+  const PlanGoal goal{0.1, {}};
+  EXPECT_EQ(gloss_way(0.5, goal), std::pair(true, 2));
+  EXPECT_EQ(gloss_way(0.9, goal), std::pair(false, 2)) << "too little gain";
+  EXPECT_EQ(gloss_way(3, goal, PlanGloss::cached), std::pair(true, 1));
+  EXPECT_EQ(gloss_way(0.1, goal, PlanGloss::traced), std::pair(false, 1));
+  EXPECT_EQ(gloss_way(0.1, goal, PlanGloss::automatic, ""), std::pair(false, 1)) << "nothing is held";
+  EXPECT_EQ(gloss_way(0.1, goal, PlanGloss::cached, ""), std::pair(false, 1));
+  EXPECT_EQ(gloss_way(0.1, goal, PlanGloss::automatic, "held", true), std::pair(false, 1)) << "sensors";
+  // One way out of reach leaves the other; both are refused as one is.
+  EXPECT_EQ(gloss_way(5, {0.02, {}}, PlanGloss::automatic, "held", false, 1e-3), std::pair(true, 2));
+  EXPECT_THROW(gloss_way(1, {{}, 0.01}), Error);
+}
+
+TEST(StudyPlan, GlossByRecordsHasItsStages) {
+  PlanTask task = picture();
+  task.cached_gloss = true, task.gloss = true;
+  Knobs k{};
+  k.fill(16);
+  const std::vector<PlanStage> stages = plan_stages(task, k, "s", "d", 3);
+  ASSERT_EQ(stages.size(), 5u);
+  EXPECT_EQ(shell_line(stages[1].command), "phos-brdf s --seed 3 -o d/light.brdf");
+  EXPECT_EQ(shell_line(stages[2].command),
+            "phos-radiance s d/light.brdf d/light.photons --place view --width 200 --height 150 --estimate "
+            "gather --accuracy 16 --rays 16 --seed 3 -o d/light.radiance");
+  EXPECT_EQ(shell_line(stages[3].command)
+                .rfind("phos-irradiance s d/light.radiance d/light.brdf d/light.photons ", 0),
+            0u)
+      << shell_line(stages[3].command);
+  EXPECT_EQ(shell_line(stages[4].command)
+                .rfind("phos-splat s d/light.irradiance d/light.radiance d/light.brdf ", 0),
+            0u);
+}
+
+TEST(StudyPlan, AFilmHasRecordsThatLive) {
+  PlanTask task = picture();
+  task.frames = FrameRange{2, 11}, task.temporal_accuracy = 0.02;
+  Knobs k{};
+  k.fill(16);
+  const std::vector<PlanStage> stages = plan_stages(task, k, "s", "d", 0);
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_EQ(shell_line(stages[0].command),
+            "phos-temporal s --photons 16 --temporal-accuracy 0.02 --place view --width 200 --height 150 "
+            "--frames 2:11 --estimate gather --accuracy 16 --rays 16 -o d/light.irradiance");
+  EXPECT_NE(shell_line(stages[1].command).find("--frames 2:11"), std::string::npos);
+  EXPECT_EQ(stages[1].command.output, "d/image-%04d.exr");
+  task.cached_gloss = true;
+  const std::vector<PlanStage> glossy = plan_stages(task, k, "s", "d", 0);
+  ASSERT_EQ(glossy.size(), 4u);
+  EXPECT_EQ(glossy[1].command.tool, "phos-temporal");
+  EXPECT_NE(shell_line(glossy[1].command).find(" --kind radiance "), std::string::npos);
+
+  // The pilot sees the first frame; its seconds are those of one frame.
+  const PlanTask still = still_of(task);
+  EXPECT_FALSE(still.frames);
+  EXPECT_EQ(still.scene_words, (std::vector<std::string>{"--frame", "2"}));
+  EXPECT_TRUE(still_of(picture()).scene_words.empty());
+  const PlanModel one = synthetic_time();
+  PlanModel film = one, none = one;
+  stretch_to_film(film, task), stretch_to_film(none, picture());
+  for (std::size_t part = 0; part < one.part.size(); ++part) {
+    const double times = one.part[part].first == "picture" ? 10 : std::max(1.0, 10 * calibration::kFilmLight);
+    EXPECT_DOUBLE_EQ(film.part[part].second.best(k), times * one.part[part].second.best(k));
+    EXPECT_DOUBLE_EQ(none.part[part].second.best(k), one.part[part].second.best(k));
+  }
 }
 
 std::string refusal(const Pilot& pilot, const PlanGoal& goal) {

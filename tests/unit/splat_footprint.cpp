@@ -7,6 +7,8 @@
 #include "core/random.h"
 #include "splat/cpu/splatter.h"
 #include "splat/cpu/splatter_kernel.h"
+#include "splat/gl/renderer.h"
+#include "support/gl.h"
 #include "support/scenes.h"
 #include "support/splat_records.h"
 
@@ -46,14 +48,24 @@ struct View {
   }
 };
 
-void expect_the_same(const View& view) {
-  const test::SplatDifference d =
-      test::difference(splat_on_cpu(view.records, kAccuracy, view.g, view.scene.camera[0]),
-                       test::splat_one_by_one(view.records, kAccuracy, view.g));
+void expect_alike(const SplatBuffer& drawn, const SplatBuffer& expected) {
+  const test::SplatDifference d = test::difference(drawn, expected);
   EXPECT_TRUE(d.finite);
   EXPECT_LE(d.other_records, 4u) << "only rounding at the border of validity";
   EXPECT_GE(d.drawn, 2000u);
   EXPECT_LT(d.relative, 1e-4);
+}
+
+/// On the CPU as one by one, and by OpenGL as on the CPU.
+void expect_the_same(const View& view) {
+  const Camera& camera = view.scene.camera[0];
+  const SplatBuffer by_cpu = splat_on_cpu(view.records, kAccuracy, view.g, camera);
+  expect_alike(by_cpu, test::splat_one_by_one(view.records, kAccuracy, view.g));
+  GlRenderer gl(view.scene);
+  const SplatBuffer by_gl = gl.splat(view.records, kAccuracy, view.g, camera);
+  expect_alike(by_gl, by_cpu);
+  const SplatBuffer again = gl.splat(view.records, kAccuracy, view.g, camera);
+  EXPECT_EQ(0, std::memcmp(by_gl.light.data(), again.light.data(), again.light.size() * sizeof(Vec4)));
 }
 
 TEST(SplatFootprint, OnFlatSurfacesAsTheCacheReads) { expect_the_same(View(test::cornell())); }
@@ -100,6 +112,10 @@ TEST(SplatFootprint, OfNoLengthAndInItsMiddle) {
   const SplatBuffer drawn = splat_on_cpu(std::vector{r}, kAccuracy, view.g, view.scene.camera[0]);
   EXPECT_TRUE(test::difference(drawn, drawn).finite);
   EXPECT_NEAR(drawn.light[pixel].x / drawn.light[pixel].w / r.irradiance.x, 1, 1e-4);
+  const SplatBuffer by_gl =
+      GlRenderer(view.scene).splat(std::vector{r}, kAccuracy, view.g, view.scene.camera[0]);
+  EXPECT_TRUE(test::difference(drawn, by_gl).finite);
+  EXPECT_NEAR(by_gl.light[pixel].x / by_gl.light[pixel].w / r.irradiance.x, 1, 1e-4);
 }
 
 }  // namespace

@@ -155,17 +155,22 @@ TEST(RecordWeight, EndsWhereTheErrorIsTheAccuracy) {
   EXPECT_EQ(record_weight(kInfinity, kAccuracy), 0);
 }
 
-/// Footprints: one place at a time, and side by side.
+/// Footprints: one place at a time, side by side, and by OpenGL.
 TEST(RecordWeight, OfFootprintsIsTheSame) {
+  const Scene scene;  // no need to see it
+  GlRenderer gl(scene);
   const auto tile = std::make_unique<SplatTile>();
   int lit = 0;
-  for (std::uint64_t item = 0; item < 50; ++item) {
+  for (std::uint64_t item = 0; item < 60; ++item) {
     RandomStream random(4, Stage::test, item);
-    IrradianceRecord r = record_of(random, direction(random), 1);
+    constexpr float kRadii[] = {1, 1e-12f, 1e12f};
+    const float radius_m = kRadii[item % 3];
+    const Vec3 position = radius_m == 1 ? direction(random) : Vec3(0);
+    IrradianceRecord r = record_of(random, position, radius_m);
     AdaptiveFootprint::Axes axes;
     for (AdaptiveFootprint::Axis& axis : axes) {
       const auto light = [&] { return r.irradiance * (2 * random.uniform() - 1); };
-      axis = {kAccuracy * (0.2f + 0.8f * random.uniform()), light(), light(), light(), light()};
+      axis = {kAccuracy * radius_m * (0.2f + 0.8f * random.uniform()), light(), light(), light(), light()};
     }
     r.footprint = std::make_shared<AdaptiveFootprint>(make_frame(r.normal).x, r.normal, axes);
     r.radius_m = r.footprint->longest_m() / kAccuracy;
@@ -178,16 +183,22 @@ TEST(RecordWeight, OfFootprintsIsTheSame) {
     }
     splat_footprint_plain(*tile, pack_record(r), pack_footprint(r), 0, kTilePixels,
                           {1 / kAccuracy, kLeastWeight, 0.01f});
+    const Camera camera = test::look_at(r.position, r.position + Vec3(1, 0, 0), {0, 0, 1}, 1);
+    const SplatBuffer by_gl = gl.splat(std::vector{r}, kAccuracy, g, camera);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const Vec3 p(g.position[i]), n(g.normal[i]);
       const float found = tile->light[3][i];
       ASSERT_NEAR(found, weight_of(r, p, n), kSame) << "place " << i;
+      ASSERT_NEAR(by_gl.light[i].w, found, kSame) << "place " << i;
       if (!(found > 0)) continue;
       ++lit;
       const Rgb light = extrapolate(r, p, n);
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 3; ++c) {
         ASSERT_NEAR(tile->light[c][i], found * light[c], kSame * found * 4 * r.irradiance[c])
             << "place " << i;
+        ASSERT_NEAR(by_gl.light[i][c], by_gl.light[i].w * light[c], kSame * found * 4 * r.irradiance[c])
+            << "place " << i;
+      }
     }
   }
   EXPECT_GT(lit, 1000);

@@ -84,6 +84,47 @@ TEST(FilmFile, KeepsEveryNumberOfIrradiance) {
   }
 }
 
+void expect_same(const AdaptiveFootprint::Axes& a, const AdaptiveFootprint::Axes& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_EQ(a[k].length_m, b[k].length_m);
+    EXPECT_EQ(a[k].slope, b[k].slope);
+    EXPECT_EQ(a[k].bend, b[k].bend);
+    EXPECT_EQ(a[k].turn_slope, b[k].turn_slope);
+    EXPECT_EQ(a[k].turn_bend, b[k].turn_bend);
+  }
+}
+
+TEST(FilmFile, KeepsEveryNumberOfFootprints) {
+  const Scene scene = one_triangle();
+  for (const TemporalGradients gradients : kAllGradients) {
+    const bool changes = gradients != TemporalGradients::none;
+    Film film = test::random_film(12, true, gradients);
+    test::add_footprints(film);
+    const std::string path = scratch_file("shaped.irradiance");
+    write_film(path, film, test::irradiance_provenance());
+    const Container file = Container::open(path, FileKind::irradiance);
+    EXPECT_EQ(file.tensors().size(), 21u + (changes ? 9 : 0));
+    const Film back = read_film(file);
+    ASSERT_EQ(back.records.size(), film.records.size());
+    for (std::size_t i = 0; i < film.records.size(); ++i) {
+      const FilmRecord &a = film.records[i], &b = back.records[i];
+      ASSERT_TRUE(b.record.footprint);
+      EXPECT_EQ(a.record.footprint->x(), b.record.footprint->x());
+      expect_same(a.record.footprint->axes(), b.record.footprint->axes());
+      ASSERT_EQ(b.change.footprint != nullptr, changes);
+      if (changes) expect_same(*a.change.footprint, *b.change.footprint);
+    }
+    for (std::int64_t frame = 10; frame < 30; frame += 3) {
+      const IrradianceCache now = cache_at(film, frame, scene), read = read_film_at(file, frame, scene);
+      ASSERT_EQ(now.records.size(), read.records.size());
+      for (std::size_t i = 0; i < now.records.size(); ++i) {
+        expect_same(now.records[i].footprint->axes(), read.records[i].footprint->axes());
+        EXPECT_EQ(now.records[i].radius_m, read.records[i].radius_m);
+      }
+    }
+  }
+}
+
 TEST(FilmFile, KeepsEveryNumberOfRadiance) {
   for (const TemporalGradients gradients : kAllGradients) {
     for (const bool slopes : {true, false}) {
@@ -259,10 +300,13 @@ TEST(CacheAt, OfAFileIsTheSame) {
     const RadianceFilm lobes = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, gradients);
     write_film(l, lobes, test::radiance_provenance());
     const Container irradiance = Container::open(e), radiance = Container::open(l);
-    const auto lives = [](const auto& records, std::int64_t at) {
+    const auto lives = [&](const auto& records, std::int64_t at) {
       std::vector<std::int32_t> all;
-      for (const auto& r : records)
-        if (r.life.birth <= at && at < r.life.end) all.push_back(r.life.end - r.life.birth);
+      for (const auto& r : records) {
+        const std::uint32_t on = r.life.anchor.triangle;
+        const bool shown = on == kNoTriangle || on < scene.triangle.size();
+        if (shown && r.life.birth <= at && at < r.life.end) all.push_back(r.life.end - r.life.birth);
+      }
       return all;
     };
     for (std::int64_t frame = 9; frame < 31; ++frame) {
@@ -287,6 +331,32 @@ TEST(CacheAt, OfAFileIsTheSame) {
         EXPECT_EQ(c.records[i].weight, d.records[i].weight);
       }
     }
+  }
+}
+
+/// Light and its changes to 11 bits, gradients and their changes to a byte.
+TEST(FilmFile, CompactRadianceIsNearlyTheSame) {
+  const RadianceFilm film =
+      test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, TemporalGradients::interpolated);
+  const std::string path = scratch_file("compact.radiance");
+  write_film(path, film, test::radiance_provenance(), Store::compact);
+  const RadianceFilm back = read_radiance_film(Container::open(path));
+  ASSERT_EQ(back.records.size(), film.records.size());
+  const auto expect_close = [](const std::vector<float>& a, const std::vector<float>& b, float within) {
+    if (a.empty() && b.empty()) return;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], within) << i;
+  };
+  for (std::size_t i = 0; i < film.records.size(); ++i) {
+    const FilmRadianceRecord &a = film.records[i], &b = back.records[i];
+    EXPECT_EQ(a.life.birth, b.life.birth);
+    EXPECT_EQ(a.change.radius_m, b.change.radius_m);
+    // All numbers are from 0 to 1.
+    expect_close(a.record.light, b.record.light, 0x1p-12f);
+    expect_close(a.record.gradient_x, b.record.gradient_x, 0x1p-7f);
+    expect_close(a.change.light, b.change.light, 0x1p-12f);
+    expect_close(a.change.gradient_x, b.change.gradient_x, 0x1p-7f);
+    expect_close(a.change.gradient_y, b.change.gradient_y, 0x1p-7f);
   }
 }
 
@@ -381,6 +451,131 @@ TEST(ChangeBetween, IsNothingWhereLightTurnsWithTheSurface) {
     EXPECT_LT(glm::length(change.rotation[c]), 1e-6f);
     EXPECT_LT(glm::length(change.translation[c]), 3e-6f);
   }
+}
+
+// --- footprints ---
+
+/// A record with a footprint at the anchor of a triangle.
+FilmRecord shaped_at(const Scene& scene, std::int32_t birth, std::int32_t end, std::uint64_t item,
+                     const Vec3& normal) {
+  FilmRecord r;
+  r.record = test::random_cache(1).records[0];
+  r.life = on_triangle(birth, end, scene);
+  r.record.position = pose_of(scene, r.life.anchor)->position, r.record.normal = normal;
+  r.record.irradiance = Rgb(50, 60, 70);
+  r.record.footprint =
+      std::make_shared<AdaptiveFootprint>(make_frame(normal).x, normal, test::random_axes(item, 0.3f, 10));
+  r.record.radius_m = r.record.footprint->longest_m() / 0.25f;
+  return r;
+}
+
+/// The directions, in the world, of the axes of a record's footprint.
+std::vector<Vec3> axes_of(const IrradianceRecord& r) {
+  std::vector<Vec3> axes;
+  for (int k = 0; k < AdaptiveFootprint::kAxes; ++k) {
+    const Vec2 u = AdaptiveFootprint::direction(k);
+    axes.push_back(u.x * r.footprint->x() + u.y * r.footprint->y());
+  }
+  return axes;
+}
+
+TEST(FilmFootprint, MovesAndTurnsWithItsSurface) {
+  const Scene flat = one_triangle(2), moved = one_triangle(2, kTurn, kMove);
+  const FilmRecord r = shaped_at(flat, 10, 15, 1, {0, 0, 1});
+  const Film film = film_of(TemporalGradients::none, {r});
+  const IrradianceRecord there = cache_at(film, 10, flat).records.at(0),
+                         now = cache_at(film, 11, moved).records.at(0);
+  EXPECT_EQ(there.footprint->x(), r.record.footprint->x()) << "nothing is rounded where nothing turns";
+  const Vec3 n = glm::normalize(r.record.normal + Vec3(0.1f, 0, 0.2f));
+  for (const Vec3& u : axes_of(there)) {
+    const Vec3 p = 0.17f * u;
+    EXPECT_NEAR(record_error(now, now.position + kTurn * p, kTurn * n),
+                record_error(there, there.position + p, n), 1e-5f);
+    expect_near(extrapolate(now, now.position + kTurn * p, kTurn * n),
+                extrapolate(there, there.position + p, n), 1e-5f);
+  }
+}
+
+/// docs/methods.md#f8: at the frame where one record ends and the next begins they say the same, where the
+/// surface has turned in between and the axes of the next start elsewhere.
+TEST(FilmFootprint, ChangesToThatOfTheNextRecord) {
+  const Scene first = one_triangle(), second = one_triangle(1, kTurn, kMove);
+  FilmRecord a = shaped_at(first, 10, 15, 1, {0, 0, 1});
+  const FilmRecord b = shaped_at(second, 15, 20, 2, kTurn * Vec3(0, 0, 1));
+  a.change = change_between(a, b);
+  const IrradianceRecord last = changed(a, 15);
+  EXPECT_NEAR(last.radius_m / last.footprint->longest_m(), 4, 1e-4f) << "zones as large as they were fitted";
+  a.life.end = 16;  // one frame more, so that cache_at() shows the end
+  const IrradianceRecord end =
+      cache_at(film_of(TemporalGradients::interpolated, {a}), 15, second).records.at(0);
+  const IrradianceRecord birth =
+      cache_at(film_of(TemporalGradients::interpolated, {b}), 15, second).records.at(0);
+  const Vec3 n = birth.normal;
+  for (const Vec3& u : axes_of(end))
+    for (const float step : {0.02f, 0.08f}) {
+      const Vec3 p = birth.position + step * u;
+      expect_near(extrapolate(end, p, n), extrapolate(birth, p, n), 1e-4f);
+      const auto reach = [&](const IrradianceRecord& r) {
+        return record_error(r, p, n) * r.radius_m / r.footprint->longest_m();
+      };
+      EXPECT_NEAR(reach(end), reach(birth), 1e-4f);
+      const Vec3 tilted = glm::normalize(n + 0.2f * u);
+      expect_near(extrapolate(end, birth.position, tilted), extrapolate(birth, birth.position, tilted),
+                  1e-4f);
+    }
+}
+
+/// The zone along each axis is the mean of the zones of both records halfway between them, and the light at a
+/// share of an axis the mean of both lights.
+TEST(FilmFootprint, IsHalfwayBetweenBothHalfway) {
+  const Scene scene = one_triangle();
+  FilmRecord a = shaped_at(scene, 10, 20, 1, {0, 0, 1});
+  const FilmRecord b = shaped_at(scene, 20, 29, 2, {0, 0, 1});
+  a.change = change_between(a, b);
+  const IrradianceRecord half = changed(a, 15);
+  const std::vector<Vec3> axes = axes_of(a.record);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const float of_a = a.record.footprint->axes()[k].length_m, of_b = b.record.footprint->axes()[k].length_m,
+                length = 0.5f * (of_a + of_b);
+    const auto error = [&](const IrradianceRecord& r, float step) {
+      return record_error(r, r.position + step * axes[k], r.normal);
+    };
+    const auto light = [&](const IrradianceRecord& r, float step) {
+      return extrapolate(r, r.position + step * axes[k], r.normal);
+    };
+    EXPECT_NEAR(error(a.record, of_a), 0.25f, 1e-5f);
+    EXPECT_NEAR(error(half, length), 0.25f, 1e-5f);
+    for (const float share : {0.3f, 1.f})
+      expect_near(light(half, share * length),
+                  0.5f * (light(a.record, share * of_a) + light(b.record, share * of_b)), 1e-5f);
+  }
+}
+
+/// A foretold change is a change of light: the zone stays, and light beyond the foretold axes stands.
+TEST(FilmFootprint, KeepsItsReachWhereLightIsForetold) {
+  const Scene scene = one_triangle();
+  FilmRecord a = shaped_at(scene, 10, 20, 1, {0, 0, 1});
+  FilmRecord b = shaped_at(scene, 11, 29, 2, {0, 0, 1});
+  a.change = change_between(a, b, Reach::stays);
+  const IrradianceRecord next = changed(a, 11);
+  EXPECT_EQ(next.radius_m, a.record.radius_m);
+  for (std::size_t k = 0; k < AdaptiveFootprint::kAxes; ++k) {
+    const float length = a.record.footprint->axes()[k].length_m;
+    EXPECT_EQ(next.footprint->axes()[k].length_m, length);
+    for (const float share : {0.5f, 1.f}) {
+      const Vec3 p = a.record.position + share * length * axes_of(a.record)[k];
+      expect_near(extrapolate(next, p, a.record.normal), extrapolate(b.record, p, a.record.normal), 1e-4f);
+    }
+  }
+  // Far ahead nothing is negative, and nothing has no length.
+  a.change.irradiance = Rgb(-1000);
+  AdaptiveFootprint::Axes shrinking = *a.change.footprint;
+  for (AdaptiveFootprint::Axis& axis : shrinking) axis.length_m = -1;
+  a.change.footprint = std::make_shared<const AdaptiveFootprint::Axes>(shrinking);
+  const IrradianceRecord last = changed(a, 19);
+  EXPECT_GT(last.footprint->shortest_m(), 0);
+  EXPECT_GT(last.radius_m, 0);
+  EXPECT_GE(extrapolate(last, last.position + 0.1f * axes_of(last)[3], last.normal).y, 0);
 }
 
 // --- radiance ---

@@ -59,8 +59,6 @@ std::vector<Summary> summarise(const Tensor& tensor, std::size_t columns) {
 /// Bytes of another program, and codes: as numbers they mean nothing.
 bool is_opaque(const Tensor& tensor) { return is_octahedral(tensor) || tensor.unit == kOpaqueUnit; }
 
-bool is_float(const Tensor& tensor) { return tensor.dtype == Dtype::f32 || tensor.dtype == Dtype::f64; }
-
 /// One value per column. `narrow` values came from floats and print with a float's digits.
 Json per_column(const std::vector<Summary>& summaries, bool narrow, double (*value)(const Summary&)) {
   Json::Array all;
@@ -90,12 +88,12 @@ Json describe_tensor(const Tensor& tensor, const TensorRow* row) {
   const bool by_column = tensor.shape.size() == 2 && tensor.shape[1] <= kMostColumns;
   const std::vector<Summary> summaries =
       summarise(tensor, by_column ? static_cast<std::size_t>(tensor.shape[1]) : 1);
-  const bool narrow = tensor.dtype == Dtype::f32;
+  const bool narrow = tensor.dtype == Dtype::f32 || tensor.dtype == Dtype::f16;
   out["min"] = per_column(summaries, narrow, [](const Summary& s) { return s.least; });
   out["max"] = per_column(summaries, narrow, [](const Summary& s) { return s.greatest; });
   out["mean"] =
       per_column(summaries, false, [](const Summary& s) { return s.sum / static_cast<double>(s.finite); });
-  if (is_float(tensor)) {
+  if (is_float(tensor.dtype)) {
     std::uint64_t not_finite = 0;
     for (const Summary& s : summaries) not_finite += s.not_finite;
     out["non_finite"] = not_finite;

@@ -29,6 +29,8 @@ void append_number(std::string& out, T v) {
   out.append(buffer, end);
 }
 
+void append_number(std::string& out, Half v) { append_number(out, static_cast<float>(v)); }
+
 template <class T>
 T element(const Tensor& tensor, std::size_t i) {
   T v;

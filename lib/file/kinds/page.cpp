@@ -40,7 +40,7 @@ std::string methods(std::string_view anchors) {
 
 std::string row_line(const TensorRow& row) {
   const std::string_view check = row.check.words;
-  return text("| `", row.name, "` | ", dtype_name(row.dtype), ' ', shape_words(row), " | ", row.unit, " | ",
+  return text("| `", row.name, "` | ", type_words(row), ' ', shape_words(row), " | ", row.unit, " | ",
               check.empty() ? "any" : check, " | ", row.meaning, methods(row.methods), " |\n");
 }
 

@@ -127,10 +127,10 @@ Extents require_layout(const Container& file) {
   for_each_due(file, [&](const TensorRow& row, const std::string& table, const std::string& name) {
     const Tensor& t = require_tensor(file, name);
     const Extents before = known;
-    if (t.dtype == row.dtype && fits(row, table, t.shape, known)) return;
+    if (row.has_type(t.dtype) && fits(row, table, t.shape, known)) return;
     throw Error(ExitCode::bad_input, file.path(),
                 text("tensor \"", name, "\" is ", dtype_name(t.dtype), shape_words(t.shape), ", not ",
-                     dtype_name(row.dtype), shape_words(row), known_extents(before), kAgain));
+                     type_words(row), shape_words(row), known_extents(before), kAgain));
   });
   return known;
 }

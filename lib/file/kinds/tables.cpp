@@ -163,6 +163,18 @@ constexpr TensorRow kIrradianceChanges[] = {
     {"translation_gradient_change", Dtype::f32, "n,rgb,xyz", "lx/m/frame", kFinite,
      "change of `translation_gradient` per frame"},
 };
+constexpr TensorRow kFootprintChanges[] = {
+    {"footprint_length_change", Dtype::f32, "n,8", "m/frame", kFinite,
+     "change of `footprint_length` per frame", "f8"},
+    {"footprint_slope_change", Dtype::f32, "n,rgb,8", "lx/frame", kFinite,
+     "change of `footprint_slope` per frame"},
+    {"footprint_bend_change", Dtype::f32, "n,rgb,8", "lx/frame", kFinite,
+     "change of `footprint_bend` per frame"},
+    {"footprint_turn_slope_change", Dtype::f32, "n,rgb,8", "lx/rad/frame", kFinite,
+     "change of `footprint_turn_slope` per frame"},
+    {"footprint_turn_bend_change", Dtype::f32, "n,rgb,8", "lx/rad2/frame", kFinite,
+     "change of `footprint_turn_bend` per frame"},
+};
 constexpr TensorGroup kIrradianceGroups[] = {
     {always, "", kIrradiance},
     kSharedGroup,
@@ -178,25 +190,32 @@ constexpr TensorGroup kIrradianceGroups[] = {
     kAnchorGroup,
     kRadiusChangeGroup,
     {optional, "", kIrradianceChanges, FileForm::film},
+    {optional, "With `--footprint adaptive`, unless the film was made with `--temporal-gradients none`:",
+     kFootprintChanges, FileForm::film},
 };
 
 // --- radiance ---
 
+constexpr CompactType kLightHalf{Dtype::f16, "light_scale"}, kChangeHalf{Dtype::f16, "change_scale"},
+    kGradientByte{Dtype::i8, "2^gradient_exponent"},
+    kGradientChangeByte{Dtype::i8, "2^gradient_change_exponent"};
+
 constexpr TensorRow kRadiance[] = {
     {"position", Dtype::f32, "n,xyz", "m", kFinite, "place of the record"},
     {"frame", Dtype::f32, "n,2,xyz", "1", kFrame, "x axis and normal (z); y = z × x"},
-    {"coefficients", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)", kFinite, "coefficients c_i of each colour"},
+    {"coefficients", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)", kFinite, "coefficients c_i of each colour",
+     "", kLightHalf},
     {"stderr", Dtype::f32, "n,rgb,N", "cd/m2 sqrt(sr)", kFiniteNotNegative,
-     "standard error of one coefficient of each band"},
+     "standard error of one coefficient of each band", "", kLightHalf},
     {"distance", Dtype::f32, "n", "m", kNotNegative, "mean distance to the surroundings", "a7 c6"},
     {"radius", Dtype::f32, "n", "m", kPositive,
      "radius R of the weight; a record serves points within accuracy × R"},
 };
 constexpr TensorRow kRadianceGradients[] = {
     {"gradient_x", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
-     "change of the coefficients per metre along x; absent where there is none"},
+     "change of the coefficients per metre along x; absent where there is none", "", kGradientByte},
     {"gradient_y", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m", kFinite,
-     "change of the coefficients per metre along y; absent where there is none"},
+     "change of the coefficients per metre along y; absent where there is none", "", kGradientByte},
 };
 constexpr TensorRow kOrder[] = {
     {"order", Dtype::u8, "n", "1", kAny,
@@ -204,13 +223,29 @@ constexpr TensorRow kOrder[] = {
 };
 constexpr TensorRow kRadianceChanges[] = {
     {"coefficients_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/frame", kFinite,
-     "change of the coefficients per frame"},
+     "change of the coefficients per frame", "", kChangeHalf},
 };
 constexpr TensorRow kRadianceGradientChanges[] = {
     {"gradient_x_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m/frame", kFinite,
-     "change of `gradient_x` per frame"},
+     "change of `gradient_x` per frame", "", kGradientChangeByte},
     {"gradient_y_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/m/frame", kFinite,
-     "change of `gradient_y` per frame"},
+     "change of `gradient_y` per frame", "", kGradientChangeByte},
+};
+constexpr TensorRow kLightScale[] = {
+    {"light_scale", Dtype::f32, "n", "cd/m2 sqrt(sr)", kPositive,
+     "unit of the record's `coefficients` and `stderr`, a power of two"},
+};
+constexpr TensorRow kGradientExponent[] = {
+    {"gradient_exponent", Dtype::i8, "n,N", "1", kAny,
+     "e of each band: 2^e cd/m2 sqrt(sr)/m is the unit of its `gradient_x` and `gradient_y`"},
+};
+constexpr TensorRow kChangeScale[] = {
+    {"change_scale", Dtype::f32, "n", "cd/m2 sqrt(sr)/frame", kPositive,
+     "unit of the record's `coefficients_change`, a power of two"},
+};
+constexpr TensorRow kGradientChangeExponent[] = {
+    {"gradient_change_exponent", Dtype::i8, "n,N", "1", kAny,
+     "e of each band: 2^e cd/m2 sqrt(sr)/m/frame is the unit of the changes of both gradients"},
 };
 constexpr TensorGroup kRadianceGroups[] = {
     {always, "", kRadiance},
@@ -218,6 +253,14 @@ constexpr TensorGroup kRadianceGroups[] = {
     {optional, "", kOrder},
     {optional, "", kRadianceChanges, FileForm::film},
     {optional, "", kRadianceGradientChanges, FileForm::film},
+    {optional,
+     "Files of `--store compact` hold coefficients, changes of coefficients and standard errors as half "
+     "floats (F16), and gradients as signed bytes (I8). These numbers count units that belong to the record, "
+     "or to one band of the record:",
+     kLightScale},
+    {optional, "", kGradientExponent},
+    {optional, "", kChangeScale, FileForm::film},
+    {optional, "", kGradientChangeExponent, FileForm::film},
     kSharedGroup,
     kCausticGroup,
     kCausticFlightGroup,

@@ -47,10 +47,13 @@ class TensorReader {
   explicit TensorReader(const Container& file);
   const Container& file() const { return file_; }
   bool has(const std::string& name) const { return file_.has(name); }
+  /// The type of its numbers: the type of the row, or the compact type. Throws Error(bad_input) where the
+  /// file has no such tensor.
+  Dtype type_of(const std::string& name) const;
   /// The extent that a symbol of shapes stands for; 0 where no tensor of the file has the symbol.
   std::uint64_t extent(const std::string& symbol) const;
   /// The numbers in place. Throws Error(bad_input) where the file has no such tensor. Aborts for a tensor
-  /// without a row, or with another type.
+  /// without a row, or that has not the type T.
   template <class T>
   std::span<const T> values(const std::string& name) const {
     const Tensor& t = require(name, dtype_of<T>());

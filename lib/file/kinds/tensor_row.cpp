@@ -27,6 +27,11 @@ std::string tensor_name(const TensorRow& row, std::string_view table) {
   return std::string(table) + std::string(row.name.substr(kTable.size() - 1));
 }
 
+std::string type_words(const TensorRow& row) {
+  const std::string usual = dtype_name(row.dtype);
+  return row.compact ? usual + " or " + dtype_name(row.compact->dtype) : usual;
+}
+
 const TensorRow* find_row(FileKind kind, std::string_view tensor) {
   const std::string_view table = table_of(tensor);
   for (const TensorGroup& group : row_of(kind).groups)

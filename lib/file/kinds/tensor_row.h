@@ -2,6 +2,7 @@
 // the manual.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,12 @@ struct NumberCheck {
 /// Units of codes: of direction codes, and of bytes that another library reads.
 inline constexpr std::string_view kOctahedralUnit = "octahedral", kOpaqueUnit = "FLANN index";
 
+/// A shorter type that a tensor may have, with numbers in units of another tensor.
+struct CompactType {
+  Dtype dtype;
+  std::string_view unit;  ///< "light_scale": the numbers times that tensor are in the unit of the row
+};
+
 struct TensorRow {
   std::string_view name;  ///< "K.orders" stands for 0.orders, 1.orders, ... of the tables of lobes
   Dtype dtype;
@@ -41,7 +48,14 @@ struct TensorRow {
   std::string_view meaning;  ///< one line without a full stop
   /// Anchors of docs/methods.md, separated by spaces.
   std::string_view methods = "";
+  std::optional<CompactType> compact = {};
+
+  /// Is this one of the types of its numbers?
+  bool has_type(Dtype d) const { return d == dtype || (compact && d == compact->dtype); }
 };
+
+/// "F32"; with a shorter type "F32 or F16".
+std::string type_words(const TensorRow& row);
 
 /// Tensors that are in a file together.
 struct TensorGroup {

@@ -129,6 +129,15 @@ PlanModel time_model(const PlanTask& task) {
       {"coarse records",
        sum_of({{"start", {}}, {"coarse records", {{K::photons, calibration::kCoarseSecondsPhotons}}}})},
       {"records", sum_of(records)}};
+  if (task.cached_gloss) {
+    std::vector<Monomial> gloss = {
+        {"start", {}}, {"places", {{K::pixels, 1}}}, {"radiance records", {{K::gloss_records, 1}}}};
+    if (!task.by_photons)
+      gloss.push_back({"rays of radiance records", {{K::gloss_records, 1}, {K::rays, 1}}});
+    model.part.emplace_back("lobes", sum_of({{"start", {}}}));
+    model.part.emplace_back("coarse records, for gloss", *std::as_const(model).find("coarse records"));
+    model.part.emplace_back("gloss records", sum_of(gloss));
+  }
   if (task.image) {
     std::vector<Monomial> terms = {
         {"start", {}},

@@ -169,14 +169,17 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
       if (c == 0 || most) add_rows(lux, k, runs.lux_tables(k), true, most);
     }
   }
-  const std::vector<double> counts = runs.count_records(kPhotons[0], {kAccuracy[0], kAccuracy[1]},
-                                                        static_cast<double>(cells_of(kCountRings)));
+  const std::vector<PilotRuns::Counted> counts = runs.count_records(
+      kPhotons[0], {kAccuracy[0], kAccuracy[1]}, static_cast<double>(cells_of(kCountRings)));
   double sampled_detail = 1;
   if (task.image) sampled_detail = runs.time_pictures(with(caches[0], kTimed[0]), with(caches[0], kTimed[1]));
+  const double pixels = static_cast<double>(task.width * task.height);
   const double places =
-      (task.image ? calibration::kPlacesOfAPixel * static_cast<double>(task.width * task.height) : 0) +
-      static_cast<double>(pilot.sensors);
-  pilot.records = count_of(kAccuracy[0], counts[0], kAccuracy[1], counts[1], places);
+      (task.image ? calibration::kPlacesOfAPixel * pixels : 0) + static_cast<double>(pilot.sensors);
+  pilot.records = count_of(kAccuracy[0], counts[0].records, kAccuracy[1], counts[1].records, places);
+  if (task.cached_gloss)
+    pilot.gloss_records = count_of(kAccuracy[0], counts[0].gloss_records, kAccuracy[1],
+                                   counts[1].gloss_records, calibration::kPlacesOfAPixel * pixels);
   for (auto& [name, p] : pilot.time.part)
     p.fit(runs.times(name.substr(0, name.find(','))), options.seed + 11);
   if (task.image) {
@@ -184,7 +187,7 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
     fit_errors(*pilot.image_error, image, options.seed + 20, "direct light and gloss");
     add_missed_detail(*pilot.image_error, runs.detail(), sampled_detail, runs.growth());
     pilot.image_resolution = resolution_of(image.indirect_bias);
-    pilot.image_reference.places = static_cast<double>(task.width * task.height);
+    pilot.image_reference.places = pixels;
   }
   if (task.lux) {
     pilot.lux_error = lux_error_model(task);

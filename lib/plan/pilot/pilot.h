@@ -17,7 +17,8 @@ namespace phos::inline plan {
 struct Pilot {
   PlanModel time;                                   ///< s, of the pipeline
   std::optional<PlanModel> image_error, lux_error;  ///< mean square, relative
-  RecordCount records;                              ///< all that the pipeline makes
+  RecordCount records;                              ///< all that the pipeline makes, but
+  RecordCount gloss_records;                        ///< radiance records; none where gloss is traced
   ReferenceCost image_reference, lux_reference;
   std::optional<double> image_resolution, lux_resolution;  ///< least errors that its references can show
   double seconds = 0;                                      ///< that it took

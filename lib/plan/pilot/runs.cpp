@@ -82,16 +82,27 @@ CommandRun PilotRuns::timed(const std::string& part, const Knobs& knobs, const C
   return run;
 }
 
-/// Splits the time of phos-irradiance: the coarse cache, and the rest with the records that were made.
-/// Returns those.
-double PilotRuns::records_run(const Knobs& knobs, const Command& command) {
+double PilotRuns::records_run(const std::string& part, Knob count, const Knobs& knobs,
+                              const Command& command) {
   const CommandRun run = require(command);
   Knobs k = knobs;
-  k[at(Knob::records)] = number(run.stats, "records_made");
+  k[at(count)] = number(run.stats, "records_made");
   const double coarse = number(run.stats, "seconds.coarse records"), rest = run.wall_s - coarse;
   times_["coarse records"].push_back({k, coarse, doubt_of_time(coarse)});
-  times_["records"].push_back({k, rest, doubt_of_time(rest)});
-  return k[at(Knob::records)];
+  times_[part].push_back({k, rest, doubt_of_time(rest)});
+  return k[at(count)];
+}
+
+GlossFiles PilotRuns::gloss_files(const std::string& records) const {
+  return task_.cached_gloss ? GlossFiles{folder_.file("lobes"), records + "-gloss"} : GlossFiles{};
+}
+
+double PilotRuns::gloss_records_run(const PlanTask& task, const Knobs& knobs, const std::string& photons,
+                                    const GlossFiles& files, std::uint64_t seed) {
+  if (files.empty()) return 0;
+  if (times_["lobes"].empty()) timed("lobes", knobs, lobes_command(task, task.scene, files.lobes));
+  return records_run("gloss records", Knob::gloss_records, knobs,
+                     seeded(gloss_records_command(task, knobs, task.scene, photons, files), seed));
 }
 
 ReferenceRun PilotRuns::references(bool lux, double samples) {
@@ -137,9 +148,13 @@ void PilotRuns::make_caches(const Knobs& knobs) {
     const std::uint64_t seed = options_.seed + kPipelineSeed + i;
     const std::string photons = name("photons-", i) + "-" + knob_word(knobs, Knob::photons);
     if (!traced) timed("photons", made_, seeded(photons_command(small_, knobs, small_.scene, photons), seed));
-    if (task_.image)
-      records_run(made_,
-                  seeded(view_records_command(small_, knobs, small_.scene, photons, name("view-", i)), seed));
+    if (task_.image) {
+      const GlossFiles gloss = gloss_files(name("view-", i));
+      gloss_records_run(small_, made_, photons, gloss, seed);
+      records_run(
+          "records", Knob::records, made_,
+          seeded(view_records_command(small_, knobs, small_.scene, photons, name("view-", i), gloss), seed));
+    }
     if (!task_.lux) continue;
     Knobs k = made_;
     k[at(Knob::pixels)] = 0;
@@ -148,16 +163,17 @@ void PilotRuns::make_caches(const Knobs& knobs) {
                                       name("sensors-", i)),
                seed);
     // With a picture these are added to its records: their coarse cache is the picture's, made anew.
-    records_run(k, at_sensors);
+    records_run("records", Knob::records, k, at_sensors);
   }
 }
 
 SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   Image made[2];
-  const bool whole = direct || task_.cached_direct;
+  const bool whole = direct || task_.records_hold_more();
   for (std::size_t i = 0; i < 2; ++i) {
     const auto draw = whole ? picture_command : indirect_picture_command;
-    const Command command = seeded(draw(small_, knobs, small_.scene, name("view-", i), name("picture-", i)),
+    const Command command = seeded(draw(small_, knobs, small_.scene, name("view-", i), name("picture-", i),
+                                        gloss_files(name("view-", i))),
                                    options_.seed + kPipelineSeed + i);
     if (direct)
       timed("picture", sized(knobs), command);
@@ -181,7 +197,7 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
   out.gloss = judged([&](const Image& image) {
     return less(less(layer(image, ""), layer(image, "indirect")), layer(image, "direct"));
   });
-  if (!task_.cached_direct) return out;
+  if (!task_.records_hold_more()) return out;
   // Records hold more than the reference calls indirect: bias is of all light, and put down to them.
   const Separated noise = out.indirect;
   out.indirect = out.whole;
@@ -195,7 +211,9 @@ double PilotRuns::time_pictures(const Knobs& few, const Knobs& more) {
     Knobs k = i == 0 ? few : more;
     k[at(Knob::pixels)] = pixels_of(task_);
     const auto drawn = [&](auto&& draw, const PlanTask& task) {
-      return seeded(draw(task, k, task.scene, name("count-", 0), name("picture-", i)), options_.seed);
+      return seeded(
+          draw(task, k, task.scene, name("count-", 0), name("picture-", i), gloss_files(name("count-", 0))),
+          options_.seed);
     };
     const Command command = drawn(picture_command, task_);
     timed("picture", k, command);
@@ -236,24 +254,30 @@ SeparatedLayers PilotRuns::lux_tables(const Knobs& knobs) {
   return out;
 }
 
-std::vector<double> PilotRuns::count_records(double photons_count, const std::vector<double>& accuracies,
-                                             double rays) {
-  std::vector<double> counts;
+std::vector<PilotRuns::Counted> PilotRuns::count_records(double photons_count,
+                                                         const std::vector<double>& accuracies, double rays) {
+  std::vector<Counted> counts;
   for (const double a : accuracies) {
     Knobs k = made_;
-    double count = 0;
+    Counted count;
     k[at(Knob::photons)] = photons_count, k[at(Knob::accuracy)] = a, k[at(Knob::rays)] = rays;
     const std::string photons = name("photons-", 0) + "-" + knob_word(k, Knob::photons);
     if (task_.image) {
       k[at(Knob::pixels)] = pixels_of(task_);
-      count += records_run(k, seeded(view_records_command(task_, k, task_.scene, photons, name("count-", 0)),
-                                     options_.seed + kCountSeed));
+      const GlossFiles gloss = gloss_files(name("count-", 0));
+      const std::uint64_t seed = options_.seed + kCountSeed;
+      count.gloss_records = gloss_records_run(task_, k, photons, gloss, seed);
+      count.records += records_run(
+          "records", Knob::records, k,
+          seeded(view_records_command(task_, k, task_.scene, photons, name("count-", 0), gloss), seed));
     }
     if (task_.lux) {
       k[at(Knob::pixels)] = 0;
-      count += records_run(k, seeded(sensor_records_command(task_, k, task_.scene, photons,
-                                                            folder_.file("all.csv"), "", name("count-", 1)),
-                                     options_.seed + kCountSeed));
+      count.records +=
+          records_run("records", Knob::records, k,
+                      seeded(sensor_records_command(task_, k, task_.scene, photons, folder_.file("all.csv"),
+                                                    "", name("count-", 1)),
+                             options_.seed + kCountSeed));
     }
     counts.push_back(count);
   }

@@ -41,8 +41,11 @@ class PilotRuns {
   /// Two pictures of those caches; `direct`: with all light, else indirect light alone.
   SeparatedLayers pictures(const Knobs& knobs, bool direct);
   SeparatedLayers lux_tables(const Knobs& knobs);
+  struct Counted {
+    double records = 0, gloss_records = 0;
+  };
   /// Records that the whole task takes, at each accuracy.
-  std::vector<double> count_records(double photons, const std::vector<double>& accuracies, double rays);
+  std::vector<Counted> count_records(double photons, const std::vector<double>& accuracies, double rays);
   /// The picture that is meant, in its own size, of the last records that were counted, with few and with
   /// more samples of pixels: edges are a smaller share of more pixels. Returns the power, as detail()'s, with
   /// which the part within pixels that the few miss shrinks from the pilot's own size to this one.
@@ -63,7 +66,14 @@ class PilotRuns {
   /// Every program is run here.
   CommandRun require(const Command& command) const;
   CommandRun timed(const std::string& part, const Knobs& knobs, const Command& command);
-  double records_run(const Knobs& knobs, const Command& command);
+  /// Splits the time of a program of records, part `part` of the time model: the coarse cache, and the rest
+  /// with the records that were made. Returns those.
+  double records_run(const std::string& part, Knob count, const Knobs& knobs, const Command& command);
+  /// Makes the radiance records of a picture and returns their number; 0 where gloss is traced.
+  double gloss_records_run(const PlanTask& task, const Knobs& knobs, const std::string& photons,
+                           const GlossFiles& files, std::uint64_t seed);
+  /// That go with a file of records.
+  GlossFiles gloss_files(const std::string& records) const;
   std::string name(const char* kind, std::size_t which) const;
   void set_out_sensors();
   std::vector<double> lux_of(const std::string& path, const char* column) const;

@@ -48,7 +48,7 @@ GlProgram& GlRenderer::Impl::gloss_program(int order) {
   if (!program) {
     const std::string fragment = text("#version 450 core\n", shaders::record_weight, "#define COUNT ",
                                       harmonic_count(order), "\n", shaders::gloss_fragment);
-    program = GlProgram(gl, "gloss", shaders::gloss_vertex, fragment.c_str());
+    program = GlProgram(gl, "gloss", shaders::one_record_vertex, fragment.c_str());
   }
   return program;
 }

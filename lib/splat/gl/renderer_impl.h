@@ -37,6 +37,7 @@ struct GlRenderer::Impl {
   /// Draws are added to light and error (and spread) from now on, with the G-buffer's textures at hand.
   void bind_for_sum(const GlPictureTarget& target, bool spread = false) const;
   void prepare_splat();
+  void prepare_footprints();
   /// The program that draws radiance records of an order, made when it is first asked for.
   GlProgram& gloss_program(int order);
   void read(const GlObject& texture, std::vector<Vec4>& pixels) const;
@@ -46,9 +47,10 @@ struct GlRenderer::Impl {
   GlMesh mesh;
   GlRasterTarget raster;
   GlPictureTarget picture;
-  GlProgram splat_program, shadow_program;
+  GlProgram splat_program, footprint_program, shadow_program;
   std::map<int, GlProgram> gloss_programs;  // by order
   GlObject empty_array, splat_array, splat_instances;
+  GlObject footprint_array, footprint_rects, footprint_block;
   GlObject gloss_array, gloss_rects, gloss_record;
 };
 

@@ -98,7 +98,74 @@ void main() {
 }
 )";
 
-const char* const gloss_vertex = R"(#version 450 core
+const char* const footprint_fragment = R"(
+struct Axis {
+  vec4 slope;                             // and 1 / length
+  vec4 half_bend, turn_slope, half_turn_bend;
+};
+layout(std140, binding = 0) uniform Record {
+  vec4 position;                          // and the longest axis over the radius
+  vec4 normal;                            // and the limit of the in-front test
+  vec4 irradiance;                        // and the record's own weight
+  vec4 stderr_lx;                         // and the part that records share
+  vec4 axis_x;                            // and 1 / the shortest axis
+  vec4 axis_y;                            // and the limit of what lies over its plane
+  Axis axes[8];
+};
+uniform vec4 rule;                        // 1 / accuracy, least weight, nothing, 1 / unit of squares
+layout(binding = 0) uniform sampler2D position_map;
+layout(binding = 1) uniform sampler2D normal_map;
+layout(location = 0) out vec4 light;
+layout(location = 1) out vec4 error;
+layout(location = 2) out vec4 spread;
+
+void shares_of_axes(float x, float y, out float w[8]) {
+  w[0] = share_of_axis(x, y), w[4] = share_of_axis(-x, y);
+  w[2] = share_of_axis(y, x), w[6] = share_of_axis(-y, x);
+  w[1] = share_of_diagonal(x, y), w[3] = share_of_diagonal(-x, y);
+  w[5] = share_of_diagonal(-x, -y), w[7] = share_of_diagonal(x, -y);
+}
+
+float total(float w[8]) { return w[0] + w[1] + w[2] + w[3] + w[4] + w[5] + w[6] + w[7]; }
+
+void main() {
+  light = vec4(0.0), error = vec4(0.0), spread = vec4(0.0);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
+  vec3 n = texelFetch(normal_map, pixel, 0).xyz, turn = n - normal.xyz;
+  vec2 p = vec2(dot(d, axis_x.xyz), dot(d, axis_y.xyz));
+  float w[8], inwards[8];
+  shares_of_axes(p.x, p.y, w);
+  float along = total(w), per_along = 1.0 / (along > 0.0 ? along : 1.0);
+  for (int k = 0; k < 8; ++k) inwards[k] = w[k] * axes[k].slope.w, w[k] *= per_along;
+  float reach = border_reach(p.x, p.y, per_along, total(inwards)), height = dot(d, normal.xyz) * axis_x.w;
+  float left = weight_left(footprint_error(reach, height, sqrt(dot(turn, turn)), position.w), rule.x, rule.y);
+  float weight = weight_if_lit(left, d, n, normal.xyz, normal.w, axis_y.w) * irradiance.w;
+  if (!(weight > 0.0)) return;
+
+  // Beyond the axes the light of the border stands.
+  float limit = slope_share(reach, 1.0), curve = bend_share(reach, 1.0);
+  vec3 value = irradiance.rgb;
+  for (int k = 0; k < 8; ++k)
+    value += inwards[k] * limit * axes[k].slope.rgb + w[k] * curve * axes[k].half_bend.rgb;
+  if (dot(turn, turn) > 0.0) {
+    vec2 t = vec2(dot(n, axis_x.xyz), dot(n, axis_y.xyz));
+    shares_of_axes(t.x, t.y, w);
+    float sine = sqrt(dot(t, t)), turned_along = total(w);
+    float less = slope_share(sine, kMostTurnSine);
+    float turned_curve = bend_share(sine, kMostTurnSine) / (turned_along > 0.0 ? turned_along : 1.0);
+    for (int k = 0; k < 8; ++k)
+      value += w[k] * (less * axes[k].turn_slope.rgb + turned_curve * axes[k].half_turn_bend.rgb);
+  }
+  value = max(value, vec3(0.0));
+  light = vec4(weight * value, weight);
+  error = vec4(weight * stderr_lx.rgb, 1.0);
+  float relative = dot(vec3(0.2126, 0.7152, 0.0722) * rule.w, value);
+  spread = vec4(weight * weight, weight * stderr_lx.w, weight * relative * relative, 0.0);
+}
+)";
+
+const char* const one_record_vertex = R"(#version 450 core
 layout(location = 0) in vec4 rect;        // of the picture, in [-1,1]: x0, y0, x1, y1
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);

@@ -15,8 +15,10 @@ extern const char* const splat_vertex;
 extern const char* const record_weight;
 /// Weight and extrapolated irradiance of a record at a pixel. To be put after #version and record_weight.
 extern const char* const splat_fragment;
-/// One rectangle per instance, all of one radiance record.
-extern const char* const gloss_vertex;
+/// One rectangle per instance, all of one record.
+extern const char* const one_record_vertex;
+/// The same as splat_fragment for a record with a footprint, which is a uniform block.
+extern const char* const footprint_fragment;
 /// Weight of a radiance record at a pixel, and the light that it sends through the pixel's lobe. To be put
 /// after #version, record_weight, and a definition of COUNT, the number of coefficients.
 extern const char* const gloss_fragment;

@@ -202,7 +202,6 @@ class Painter {
         cache_(cache),
         gloss_(gloss),
         options_(options),
-        by_gl_(options.splat == SplatBy::gl && !any_footprint(cache.records)),
         result_(result),
         camera_(find_camera(rays.scene(), options.camera)),
         width_(static_cast<int>(options.width)),
@@ -238,7 +237,7 @@ class Painter {
   }
 
  private:
-  bool by_gl() const { return by_gl_; }
+  bool by_gl() const { return options_.splat == SplatBy::gl; }
   bool gloss_by_gl() const { return gloss_ && options_.gloss_splat == SplatBy::gl; }
   bool cached_direct() const { return cache_.quantity == Quantity::all; }
 
@@ -395,7 +394,6 @@ class Painter {
   const IrradianceCache& cache_;
   const GlossCache* gloss_;
   const RenderOptions& options_;
-  const bool by_gl_;  // records are drawn by OpenGL
   Rendering& result_;
   const Camera& camera_;
   int width_, height_, samples_;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "hsh/rotation.h"
 #include "temporal/change.h"
+#include "temporal/film/footprint_change.h"
 #include "temporal/film/lives.h"
 
 namespace phos::inline temporal {
@@ -43,6 +44,9 @@ void turn(IrradianceRecord& r, const Pose& from, const Pose& to) {
     r.rotation_gradient[c] = turned(from, to, r.rotation_gradient[c]);
     r.translation_gradient[c] = turned(from, to, r.translation_gradient[c]);
   }
+  if (r.footprint)
+    r.footprint = std::make_shared<AdaptiveFootprint>(
+        r.footprint->moved_to(turned(from, to, r.footprint->x()), r.normal));
 }
 
 void turn(RadianceRecord& r, const Pose& from, const Pose& to) {
@@ -51,6 +55,13 @@ void turn(RadianceRecord& r, const Pose& from, const Pose& to) {
   f.x = turned(from, to, f.x);
   f.x = glm::normalize(f.x - glm::dot(f.x, f.z) * f.z);
   f.y = glm::cross(f.z, f.x);
+}
+
+/// The same zone and light by a footprint whose axes start at x. The radius belongs to its longest axis.
+void turn_about_normal(IrradianceRecord& r, const Vec3& x) {
+  const float longest_m = r.footprint->longest_m();
+  r.footprint = std::make_shared<AdaptiveFootprint>(r.footprint->with_axes_from(x, r.normal));
+  r.radius_m *= r.footprint->longest_m() / longest_m;
 }
 
 /// The same light with the axes of `frame`, whose normal is its own.
@@ -118,29 +129,34 @@ const char* name_of(TemporalGradients gradients) {
   return "";
 }
 
-IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to) {
+IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to, Reach reach) {
   const float frames = frames_between(from.life.birth, to.life.birth);
   const IrradianceRecord& a = from.record;
   IrradianceRecord b = to.record;
   turn(b, Pose{.turn = to.life.turn}, Pose{.turn = from.life.turn});
+  PHOS_CHECK(!a.footprint == !b.footprint, "records of one place, with and without a footprint");
+  if (a.footprint) turn_about_normal(b, a.footprint->x());
   IrradianceChange change;
   change.irradiance = (b.irradiance - a.irradiance) / frames;
   for (int c = 0; c < 3; ++c) {
     change.rotation[c] = (b.rotation_gradient[c] - a.rotation_gradient[c]) / frames;
     change.translation[c] = (b.translation_gradient[c] - a.translation_gradient[c]) / frames;
   }
-  change.radius_m = (b.radius_m - a.radius_m) / frames;
+  if (reach == Reach::changes) change.radius_m = (b.radius_m - a.radius_m) / frames;
+  if (a.footprint)
+    change.footprint = footprint_change(a.footprint->axes(), b.footprint->axes(), frames, reach);
   return change;
 }
 
-RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to) {
+RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to, Reach reach) {
   const float frames = frames_between(from.life.birth, to.life.birth);
   const RadianceRecord& a = from.record;
   RadianceRecord b = to.record;
   turn(b, Pose{.turn = to.life.turn}, Pose{.turn = from.life.turn});
   turn_about_normal(b, a.frame);
   return {change_of(a.light, b.light, frames), change_of(a.gradient_x, b.gradient_x, frames),
-          change_of(a.gradient_y, b.gradient_y, frames), (b.radius_m - a.radius_m) / frames};
+          change_of(a.gradient_y, b.gradient_y, frames),
+          reach == Reach::changes ? (b.radius_m - a.radius_m) / frames : 0};
 }
 
 IrradianceRecord changed(const FilmRecord& film, std::int64_t frame) {
@@ -152,6 +168,7 @@ IrradianceRecord changed(const FilmRecord& film, std::int64_t frame) {
     r.translation_gradient[c] += age * film.change.translation[c];
   }
   r.radius_m = radius_at(film, frame);
+  if (film.change.footprint) change_footprint(film, age, r);
   return r;
 }
 

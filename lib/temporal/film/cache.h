@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct IrradianceChange {
   Rgb irradiance{0};
   Vec3 rotation[3]{Vec3(0), Vec3(0), Vec3(0)}, translation[3]{Vec3(0), Vec3(0), Vec3(0)};
   float radius_m = 0;
+  /// Of a record with a footprint: the change of each of its axes' numbers (docs/methods.md#f8). Null: none.
+  std::shared_ptr<const AdaptiveFootprint::Axes> footprint{};
 };
 /// Coefficients are in the record's frame, which turns with the surface. Empty: no change.
 struct RadianceChange {
@@ -75,10 +78,16 @@ struct RadianceFilm {
   std::vector<FilmRadianceRecord> records;  ///< by (chain, birth)
 };
 
-/// The change from one record to the next at the same place, per frame (docs/methods.md#f5, interpolated):
-/// births must differ.
-IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to);
-RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to);
+/// Does the zone that a record serves change with its light?
+enum class Reach {
+  changes,  ///< to the zone of the next record
+  stays,    ///< neighbours and bounds do not change the zone: light alone does
+};
+/// The change from one record to the next at the same place, per frame (docs/methods.md#f5, interpolated;
+/// footprints: #f8). Births must differ; both records have a footprint, or none has.
+IrradianceChange change_between(const FilmRecord& from, const FilmRecord& to, Reach reach = Reach::changes);
+RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadianceRecord& to,
+                              Reach reach = Reach::changes);
 
 /// A record as it is at a frame of its life, before it is moved with its surface: irradiance is at least 0
 /// (docs/methods.md#f5), a radius stays positive.

@@ -8,6 +8,8 @@
 #include "core/error.h"
 #include "core/float_traps.h"
 #include "radiance/columns.h"
+#include "radiance/compact_columns.h"
+#include "record/footprint_columns.h"
 #include "temporal/film/cache.h"
 #include "temporal/film/lives.h"
 
@@ -16,12 +18,17 @@ namespace {
 
 // --- changes ---
 
+constexpr const char* kChangeEnding = "_change";  // of a column of changes per frame
+
 struct IrradianceChanges {
   std::vector<Vec3> irradiance, rotation, translation;
   std::vector<float> radius_m;
+  std::optional<AxisColumns> axes;  // where records have footprints
 
   explicit IrradianceChanges(const Film& film) {
+    if (!film.records.empty() && film.records.front().record.footprint) axes.emplace();
     for (const FilmRecord& r : film.records) {
+      if (axes) axes->append(r.change.footprint ? *r.change.footprint : AdaptiveFootprint::Axes());
       irradiance.push_back(r.change.irradiance), radius_m.push_back(r.change.radius_m);
       rotation.insert(rotation.end(), std::begin(r.change.rotation), std::end(r.change.rotation));
       translation.insert(translation.end(), std::begin(r.change.translation), std::end(r.change.translation));
@@ -32,6 +39,7 @@ struct IrradianceChanges {
     file.add_vectors("rotation_gradient_change", rotation);
     file.add_vectors("translation_gradient_change", translation);
     file.add<float>("radius_change", radius_m);
+    if (axes) axes->add_to(file, kChangeEnding);
   }
 };
 
@@ -41,7 +49,10 @@ void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows
              rotation = file.vectors("rotation_gradient_change"),
              translation = file.vectors("translation_gradient_change");
   const auto radius_m = file.values<float>("radius_change");
+  const std::vector<AdaptiveFootprint::Axes> axes = read_axes(file, kChangeEnding);
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!axes.empty() && film.records[k].record.footprint)
+      film.records[k].change.footprint = std::make_shared<const AdaptiveFootprint::Axes>(axes[rows[k]]);
     IrradianceChange& change = film.records[k].change;
     const std::size_t i = rows[k];
     change.irradiance = irradiance[i], change.radius_m = radius_m[i];
@@ -56,8 +67,10 @@ struct RadianceChanges {
   std::size_t n, bands, count;  ///< records, bands, coefficients of a colour
   bool gradients;
   std::vector<float> light, gradient_x, gradient_y, radius_m;
+  std::optional<HalfColumns> halves;  ///< of light, in compact files
+  std::optional<ByteColumns> bytes;   ///< of gradients, in compact files
 
-  explicit RadianceChanges(const RadianceFilm& film, int order)
+  RadianceChanges(const RadianceFilm& film, int order, Store store)
       : n(film.records.size()),
         bands(static_cast<std::size_t>(order)),
         count(bands * bands),
@@ -79,11 +92,23 @@ struct RadianceChanges {
       put(change.gradient_y, record.gradient_y, gradient_y);
       radius_m.push_back(change.radius_m);
     }
+    if (store == Store::floats) return;
+    halves.emplace(n, FloatColumns{light});
+    if (gradients) bytes.emplace(n, bands, FloatColumns{gradient_x, gradient_y});
   }
   void add_to(TensorWriter& file) const {
     file.extent("n", n), file.extent("N", bands);
-    file.add<float>("coefficients_change", light);
-    if (gradients) {
+    if (halves) {
+      file.add<float>("change_scale", halves->unit);
+      file.add<Half>("coefficients_change", halves->columns[0]);
+    } else {
+      file.add<float>("coefficients_change", light);
+    }
+    if (bytes) {
+      file.add<std::int8_t>("gradient_change_exponent", bytes->exponent);
+      file.add<std::int8_t>("gradient_x_change", bytes->columns[0]);
+      file.add<std::int8_t>("gradient_y_change", bytes->columns[1]);
+    } else if (gradients) {
       file.add<float>("gradient_x_change", gradient_x);
       file.add<float>("gradient_y_change", gradient_y);
     }
@@ -101,28 +126,31 @@ void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows
   const auto bands = static_cast<std::size_t>(file.extent("N")), count = bands * bands;
   const auto radius_m = file.values<float>("radius_change");
   for (std::size_t k = 0; k < rows.size(); ++k) film.records[k].change.radius_m = radius_m[rows[k]];
-  const auto take = [&](const char* name, std::vector<float> RadianceRecord::*of,
+  std::vector<float> space;
+  const auto take = [&](const char* name, const char* unit, std::vector<float> RadianceRecord::*of,
                         std::vector<float> RadianceChange::*to) {
-    const auto all = file.values<float>(name);
+    const StoredColumn all(file, name, unit);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      const float* row = all.data() + 3 * rows[k] * count;
+      const float* row = all.row(rows[k], space);
       const std::size_t used = (film.records[k].record.*of).size() / 3;
       if (!rest_is_zero(row, count, used))
         refuse_record(file.file(), rows[k], "changes beyond its own order");
       if (!rest_is_zero(row, count, 0)) film.records[k].change.*to = from_column(row, count, used);
     }
   };
-  take("coefficients_change", &RadianceRecord::light, &RadianceChange::light);
+  take("coefficients_change", "change_scale", &RadianceRecord::light, &RadianceChange::light);
   if (!file.has("gradient_x")) return;
-  take("gradient_x_change", &RadianceRecord::gradient_x, &RadianceChange::gradient_x);
-  take("gradient_y_change", &RadianceRecord::gradient_y, &RadianceChange::gradient_y);
+  take("gradient_x_change", "gradient_change_exponent", &RadianceRecord::gradient_x,
+       &RadianceChange::gradient_x);
+  take("gradient_y_change", "gradient_change_exponent", &RadianceRecord::gradient_y,
+       &RadianceChange::gradient_y);
 }
 
 bool all_finite(const IrradianceRecord& r) {
   bool finite = is_finite(r.irradiance) && std::isfinite(r.radius_m);
   for (int c = 0; c < 3; ++c)
     finite = finite && is_finite(r.rotation_gradient[c]) && is_finite(r.translation_gradient[c]);
-  return finite;
+  return finite && !(r.footprint && what_is_wrong(*r.footprint, r.normal));
 }
 bool all_finite(const RadianceRecord& r) { return is_finite(r); }
 
@@ -250,15 +278,15 @@ void write_film(const std::string& path, const Film& film, Provenance provenance
   write_irradiance(path, cache, std::move(provenance), {}, std::move(more));
 }
 
-void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance) {
+void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance, Store store) {
   const LifeColumns lives = lives_of(film);
   provenance.extra[name_of(FileForm::film)] = film_header(film.info, lives);
   const auto cache = born<RadianceCache>(film);
-  const RadianceChanges changes(film, cache.order());
+  const RadianceChanges changes(film, cache.order(), store);
   TensorWriter more(FileKind::radiance);
   lives.add_to(more);
   if (film.info.gradients != TemporalGradients::none) changes.add_to(more);
-  write_radiance(path, cache, std::move(provenance), std::move(more));
+  write_radiance(path, cache, std::move(provenance), store, std::move(more));
 }
 
 bool is_film(const Container& file) {

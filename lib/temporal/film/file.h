@@ -17,7 +17,8 @@ namespace phos::inline temporal {
 /// `film` object: frames, temporal_accuracy, max_life, gradients, fade, the scene's hash at each frame, and
 /// for people the number of chains and the mean life.
 void write_film(const std::string& path, const Film& film, Provenance provenance);
-void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance);
+void write_film(const std::string& path, const RadianceFilm& film, Provenance provenance,
+                Store store = Store::floats);
 /// Is this irradiance or radiance file one of a film?
 bool is_film(const Container& file);
 /// What its header says. Throws Error(bad_input) for one of no film, or a damaged one.
