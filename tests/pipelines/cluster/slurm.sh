@@ -53,11 +53,11 @@ wait_for() {
   wrong "not so after $((tries / 4)) s: $*"
 }
 stored() { (($(find "$1/store/$2" -type f -not -name '.*' 2>/dev/null | wc -l) >= $3)); }
-# stops_on NODE: stops a program of phos that runs there, so that it cannot end before its node.
-stops_on() {
+# runs_on NODE: does a program of phos run there?
+runs_on() {
   local number
   for number in $(site_processes "$1"); do
-    [[ $(cat "/proc/$number/comm" 2>/dev/null) != phos-* ]] || ! kill -STOP "$number" 2>/dev/null || return 0
+    [[ $(cat "/proc/$number/comm" 2>/dev/null) != phos-* ]] || return 0
   done
   return 1
 }
@@ -81,12 +81,16 @@ cluster box.yaml snake --profile slurm
 stamps snake | cmp - before || wrong "touch: files were made anew"
 
 step "two nodes, by array jobs; a node dies"
+# phos-photons that waits on node2, so that it cannot end before its node
+mkdir held
+printf '#!/bin/sh\nwhile [ "$SLURMD_NODENAME" = node2 ] && [ -e %s/hold ]; do sleep 0.1; done\nexec %s "$@"\n' "$scratch" "$(command -v phos-photons)" >held/phos-photons
+chmod +x held/phos-photons
+free=$PATH PATH=$scratch/held:$PATH
+touch hold
 cluster box.yaml dies --profile sbatch
-for ((i = 0; i < 600; ++i)); do
-  if stops_on node2; then break; fi
-  sleep 0.02
-done
+wait_for 120 runs_on node2
 site_kill node2
+rm hold
 scontrol update nodename=node2 state=down reason=test
 refused 3 "still in Slurm's queue" cluster box.yaml dies --profile sbatch
 site_node node2
@@ -97,6 +101,7 @@ wait_for 300 idle
 cluster box.yaml dies --profile sbatch --wait yes
 check_results dies truth
 once dies
+PATH=$free
 grep -c '^\$ ' -r dies/log/*/ | grep -q ':2$' || wrong "dies: no job was lost with its node"
 
 step "an array is cancelled"
