@@ -1,6 +1,8 @@
 // phos-radiance: places radiance records on glossy surfaces and estimates them.
 #include "stage/radiance.h"
 
+#include "splat/gl/choice.h"
+
 int main(int argc, char** argv) {
   using namespace phos;
   Tool tool(
@@ -23,8 +25,10 @@ int main(int argc, char** argv) {
   declare_options(options, asked.gloss);
   declare_options(options, asked.store);
   declare_options(options, asked.radiance);
+  declare_raster_options(options, asked.radiance.records, {Recorded::unless_default, Adopted::estimate});
   declare_place_options(options, asked.placement);
   declare_isa(options, asked.isa);
+  declare_gl(options, asked.gl);
   options.file("at", asked.at,
                "CSV of points (x,y,z,nx,ny,nz, in metres) that need records, such as the file of phos-splat "
                "--gloss-misses. A point that is off a surface by up to a tenth of the default --min-radius "

@@ -14,7 +14,11 @@ int main(int argc, char** argv) {
   Options& options = tool.options();
   stage::ViewCommand asked;
   options.input("SCENE", asked.scene_path, "glTF or OBJ scene");
-  options.inputs("CACHE", asked.caches, "irradiance and radiance caches of the scene, which are joined");
+  options.inputs(
+      "CACHE", asked.caches,
+      "irradiance and radiance caches of the scene, which are joined; .brdf: lobes for the radiance "
+      "records; NAME=CACHE names a group of lamps (caches made with --lamps), which the page dims by "
+      "itself");
   options.section("Server");
   options.integer("port", asked.address.port, "N", "port; 0: any that is free", {0, 65535}, Recorded::no);
   options.text("host", asked.address.host, "ADDRESS",
@@ -26,6 +30,9 @@ int main(int argc, char** argv) {
       "accuracy at which records are read (default: 2.5 times the cache's own, at most 0.5); the page "
       "has a slider for it",
       {0, 10, true}, Recorded::no);
+  options.list("compare", asked.compare, "CACHE",
+               "a second set of caches, CACHE or NAME=CACHE, which the page shows to the right of a wipe",
+               Recorded::no);
   options.integer(
       "lamp-places", asked.lamp_places, "N",
       "shadow maps of each area lamp, and a quarter of those of a sky; fewer where there are many "
@@ -35,6 +42,9 @@ int main(int argc, char** argv) {
                Recorded::no);
   declare_options(options, asked.scene);
   options.example("phos-view room.glb room.irradiance", "then open http://127.0.0.1:8080/");
+  options.example("phos-view room.glb desk=desk.irradiance ceiling=ceiling.irradiance",
+                  "groups of lamps, dimmed live");
+  options.example("phos-view room.glb room.irradiance --compare coarse.irradiance", "two caches by a wipe");
   options.example("phos-view room.glb room.irradiance --port 0", "any free port, which is printed");
 
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });

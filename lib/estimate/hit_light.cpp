@@ -15,6 +15,8 @@ HitLight::~HitLight() = default;
 
 std::unique_ptr<HitLight::Worker> HitLight::make_worker() const { return std::make_unique<Worker>(); }
 
+void HitLight::lamps_from(const LampLight* lamps) { impl_->told = lamps; }
+
 bool HitLight::is_diffuse(std::uint32_t material) const { return impl_->surface[material].diffuse; }
 
 void HitLight::shade(const Vec3& origin, std::span<const Hit> hits, std::uint64_t item, std::uint32_t pass,

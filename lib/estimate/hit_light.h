@@ -13,6 +13,7 @@
 #include "estimate/gather_source.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "estimate/hemisphere/seen_pass.h"
+#include "estimate/lamp_light.h"
 #include "estimate/record_options.h"
 #include "radiance/gloss_cache.h"
 #include "scene/lamp/luminaires.h"
@@ -41,6 +42,10 @@ class HitLight {
   HitLight(const RayScene& rays, const Luminaires& lights, const GatherSource& source,
            const RecordOptions& resolved, std::uint64_t seed);
   ~HitLight();
+
+  /// Diffuse places take the light of the lamps from there from now on, instead of from samples with shadow
+  /// rays (null: from samples again). Lamps in gloss and in mirrors are still sampled. Holds a reference.
+  void lamps_from(const LampLight* lamps);
 
   /// Memory and counts of one thread.
   struct Worker {

@@ -157,7 +157,8 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const Vec3& wo, cons
   const Rgb f = reflectance(point) * (1 / kPi);
   if (!positive(f)) return Rgb(0);
   const bool cached = reads_cache(bounces);
-  const std::uint32_t samples = cached && source.holds_direct ? 0 : lamps.samples();
+  const bool lit = !(cached && source.holds_direct);
+  const std::uint32_t samples = lit && !told ? lamps.samples() : 0;
   const std::size_t first = worker.sight_count;
   for (std::uint32_t n = 0; n < samples; ++n) {
     LampSight& sight = worker.sights[worker.sight_count];
@@ -175,10 +176,10 @@ Rgb HitLight::Impl::from_diffuse(const SurfacePoint& point, const Vec3& wo, cons
     }
     worker.other_light.push_back(other);
   }
-  Rgb rest(0);
+  Rgb rest = lit && told ? f * told->lux(point, ray.ray) : Rgb(0);
   if (lacks_images(bounces)) {
     RandomStream random(seed, Stage::mirror_image, ray.key());
-    rest = f * images.sample(point, bounces - 1, random).lux;
+    rest += f * images.sample(point, bounces - 1, random).lux;
   }
   return cached ? rest + indirect(point, wo, f, ray, 0, worker) : rest;
 }

@@ -45,6 +45,7 @@ struct HitLight::Impl {
   std::uint64_t seed;
   std::int64_t bounces;
   LampSampler lamps;
+  const LampLight* told = nullptr;  // the lamps' light, where it is not sampled
   ImageSampler images;
   bool caustics_apart;
   bool follow_near;  // places near by are followed instead of read

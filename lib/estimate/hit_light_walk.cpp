@@ -34,6 +34,10 @@ void HitLight::Impl::Walk::add_lambert(const SurfacePoint& at, const Vec3& towar
   const bool cached = light.reads_cache(left);
   if (cached) sum += light.indirect(at, towards, f, {item, followed, number}, followed, worker);
   if (cached && light.source.holds_direct) return;
+  if (light.told) {
+    sum += f * light.told->lux(at, random.bits());
+    return;
+  }
   ArrivingLight arriving;
   light.lamps.sample(at, {random.uniform(), random.uniform(), random.uniform()}, arriving);
   if (positive(arriving.lux)) sum += f * arriving.lux * light.arriving(arriving);

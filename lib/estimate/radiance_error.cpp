@@ -38,11 +38,25 @@ std::vector<double> variation_in_cell(int ring, int rings, int slices, int order
   return variation;
 }
 
+/// Roots of the variances of the bands, with the noise of the source.
+std::vector<float> with_source(const Hemisphere& hemisphere, const std::vector<DVec3>& variance) {
+  // What all of the source has in common is as if even light were brighter: of the first band alone.
+  const SourceNoise& source = hemisphere.source;
+  const DVec3 common = 2 / std::numbers::pi * source.common * source.irradiance * source.irradiance;
+  std::vector<float> error;
+  for (std::size_t l = 0; l < variance.size(); ++l) {
+    const DVec3 read = glm::max(source.per_coefficient + (l == 0 ? common : DVec3(0)), DVec3(0));
+    for (int c = 0; c < 3; ++c) error.push_back(static_cast<float>(std::sqrt(variance[l][c] + read[c])));
+  }
+  return error;
+}
+
 }  // namespace
 
 std::vector<float> RadianceError::of(const Hemisphere& hemisphere) {
   const auto order = static_cast<std::size_t>(order_);
-  if (!hemisphere.stratified() || hemisphere.measure != Measure::solid) return std::vector<float>(3 * order);
+  if (!hemisphere.stratified() || hemisphere.measure != Measure::solid)
+    return with_source(hemisphere, std::vector<DVec3>(order, DVec3(0)));
   if (rings_ != hemisphere.rings || slices_ != hemisphere.slices) {
     rings_ = hemisphere.rings, slices_ = hemisphere.slices;
     variation_.clear();
@@ -66,16 +80,8 @@ std::vector<float> RadianceError::of(const Hemisphere& hemisphere) {
     for (std::size_t l = 0; l < order; ++l)
       squares[l] += variation_[static_cast<std::size_t>(ring)][l] * energy;
   }
-  // What all of the source has in common is as if even light were brighter: of the first band alone.
-  const SourceNoise& source = hemisphere.source;
-  const DVec3 common = 2 / std::numbers::pi * source.common * source.irradiance * source.irradiance;
-  std::vector<float> error;
-  for (std::size_t l = 0; l < order; ++l) {
-    const DVec3 read = glm::max(source.per_coefficient + (l == 0 ? common : DVec3(0)), DVec3(0));
-    const DVec3 rays = cell_sr * cell_sr / (2 * std::numbers::pi) * glm::max(squares[l], DVec3(0));
-    for (int c = 0; c < 3; ++c) error.push_back(static_cast<float>(std::sqrt(rays[c] + read[c])));
-  }
-  return error;
+  for (DVec3& rays : squares) rays = cell_sr * cell_sr / (2 * std::numbers::pi) * glm::max(rays, DVec3(0));
+  return with_source(hemisphere, squares);
 }
 
 }  // namespace phos::inline estimate

@@ -48,16 +48,18 @@ struct RadianceProjector::Impl {
   /// The edge between a near and a far surface moves with the near one. The analytic gradient moves it with
   /// the far one, and is short of the difference, as solid angle: length of the edge across the movement x
   /// difference of 1/r.
+  void edge(const Hemisphere& seen, std::size_t before, std::size_t cell, float least_m, const Vec3& w,
+            float length, const Vec2& across) {
+    if (!one_hides_other(seen, before, cell, least_m)) return;
+    const float a = 1 / std::max(seen.distance_m[before], least_m),
+                b = 1 / std::max(seen.distance_m[cell], least_m);
+    const Rgb far = a >= b ? seen.radiance[cell] : -seen.radiance[before];
+    const Rgb shown = length * std::fabs(a - b) * far;
+    sums.add_edge(w, across.x * shown, across.y * shown);
+  }
+
+  /// Of the cells of a hemisphere stratified by solid angle.
   void occlusion(const Hemisphere& seen, float least_m) {
-    const auto edge = [&](std::size_t before, std::size_t cell, const Vec3& w, float length,
-                          const Vec2& across) {
-      if (!one_hides_other(seen, before, cell, least_m)) return;
-      const float a = 1 / std::max(seen.distance_m[before], least_m),
-                  b = 1 / std::max(seen.distance_m[cell], least_m);
-      const Rgb far = a >= b ? seen.radiance[cell] : -seen.radiance[before];
-      const Rgb shown = length * std::fabs(a - b) * far;
-      sums.add_edge(w, across.x * shown, across.y * shown);
-    };
     const auto slice_count = static_cast<float>(seen.slices);
     const auto cosine = [&](float ring) { return 1 - ring / static_cast<float>(seen.rings); };
     const auto sine = [&](float c) { return std::sqrt(std::max(0.f, (1 - c) * (1 + c))); };
@@ -70,10 +72,11 @@ struct RadianceProjector::Impl {
         const Vec2 centre = cos_sin((static_cast<float>(k) + 0.5f) / slice_count),
                    side = cos_sin(static_cast<float>(k) / slice_count);
         if (j > 0) {
-          edge(seen.at(j - 1, k), seen.at(j, k), Vec3(sine(upper) * centre, upper),
+          edge(seen, seen.at(j - 1, k), seen.at(j, k), least_m, Vec3(sine(upper) * centre, upper),
                2 * kPi / slice_count * sine(upper) * upper, centre);
         }
-        edge(seen.at(j, k - 1), seen.at(j, k), Vec3(sine(middle) * side, middle), arc, {-side.y, side.x});
+        edge(seen, seen.at(j, k - 1), seen.at(j, k), least_m, Vec3(sine(middle) * side, middle), arc,
+             {-side.y, side.x});
       }
     }
   }
@@ -90,7 +93,8 @@ SlopesBy slopes_by(RadianceGradient gradient) {
                                                  : SlopesBy::terms;
 }
 
-RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient mode, float least_m) {
+RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient mode, float least_m,
+                                          std::span<const RayBorder> borders) {
   least_m = std::max(least_m, std::numeric_limits<float>::min());
   LightSums& sums = impl_->sums;
   sums.start(slopes_by(mode), Falloff::solid);
@@ -98,6 +102,8 @@ RadianceRecord RadianceProjector::project(const Hemisphere& h, RadianceGradient 
     if (h.radiance[i] != Rgb(0)) sums.add(light_along(h, i, least_m));
   if (mode == RadianceGradient::hybrid && h.stratified() && h.measure == Measure::solid)
     impl_->occlusion(h, least_m);
+  if (mode == RadianceGradient::hybrid)
+    for (const RayBorder& b : borders) impl_->edge(h, b.before, b.after, least_m, b.direction, 1, b.across);
   sums.finish();
   RadianceRecord record;
   record.frame = h.frame;

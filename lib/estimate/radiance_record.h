@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "estimate/estimator.h"
 #include "estimate/harmonics/light_sums.h"
@@ -16,13 +17,23 @@ namespace phos::inline estimate {
 enum class RadianceGradient {
   analytic,  ///< derivative of each ray's own term (docs/methods.md#j3)
   hybrid,    ///< and edges between neighbouring rays, that move with the nearer hit (as docs/methods.md#b5 of
-             ///< irradiance); of hemispheres stratified by solid angle, else analytic
+             ///< irradiance); of hemispheres stratified by solid angle, and of others by the borders that are
+             ///< given
   numeric,   ///< differences between displaced places, the hits kept: the same as analytic to about 1e-4
   none,
 };
 
 /// What that asks of sums of light.
 SlopesBy slopes_by(RadianceGradient gradient);
+
+/// A border between the pieces of an unstructured hemisphere that two neighbouring rays stand for: an arc of
+/// a great circle through the place.
+struct RayBorder {
+  std::uint32_t before = 0, after = 0;  ///< rays
+  Vec3 direction{0, 0, 1};              ///< of its middle; unit, in the hemisphere's frame
+  /// Of the unit normal of the circle, from `before` to `after`: x and y, times the length of the arc, rad.
+  Vec2 across{0};
+};
 
 /// Turns hemispheres into coefficients; holds the basis and memory, for one thread.
 class RadianceProjector {
@@ -33,8 +44,10 @@ class RadianceProjector {
 
   /// The record of a hemisphere, but for position and radius. c = sum of L H omega; in the gradients the
   /// emitter's cosine is kept above 0.05 and distances above `least_m`. Distance: harmonic mean over solid
-  /// angle, misses counting as infinitely far. Standard error: RadianceError.
-  RadianceRecord project(const Hemisphere& h, RadianceGradient mode, float least_m);
+  /// angle, misses counting as infinitely far. Standard error: RadianceError. `borders`: of an
+  /// unstructured hemisphere, for RadianceGradient::hybrid; none: as analytic.
+  RadianceRecord project(const Hemisphere& h, RadianceGradient mode, float least_m,
+                         std::span<const RayBorder> borders = {});
 
  private:
   struct Impl;

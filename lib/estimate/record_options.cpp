@@ -37,6 +37,8 @@ const Names<Kernel> kKernels{
 const Names<GatherFrom> kSources{{"cache", GatherFrom::cache}, {"photons", GatherFrom::photons}};
 const Names<RasterBorder> kBorders{
     {"none", RasterBorder::none}, {"coverage", RasterBorder::coverage}, {"stretch", RasterBorder::stretch}};
+const Names<RasterLight> kRasterLights{{"traced", RasterLight::traced},
+                                       {"shadow-map", RasterLight::shadow_map}};
 
 }  // namespace
 
@@ -215,6 +217,12 @@ void declare_raster_options(Options& options, RecordOptions& r, const InFiles& i
                                "with --estimate raster: light of directions beyond the plane: none: no "
                                "light; coverage: the mean of the plane; stretch: its border pixels",
                                in_files);
+  options.choice<RasterLight>(
+      "raster-light", r.raster_light, kRasterLights,
+      "with --estimate raster: method that lights the seen places from the lamps: traced: by shadow rays; "
+      "shadow-map: by shadow maps, drawn once for all records, of 16 places on each lamp with an area and "
+      "the sky (without noise; sharp detail of shadows is lost; diffuse places alone)",
+      {Recorded::unless_default, in_files.adopted});
 }
 
 }  // namespace phos::inline estimate

@@ -47,6 +47,12 @@ enum class RasterBorder {
   stretch,   ///< border pixels stand for directions beyond them (docs/methods.md#r1)
 };
 
+/// How diffuse places that pixels show are lit by the lamps.
+enum class RasterLight : std::uint8_t {
+  traced,      ///< samples of the lamps, each with a shadow ray
+  shadow_map,  ///< from places on the lamps, by the scene's depth as drawn from there (docs/methods.md#r3)
+};
+
 /// How far surroundings are where light and cameras are at work (place/typical_distance.h), m.
 struct TypicalDistance {
   float least_m, most_m;  ///< of several ways to say where that is
@@ -92,6 +98,7 @@ struct RecordOptions {
   /// Light of lamps' images in flat mirrors, which is direct light (scene/mirror/images.h), is not in records
   /// of indirect light. No option: false only for records that gathered rays read where they land.
   bool images_apart = true;
+  RasterLight raster_light = RasterLight::traced;
 
   /// Fills in absent radii: from a 25th of the least typical distance (1/4 m unless it is positive and
   /// finite) to the whole greatest distance (half for footprints that follow surroundings, because

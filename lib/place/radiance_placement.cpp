@@ -10,7 +10,8 @@
 namespace phos::inline place {
 namespace {
 
-const Names<Estimate> kEstimates{{"gather", Estimate::gather}, {"hull", Estimate::hull}};
+const Names<Estimate> kEstimates{
+    {"gather", Estimate::gather}, {"hull", Estimate::hull}, {"raster", Estimate::raster}};
 const Names<RadianceGradient> kGradients{{"hybrid", RadianceGradient::hybrid},
                                          {"analytic", RadianceGradient::analytic},
                                          {"numeric", RadianceGradient::numeric},
@@ -22,14 +23,15 @@ void declare_options(Options& options, RadianceOptions& r) {
   options.section("Records");
   options.choice<Estimate>(
       "estimate", r.records.estimate, kEstimates,
-      "method: gather: rays over the hemisphere, lit where they land; hull: photons over their convex hull",
+      "method: gather: rays over the hemisphere, lit where they land; hull: photons over their convex hull; "
+      "raster: the scene drawn on a plane above the record",
       Adopted::estimate);
   declare_reach_options(options, r.records);
   options.choice<RadianceGradient>(
       "gradients", r.gradients, kGradients,
-      "method for the change of light about a record: hybrid: from each ray, with the edges of occluders "
-      "(with photons, without these edges); analytic: from each ray, without edges; numeric: by moved rays; "
-      "none: no change",
+      "method for the change of light about a record: hybrid: from each ray or pixel, with the edges of "
+      "occluders (with photons, without these edges); analytic: from each ray or pixel, without edges; "
+      "numeric: by moved rays; none: no change",
       Adopted::estimate);
   options.section("Estimates from photons");
   declare_photon_options(options, r.records);

@@ -154,6 +154,7 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
     add(words, "--environment-scale", shortest(*scene_options.environment_scale));
   for (const std::string& word : daylight_words(scene_options.daylight)) words.push_back(word);
   if (!scene_options.portals.empty()) add(words, "--portals", scene_options.portals);
+  if (!scene_options.lamps.empty()) add(words, "--lamps", scene_options.lamps);
   for (const std::string& word : luminaire_words(scene_options.luminaires)) words.push_back(word);
   for (const std::string& word : band_words(scene_options.bands)) words.push_back(word);
   if (!p.frames.empty()) task.frames = parse_frames(p.frames);

@@ -9,6 +9,7 @@
 #include "file/lfs_pointer.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/load.h"
+#include "scene/lamp/shine_only.h"
 #include "scene/obj/lights.h"
 #include "scene/obj/load.h"
 #include "scene/opening/find_blinds.h"
@@ -72,6 +73,12 @@ void declare_light_options(Options& options, SceneOptions& scene) {
                  "multiplies the luminance of the environment (default: 1)", kPositive, Adopted::site);
   declare_options(options, scene.daylight);
   declare_options(options, scene.bands);
+  options.text(
+      "lamps", scene.lamps, "NAMES",
+      "only these lamps shine (default: all): lights, nodes whose surfaces emit, and environment for "
+      "a map, sky and sun, separated by commas (as in --portals). The light of disjoint groups of "
+      "lamps adds up, and phos-view dims each",
+      {Recorded::if_given, Adopted::site});
   options.text("portals", scene.portals, "auto|NAMES",
                "openings that photons and shadow rays of sky, sun and environment are aimed at (default: "
                "none). auto: the openings through which the sky is seen from within; NAMES: nodes or "
@@ -123,8 +130,11 @@ Scene load_scene(const std::string& path, const SceneOptions& options) {
                                   line.ends_with(kMoreThanInSpace) ? kSunTooBright : "loader", "", "", line);
   }
   if (options.bands.any()) to_bands(scene, options.bands);
+  const bool beyond = scene.environment != nullptr;
+  if (!options.lamps.empty()) shine_only(scene, options.lamps);
   finalize(scene);
-  if (!options.portals.empty()) aim(scene, options.portals);
+  const bool dark_beyond = beyond && !scene.environment;  // by --lamps
+  if (!options.portals.empty() && !dark_beyond) aim(scene, options.portals);
   return scene;
 }
 

@@ -23,9 +23,10 @@ struct SceneOptions {
   std::string portals;  ///< where light from infinity is aimed: "auto", names, or "": nowhere
   LuminaireOptions luminaires;
   BandOptions bands;
+  std::string lamps;  ///< names of the lamps that shine; "": all do
 };
 void declare_options(Options& options, SceneOptions& scene);
-/// Those that hold at every time: luminaires, the environment, sky and sun, bands.
+/// Those that hold at every time: luminaires, the environment, sky and sun, bands, lamps.
 void declare_light_options(Options& options, SceneOptions& scene);
 
 /// What a scene warns of whose --portals auto finds nothing.

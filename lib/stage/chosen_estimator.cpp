@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "radiance/gloss_cache.h"
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 
 namespace phos::stage {
 namespace {
@@ -73,7 +73,9 @@ ChosenRadianceEstimators::ChosenRadianceEstimators(const RayScene& rays, const R
       options_(options),
       seed_(seed),
       lights_(rays.scene()),
-      coarse_(coarse_level(rays, inputs, options.records, seed)) {}
+      coarse_(coarse_level(rays, inputs, options.records, seed)) {
+  register_raster_estimator();
+}
 
 std::unique_ptr<Estimator> ChosenRadianceEstimators::operator()(int order) const {
   return make_radiance_estimator(parts_of(rays_, lights_, inputs_, coarse_, options_.records, seed_), order,

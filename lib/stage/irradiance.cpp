@@ -13,6 +13,7 @@
 #include "scene/inside_solid.h"
 #include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -116,6 +117,7 @@ void run(Tool& tool, IrradianceCommand& asked) {
   cache.accuracy = records.accuracy;
   const RayScene rays(scene, {asked.isa});
   if (const auto nested = nested_glass(rays)) tool.warn(*nested);
+  tell_raster_light(tool, rays, records);
   if (placement.place == Place::view)
     if (const auto inside = camera_inside_solid(rays, find_camera(scene, placement.camera)))
       tool.warn(*inside);

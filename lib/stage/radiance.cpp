@@ -12,6 +12,8 @@
 #include "place/typical_distance.h"
 #include "radiance/gloss_report.h"
 #include "scene/nested_glass.h"
+#include "splat/gl/choice.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "stage/chosen_estimator.h"
 #include "stage/inputs.h"
 #include "stage/record_inputs.h"
@@ -43,6 +45,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   add_inputs(tool, files, asked.scene);
   if (!asked.at.empty()) tool.add_input("points", asked.at);
   if (!asked.add_to.empty()) tool.add_input("radiance", asked.add_to);
+  if (radiance.records.estimate == Estimate::raster) use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
 
   const Scene scene = load_scene(files.scene, asked.scene);
@@ -74,6 +77,7 @@ void run(Tool& tool, RadianceCommand& asked) {
   resolve(placement, scene, source, radiance.records.accuracy);
   const RayScene rays(scene, {asked.isa});
   if (const auto nested = nested_glass(rays)) tool.warn(*nested);
+  tell_raster_light(tool, rays, radiance.records);
   const TypicalDistance typical = typical_distance(rays, placement, source);
   tool.stat("typical_distance_m", typical.least_m);
   radiance.records.resolve(typical);

@@ -9,6 +9,7 @@
 #include "place/radiance_placement.h"
 #include "radiance/gloss_tables.h"
 #include "scene/load.h"
+#include "splat/gl/kinds.h"
 
 namespace phos::stage {
 
@@ -21,6 +22,7 @@ struct RadianceCommand {
   RadianceOptions radiance;
   PlacementOptions placement;
   GlossBy gloss = GlossBy::automatic;
+  GlBy gl = GlBy::osmesa;
   Store store = Store::compact;
   std::string at, add_to;  ///< files
   std::string isa;

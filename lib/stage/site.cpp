@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text/comma_list.h"
 #include "file/adoption.h"
 #include "scene/load.h"
 #include "scene/sky/daylight.h"
@@ -55,7 +56,8 @@ std::optional<std::string> recipe_of(const Values& values) {
 /// Takes over option by option from one file after another.
 class Site {
  public:
-  Site(Options& options, bool allow_mismatch) : options_(options), allow_mismatch_(allow_mismatch) {
+  Site(Options& options, bool allow_mismatch, LampsOf lamps)
+      : options_(options), allow_mismatch_(allow_mismatch), lamps_(lamps) {
     for (std::string& name : options.names()) known_.insert(std::move(name));
     for (std::string& name : names_of<DaylightOptions>()) by_rule_.insert(std::move(name));
   }
@@ -69,6 +71,7 @@ class Site {
     for (const std::string& name : options_.names(Adopted::site))
       if (!by_rule_.contains(name)) is_of_files(name) ? require_files(name) : take_one(name);
     take_portals();
+    if (lamps_ == LampsOf::all_files) take_lamps();
     take_time();
     return taken_.empty() ? "" : text(taken_, ": as of ", file.path());
   }
@@ -194,6 +197,28 @@ class Site {
     return false;
   }
 
+  /// Lamps that shine are the same for all files, in any order of names.
+  void take_lamps() {
+    if (!known_.contains("lamps")) return;
+    const Json* value = was("lamps");
+    const Json now = options_.value("lamps");
+    const std::string then_words = value ? shown(*value) : "", now_words = is_stated(&now) ? shown(now) : "";
+    if ((given("lamps") || lamps_settled_) && sorted_names(then_words) != sorted_names(now_words))
+      refuse(text("was made with ", lamps_in_words(then_words), ", not with ", lamps_in_words(now_words),
+                  given("lamps") ? "; leave --lamps out" : "; give files of the same lamps"));
+    lamps_settled_ = true;
+    take_one("lamps");
+  }
+
+  static std::vector<std::string> sorted_names(const std::string& words) {
+    std::vector<std::string> names = split_at_commas(words);
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  static std::string lamps_in_words(const std::string& words) {
+    return words.empty() ? "all lamps" : "--lamps " + words;
+  }
+
   void take_time() {
     const Json frames = options_.value("frames");
     if (is_stated(&frames) || given("time") || given("frame") || time_settled_) return;
@@ -219,19 +244,21 @@ class Site {
 
   Options& options_;
   bool allow_mismatch_;
+  LampsOf lamps_;
   const Container* file_ = nullptr;
   std::set<std::string> known_, settled_;  // options of the program; those that a file has settled
   /// Options that are taken together with others, or not always.
-  std::set<std::string> by_rule_{"environment-rotation", "environment-scale", "portals", "time", "frame"};
-  bool daylight_settled_ = false, time_settled_ = false;
+  std::set<std::string> by_rule_{
+      "environment-rotation", "environment-scale", "portals", "time", "frame", "lamps"};
+  bool daylight_settled_ = false, time_settled_ = false, lamps_settled_ = false;
   std::string taken_;
 };
 
 }  // namespace
 
 std::vector<std::string> adopt_site(Options& options, const std::vector<Container>& files,
-                                    bool allow_mismatch) {
-  Site site(options, allow_mismatch);
+                                    bool allow_mismatch, LampsOf lamps) {
+  Site site(options, allow_mismatch, lamps);
   std::vector<std::string> lines;
   for (const Container& file : files)
     if (file.kind() != FileKind::brdf && !file.provenance().parameters.is_null())
@@ -239,11 +266,11 @@ std::vector<std::string> adopt_site(Options& options, const std::vector<Containe
   return lines;
 }
 
-void take_site(Tool& tool, const std::vector<std::string>& paths, bool allow_mismatch) {
+void take_site(Tool& tool, const std::vector<std::string>& paths, bool allow_mismatch, LampsOf lamps) {
   std::vector<Container> files;
   for (const std::string& path : paths)
     if (!path.empty() && is_container(path)) files.push_back(Container::open(path));
-  for (const std::string& line : adopt_site(tool.options(), files, allow_mismatch)) tool.say(line);
+  for (const std::string& line : adopt_site(tool.options(), files, allow_mismatch, lamps)) tool.say(line);
 }
 
 }  // namespace phos::stage

@@ -6,7 +6,7 @@
 #include "radiance/gloss_report.h"
 #include "scene/nested_glass.h"
 #include "splat/gl/choice.h"
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "stage/inputs.h"
 #include "stage/site.h"
 #include "temporal/film/file.h"
@@ -82,6 +82,7 @@ void run(Tool& tool, TemporalCommand& asked) {
                       (job.of_radiance ? job.light.radiance.records : records).accuracy);
   const TypicalDistance typical = typical_distance(first->rays, job.placement, {});
   if (const auto nested = nested_glass(first->rays)) tool.warn(*nested);
+  tell_raster_light(tool, first->rays, records);
   records.resolve(typical);
   job.light.radiance.records.resolve(typical);
   job.covered_by_radiance = !job.of_radiance && !files.radiance.empty();

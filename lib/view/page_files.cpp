@@ -48,6 +48,10 @@ PageFiles::PageFiles(std::string scene_message, std::string records_message, con
   files_["/about.json"] = {kJson, about.dump()};
 }
 
+void PageFiles::add(const std::string& path, std::string message) {
+  files_[path] = {kBinary, std::move(message)};
+}
+
 std::optional<ServedFile> PageFiles::find(std::string_view path) const {
   const auto found = files_.find(path);
   if (found == files_.end()) return std::nullopt;

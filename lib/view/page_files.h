@@ -18,6 +18,9 @@ class PageFiles {
   /// colours of a scale, 256 x 3 bytes; "/scene.bin" and "/records.bin", messages; "/about.json".
   PageFiles(std::string scene_message, std::string records_message, const Json& about);
 
+  /// Another message: "/records-1.bin".
+  void add(const std::string& path, std::string message);
+
   std::optional<ServedFile> find(std::string_view path) const;
 
  private:

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "core/error.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/material/bsdf.h"
 #include "scene/texture/texture.h"
 #include "splat/direct/lamp_places.h"
 #include "splat/projection.h"
 #include "splat/sight_range.h"
+#include "view/glint_fields.h"
+#include "view/limits.h"
 #include "view/message/writer.h"
+#include "view/scene_textures.h"
+#include "view/specular_fields.h"
 
 namespace phos::inline view {
 namespace {
@@ -37,6 +41,11 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
   message.add("scene", "bounds_lo", std::vector<Vec3>{scene.bounds.lo});
   message.add("scene", "bounds_hi", std::vector<Vec3>{scene.bounds.hi});
   message.add("scene", "origin", std::vector<Vec3>{Vec3(scene.origin_m)});
+  const auto sky = std::find_if(scene.light.begin(), scene.light.end(),
+                                [](const Light& light) { return light.kind == Light::Kind::environment; });
+  message.add(
+      "scene", "sky_lamp",
+      Numbers{sky == scene.light.end() ? kNoRow : static_cast<std::uint32_t>(sky - scene.light.begin())});
   message.add("vertex", "position", scene.position);
   message.add("vertex", "normal", scene.normal);
   if (!scene.uv0.empty() || !scene.uv1.empty()) {
@@ -50,70 +59,10 @@ void add_geometry(const Scene& scene, MessageWriter& message) {
     for (const Vec4& c : scene.colour) add(colour, c);
     message.add("vertex", "colour", colour);
   }
-  Numbers corner, first, count, material;
+  Numbers corner;
   for (const Triangle& t : scene.triangle) corner.insert(corner.end(), std::begin(t.v), std::end(t.v));
-  for (const Instance& instance : scene.instance) {
-    if (instance.triangle_count == 0) continue;
-    first.push_back(instance.first_triangle), count.push_back(instance.triangle_count);
-    material.push_back(instance.material);
-  }
   message.add("triangle", "corner", corner);
-  message.add("part", "first_triangle", first);
-  message.add("part", "triangle_count", count);
-  message.add("part", "material", material);
 }
-
-/// The textures of colours and emission, in the order of their first use.
-class Textures {
- public:
-  explicit Textures(const Scene& scene) : scene_(scene) {}
-
-  /// Its row; kNoRow: the use names none.
-  std::uint32_t row(const TextureUse& use) {
-    if (!use.used() || scene_.texture[static_cast<std::size_t>(use.texture)].size() == 0) return kNoRow;
-    const auto [found, first] = row_.emplace(use.texture, static_cast<std::uint32_t>(width_.size()));
-    if (first) add(scene_.texture[static_cast<std::size_t>(use.texture)]);
-    return found->second;
-  }
-
-  void add_to(MessageWriter& message) const {
-    message.add("texture", "width", width_);
-    message.add("texture", "height", height_);
-    message.add("texture", "wrap", wrap_);
-    message.add("texture", "nearest", nearest_);
-    message.add("texture", "srgb", srgb_);
-    message.add("texture", "first_texel", first_);
-    message.add("texel", "rgba", rgba_);
-  }
-
- private:
-  void add(const Texture& texture) {
-    width_.push_back(static_cast<std::uint32_t>(texture.width));
-    height_.push_back(static_cast<std::uint32_t>(texture.height));
-    wrap_.push_back(static_cast<std::uint32_t>(texture.wrap_u));
-    wrap_.push_back(static_cast<std::uint32_t>(texture.wrap_v));
-    nearest_.push_back(texture.nearest ? 1 : 0);
-    srgb_.push_back(texture.srgb || !texture.texels.empty() ? 1 : 0);
-    first_.push_back(static_cast<std::uint32_t>(rgba_.size() / 4));
-    for (const Texture::Code& code : texture.codes)
-      if (texture.texels.empty()) rgba_.insert(rgba_.end(), code.begin(), code.end());
-    for (const Vec4& texel : texture.texels)
-      for (int c = 0; c < 4; ++c) rgba_.push_back(code_of(texel[c], c < 3));
-  }
-
-  static std::uint8_t code_of(float linear, bool srgb) {
-    const float v = std::clamp(linear, 0.f, 1.f);
-    const float shown = !srgb             ? v
-                        : v <= 0.0031308f ? 12.92f * v
-                                          : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;  // IEC 61966-2-1
-    return static_cast<std::uint8_t>(255 * shown + 0.5f);
-  }
-
-  const Scene& scene_;
-  std::map<std::int32_t, std::uint32_t> row_;
-  Numbers width_, height_, wrap_, nearest_, srgb_, first_;
-  std::vector<std::uint8_t> rgba_;
-};
 
 /// Offset, and the columns of the matrix (scene/texture/texture.h: transformed()).
 void add_place(Floats& values, const TextureUse& use) {
@@ -131,7 +80,7 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
   constexpr int kSamples = 256;
   const Bsdf bsdf(scene, material);
   const Vec3 wo = glm::normalize(Vec3(1, 0, 1));
-  glm::dvec3 reflected(0), passed(0);
+  glm::dvec3 reflected(0), scattered(0), passed(0);
   for (int i = 0; i < kSamples; ++i) {
     const double y = 0.5 + 0.6180339887498949 * i, z = 0.5 + 0.7548776662466927 * i;
     BsdfSample sample;
@@ -139,20 +88,21 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
                      Vec2(static_cast<float>(y - std::floor(y)), static_cast<float>(z - std::floor(z))),
                      sample))
       continue;
-    (sample.transmitted ? passed : reflected) += glm::dvec3(sample.weight) / double{kSamples};
+    const glm::dvec3 share = glm::dvec3(sample.weight) / double{kSamples};
+    (sample.transmitted ? passed : reflected) += share;
+    if (!sample.specular && !sample.transmitted) scattered += share;
   }
   Reflection r;
   r.diffuse = bsdf.diffuse_reflectance();
-  const Rgb all(reflected);
-  r.gloss = glm::clamp(all - r.diffuse, Rgb(0), Rgb(1));
-  r.clear = luminance(Rgb(passed)) > luminance(all) && !bsdf.transmits_diffusely();
+  r.gloss = glm::clamp(Rgb(scattered) - r.diffuse, Rgb(0), Rgb(1));
+  r.clear = luminance(Rgb(passed)) > luminance(Rgb(reflected)) && !bsdf.transmits_diffusely();
   return r;
 }
 
-void add_materials(const Scene& scene, MessageWriter& message) {
+void add_materials(const Scene& scene, std::size_t most_texels, MessageWriter& message) {
   Floats diffuse, gloss, emission, cutoff, colour_place, emission_place;
   Numbers flags, colour_texture, colour_set, emission_texture, emission_set;
-  Textures textures(scene);
+  SceneTextures textures(scene, most_texels);
   for (std::uint32_t i = 0; i < scene.material.size(); ++i) {
     const Material& m = scene.material[i];
     const Reflection reflection = reflection_of(scene, i);
@@ -283,14 +233,22 @@ void add_sky(const Scene& scene, MessageWriter& message) {
 
 }  // namespace
 
-std::string scene_message(const Scene& scene, int light_samples) {
+std::string scene_message(const Scene& scene, int light_samples, std::size_t most_texels) {
   MessageWriter message(MessageKind::scene);
   add_geometry(scene, message);
-  add_materials(scene, message);
+  add_parts(scene, message);
+  add_materials(scene, most_texels, message);
+  add_specular(scene, message);
+  add_glints(scene, message);
   add_lamps(scene, light_samples, message);
   add_cameras(scene, message);
   add_sky(scene, message);
-  return message.message();
+  std::string bytes = message.message();
+  if (bytes.size() > kMostPageBytes.as<std::size_t>())
+    throw Error(ExitCode::usage, "",
+                text("the scene takes ", bytes.size(), " bytes in a browser, and more than ",
+                     written(kMostPageBytes), " do not fit there; leave out meshes with many triangles"));
+  return bytes;
 }
 
 }  // namespace phos::inline view

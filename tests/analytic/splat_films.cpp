@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "support/animated.h"
 #include "support/scenes.h"
 #include "temporal/make_film.h"

@@ -6,8 +6,8 @@
 #include "estimate/gather.h"
 #include "scene/lamp/luminaires.h"
 #include "scene/rays.h"
-#include "splat/gl/hemisphere_raster.h"
-#include "splat/gl/raster_plane.h"
+#include "splat/raster/hemisphere_raster.h"
+#include "splat/raster/raster_plane.h"
 #include "support/raster.h"
 #include "support/scenes.h"
 

@@ -13,7 +13,7 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/load.h"
 #include "scene/rays.h"
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "support/raster.h"
 
 namespace {

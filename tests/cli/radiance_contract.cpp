@@ -53,10 +53,11 @@ Json stats() { return parse_json(slurp(folder() + "/stats.json"), "stats"); }
 TEST(Radiance, HelpVersionAndNoArguments) {
   const test::Run help = radiance({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* said : {"--accuracy", "--gloss", "--rays", "--add-to", "--gather-bounces"})
+  for (const char* said :
+       {"--accuracy", "--gloss", "--rays", "--add-to", "--gather-bounces", "--raster-side", "--gl"})
     EXPECT_NE(help.out.find(said), std::string::npos) << said;
   // Nothing is offered that would do nothing.
-  for (const char* not_said : {"--paths", "--kernel", "--raster-side", "--light-samples", "--part"})
+  for (const char* not_said : {"--paths", "--kernel", "--light-samples", "--part"})
     EXPECT_EQ(help.out.find(not_said), std::string::npos) << not_said;
   EXPECT_EQ(radiance({"--version"}).code, 0);
   expect_failure(radiance({}), 2, "SCENE");

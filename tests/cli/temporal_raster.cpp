@@ -125,6 +125,32 @@ TEST(TemporalRaster, AgreesWithGatheredRays) {
   EXPECT_NEAR(sum_of_raster / sum_of_rays, 1, 0.02);
 }
 
+/// A radiance film of drawn hemispheres: same bytes on any number of threads, and read by phos-splat.
+TEST(TemporalRaster, RadianceFilm) {
+  Slabs slabs;
+  slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});
+  slabs.slab("tray", 1, 0, 0.2f, 0, waxed());
+  const std::string scene = slabs.write("raster-gloss", 17), folder = scratch("raster-gloss-out");
+  for (const char* lives : {"midpoint", "rate"}) {
+    std::string bytes;
+    for (const char* threads : {"1", "3"}) {
+      const std::string out = folder + "/" + lives + threads;
+      const test::Run run = temporal(drawn({scene, "--frames", "0:4", "--kind", "radiance", "--lives", lives,
+                                            "--threads", threads, "-o", out}));
+      ASSERT_EQ(run.code, 0) << run.err;
+      if (bytes.empty()) bytes = slurp(out);
+      EXPECT_EQ(slurp(out), bytes) << lives;
+    }
+    const Container file = Container::open(folder + "/" + lives + std::string("1"), FileKind::radiance);
+    EXPECT_TRUE(file.has("birth"));
+    EXPECT_EQ(file.provenance().parameters.find("estimate")->as_string(), "raster");
+  }
+  const test::Run splat = run_tool({"splat", scene, folder + "/midpoint1", "--frames", "2:3", "--width", "24",
+                                    "-o", folder + "/%02d.exr"});
+  EXPECT_EQ(splat.code, 0) << splat.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/03.exr"));
+}
+
 TEST(TemporalRaster, RefusesWhatDoesNotGoTogether) {
   const std::string scene = data("cube-in-a-box.glb"), folder = scratch("raster-refuses"),
                     out = folder + "/o.irradiance";
@@ -138,7 +164,6 @@ TEST(TemporalRaster, RefusesWhatDoesNotGoTogether) {
     EXPECT_EQ(run.err.rfind("phos-temporal: " + option, 0), 0u) << run.err;
     EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
   };
-  refused({"--kind", "radiance"}, "--estimate", "irradiance records alone");
   refused({"--lives", "rate", "--look-ahead", "reproject"}, "--look-ahead", "give trace or none");
   refused({"--gradients", "hybrid"}, "--gradients", "analytic, none");
   EXPECT_TRUE(std::filesystem::is_empty(folder));

@@ -1,10 +1,12 @@
 // phos-view as a user meets it: refusals before it serves, its address, its end; light under the cursor.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
 #include "support/http_client.h"
+#include "support/lamp_groups.h"
 #include "support/refused.h"
 #include "support/view_program.h"
 
@@ -33,16 +35,30 @@ const std::string& box_folder() {
   return folder;
 }
 
-/// A field of a message as bytes: the k-th of MessageLayout.
-std::string question(const std::vector<float>& origin, const std::vector<float>& direction) {
+/// A question by the fields of MessageLayout: number 5, set, origin, direction, weights.
+std::string question(const std::vector<float>& origin, const std::vector<float>& direction,
+                     const std::vector<float>& weights = {1}, std::uint32_t set = 0) {
   const auto bytes = [](const auto& value) {
     return std::string(reinterpret_cast<const char*>(&value), sizeof value);
   };
   const std::uint64_t one = 1;
   std::string s = bytes(one) + bytes(std::uint32_t{5}) + std::string(4, '\0');
+  s += bytes(one) + bytes(set) + std::string(4, '\0');
   for (const std::vector<float>* v : {&origin, &direction})
     s += bytes(one) + bytes((*v)[0]) + bytes((*v)[1]) + bytes((*v)[2]) + std::string(4, '\0');
-  return "phov" + bytes(std::uint16_t{1}) + bytes(std::uint16_t{3}) + bytes(std::uint64_t{s.size() + 16}) + s;
+  s += bytes(std::uint64_t{weights.size()});
+  for (const float weight : weights) s += bytes(weight);
+  s.resize((s.size() + 7) / 8 * 8, '\0');
+  return "phov" + bytes(std::uint16_t{2}) + bytes(std::uint16_t{3}) + bytes(std::uint64_t{s.size() + 16}) + s;
+}
+
+/// The answer to a question, by a client whose socket is open.
+std::string answer(const HttpClient& client, const std::string& asked) {
+  client.send(frame(asked, 2));
+  const std::string head = client.read(4);
+  EXPECT_EQ(head.substr(0, 2), "\x82\x7e");
+  if (head.size() < 4) return "";
+  return client.read(256u * static_cast<unsigned char>(head[2]) + static_cast<unsigned char>(head[3]));
 }
 
 template <class T>
@@ -100,11 +116,7 @@ TEST(ViewTool, LightUnderTheCursorIsThatOfSense) {
   ASSERT_EQ(status(client.read_to("\r\n\r\n")), 101);
   int hits = 0;
   for (const auto& [x, z] : {std::pair(0.1f, 0.1f), {0.3f, 0.05f}, {0.45f, 0.4f}, {5.f, 5.f}}) {
-    client.send(frame(question({x, 0.54f, z}, {0, -3, 0}), 2));
-    const std::string head = client.read(4);
-    ASSERT_EQ(head.substr(0, 2), "\x82\x7e");
-    const std::string reading =
-        client.read(256u * static_cast<unsigned char>(head[2]) + static_cast<unsigned char>(head[3]));
+    const std::string reading = answer(client, question({x, 0.54f, z}, {0, -3, 0}));
     // Each field: its rows, its values, zeros to 8 bytes.
     EXPECT_EQ(number_at<std::uint32_t>(reading, 16 + 8), 5u);
     const auto hit = number_at<std::uint32_t>(reading, 32 + 8);
@@ -131,6 +143,73 @@ TEST(ViewTool, LightUnderTheCursorIsThatOfSense) {
     EXPECT_NEAR(static_cast<double>(number_at<float>(reading, stderr_lx)), cells[8], 0.02 * cells[8]);
   }
   EXPECT_GE(hits, 2);
+}
+
+/// Fields of a reading that are numbers: where their values stand.
+enum Field : std::size_t {
+  kIlluminance = 104,
+  kStderr = 120,
+  kDirect = 136,
+  kIndirect = 152,
+  kLuminance = 168
+};
+
+TEST(ViewTool, GroupsOfLamps) {
+  const LampGroups groups = lamp_groups(scratch("view-groups"));
+  const std::string left = groups.cache("left"), right = groups.cache("right"), all = groups.cache("all");
+  expect_refused("view", {groups.scene, "a=" + left, "a=" + right}, 2, "second cache of the group \"a\"");
+  expect_refused("view", {groups.scene, "a=" + left, right}, 2, "has no name");
+  expect_refused("view", {groups.scene, "a=" + left, "b=" + left}, 2, "holds too");
+  expect_refused("view", {groups.scene, "a=" + left, "b=" + all}, 2, "holds the light of all lamps");
+  expect_refused("view", {groups.scene, "a=" + left, "--lamps", "spot"}, 2, "--lamps");
+  expect_refused("view", {groups.scene, "left=" + left, "right=" + right, "--compare", "lefd=" + left}, 2,
+                 "did you mean \"left\"?");
+  expect_refused("view", {groups.scene, left, right}, 4, "was made with --lamps lamp-right,spot");
+  expect_refused("view", {kBox, "left=" + left}, 4, "made from another scene");
+  expect_refused("photons", {groups.scene, "--lamps", "lamp-lefd", "-o", groups.folder + "/x.photons"}, 2,
+                 "did you mean \"lamp-left\"?");
+  expect_refused("irradiance", {groups.scene, groups.folder + "/left.photons", "--lamps", "spot", "-o", left},
+                 4, "was made with --lamps lamp-left, not with --lamps spot");
+
+  std::vector<std::string> words = groups.named();
+  words.insert(words.end(), {"--compare", all});
+  ViewProgram view(words);
+  ASSERT_NE(view.port(), 0u);
+  EXPECT_EQ(status(get(view.port(), "/records-2.bin")), 200);
+  EXPECT_EQ(status(get(view.port(), "/records-3.bin")), 404);
+  const HttpClient client(view.port());
+  client.send(handshake(""));
+  ASSERT_EQ(status(client.read_to("\r\n\r\n")), 101);
+  const std::vector<float> from{1.8f, 2, 1.3f}, down{0.1f, -1, 0};
+  const auto read = [&](const std::vector<float>& weights, std::uint32_t set) {
+    return answer(client, question(from, down, weights, set));
+  };
+  const std::string by_left = read({1, 0}, 0), by_right = read({0, 1}, 0), mixed = read({0.5f, 0.25f}, 0),
+                    whole = read({1, 1}, 0), other = read({1}, 1);
+  for (const Field field : {kIlluminance, kDirect, kIndirect, kLuminance}) {
+    const float l = number_at<float>(by_left, field), r = number_at<float>(by_right, field);
+    EXPECT_GT(l, 0) << field;
+    EXPECT_GT(r, 0) << field;
+    EXPECT_FLOAT_EQ(number_at<float>(mixed, field), 0.5f * l + 0.25f * r) << field;
+    EXPECT_FLOAT_EQ(number_at<float>(whole, field), l + r) << field;
+    EXPECT_NEAR(number_at<float>(other, field), l + r, 0.2f * (l + r)) << field;
+  }
+  EXPECT_FLOAT_EQ(number_at<float>(mixed, kStderr), std::hypot(0.5f * number_at<float>(by_left, kStderr),
+                                                               0.25f * number_at<float>(by_right, kStderr)));
+}
+
+TEST(ViewTool, QuestionsThatDoNotFitCloseTheirConnection) {
+  ViewProgram view({kBox, box_folder() + "/box.irradiance"});
+  ASSERT_NE(view.port(), 0u);
+  for (const std::string& asked :
+       {question({0, 0, 0}, {0, 1, 0}, {1, 1}), question({0, 0, 0}, {0, 1, 0}, {}),
+        question({0, 0, 0}, {0, 1, 0}, {-1}), question({0, 0, 0}, {0, 1, 0}, {1}, 1)}) {
+    const HttpClient client(view.port());
+    client.send(handshake(""));
+    ASSERT_EQ(status(client.read_to("\r\n\r\n")), 101);
+    client.send(frame(asked, 2));
+    EXPECT_EQ(client.read(1), "\x88");  // a frame that closes
+  }
 }
 
 }  // namespace

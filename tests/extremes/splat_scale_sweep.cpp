@@ -3,7 +3,7 @@
 
 #include "radiance/check.h"
 #include "record/check.h"
-#include "splat/gl/hemisphere_raster.h"
+#include "splat/raster/hemisphere_raster.h"
 #include "splat/gl/renderer.h"
 #include "splat/picture/render.h"
 #include "support/gl.h"

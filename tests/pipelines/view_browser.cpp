@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <future>
 
 #include "image/image.h"
+#include "support/browser.h"
 #include "support/run.h"
 #include "support/view_program.h"
 
@@ -14,51 +14,6 @@ namespace phos::test {
 namespace {
 
 constexpr int kSide = 128;
-
-bool has_chromium() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
-
-struct Shown {
-  std::string page;     ///< its text at the end
-  std::string console;  ///< what it said
-};
-
-/// Opens an address in a Chromium of its own.
-Shown open_page(const std::string& url, const std::string& folder) {
-  const std::string command =
-      "timeout 180 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
-      "--disable-dev-shm-usage --enable-logging=stderr --virtual-time-budget=60000 --user-data-dir='" +
-      folder + "/profile' --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder + "/log'";
-  std::filesystem::create_directories(folder);
-  EXPECT_EQ(std::system(command.c_str()), 0) << slurp(folder + "/log");
-  Shown shown{slurp(folder + "/page"), ""};
-  std::istringstream log(slurp(folder + "/log"));
-  for (std::string line; std::getline(log, line);)
-    if (line.find("CONSOLE") != std::string::npos) shown.console += line + "\n";
-  return shown;
-}
-
-std::vector<float> from_base64(const std::string& text) {
-  std::string bytes;
-  unsigned value = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = digits.find(c);
-    if (digit == std::string_view::npos) break;
-    value = value << 6 | static_cast<unsigned>(digit);
-    if ((bits += 6) >= 8) bits -= 8, bytes += static_cast<char>(value >> bits & 255);
-  }
-  std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
-  return values;
-}
-
-/// The values of a quantity that the page says.
-std::vector<float> values_of(const Shown& shown) {
-  const std::string begin = "<pre id=\"dump\">";
-  const std::size_t at = shown.page.find(begin);
-  return at == std::string::npos ? std::vector<float>() : from_base64(shown.page.substr(at + begin.size()));
-}
 
 class Browser : public testing::Test {
  protected:

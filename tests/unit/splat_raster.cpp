@@ -3,8 +3,8 @@
 
 #include "direct/direct_light.h"
 #include "estimate/hemisphere/hemisphere.h"
-#include "splat/gl/hemisphere_raster.h"
-#include "splat/gl/raster_plane.h"
+#include "splat/raster/hemisphere_raster.h"
+#include "splat/raster/raster_plane.h"
 #include "support/scenes.h"
 
 namespace phos::test {

@@ -225,6 +225,26 @@ TEST_F(Site, FirstFileThatSaysItHolds) {
   EXPECT_TRUE(recorded({"--time", "0.5"}, files).find("frame")->is_null()) << "another way to say a time";
 }
 
+TEST_F(Site, FilesHoldTheLightOfTheSameLamps) {
+  const Container left = file("photons", Json::Object{{"lamps", "a,b"}});
+  EXPECT_EQ(recorded({}, {left}).find("lamps")->as_string(), "a,b");
+  EXPECT_EQ(scene_.lamps, "a,b");
+  EXPECT_EQ(lines_, std::vector<std::string>{"lamps a,b: as of " + path("site.photons")});
+  EXPECT_EQ(recorded({"--lamps", "b,a"}, {left}).find("lamps")->as_string(), "b,a");
+  expect_mismatch({"--lamps", "c"}, {left},
+                  "was made with --lamps a,b, not with --lamps c; leave --lamps out");
+  const Container all = file("radiance", Json::Object{});
+  expect_mismatch({"--lamps", "c"}, {all}, "was made with all lamps, not with --lamps c");
+  expect_mismatch({}, {left, all},
+                  "was made with all lamps, not with --lamps a,b; give files of the same lamps");
+  expect_mismatch({}, {all, left}, "was made with --lamps a,b, not with all lamps");
+  Options options("phos-test", "", "");
+  SceneOptions scene;
+  declare_options(options, scene);
+  EXPECT_TRUE(adopt_site(options, {left, all}, false, LampsOf::each_file).empty());
+  EXPECT_EQ(scene.lamps, "");
+}
+
 TEST_F(Site, DamagedValuesAreTheFiles) {
   for (const Json& value : {Json("much"), Json(Json::Array{1}), Json(true), Json(-1)}) {
     try {

@@ -20,8 +20,10 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 std::string a_question() {
   MessageWriter writer(MessageKind::question);
   writer.add("ray", "number", std::vector<std::uint32_t>{7});
+  writer.add("ray", "set", std::vector<std::uint32_t>{1});
   writer.add("ray", "origin", std::vector<Vec3>{{1, 2, 3}});
   writer.add("ray", "direction", std::vector<Vec3>{{0, -1, 0.5f}});
+  writer.add("group", "weight", std::vector<float>{1, 0.5f});
   return writer.message();
 }
 
@@ -53,6 +55,7 @@ TEST(ViewMessage, RoundTrip) {
   EXPECT_EQ(read.numbers("ray", "number"), std::vector<std::uint32_t>{7});
   EXPECT_EQ(read.floats("ray", "origin"), (std::vector<float>{1, 2, 3}));
   EXPECT_EQ(read.floats("ray", "direction"), (std::vector<float>{0, -1, 0.5f}));
+  EXPECT_EQ(read.floats("group", "weight"), (std::vector<float>{1, 0.5f}));
 
   const std::string of_scene = a_scene();
   const MessageReader scene(of_scene, MessageKind::scene);
@@ -64,9 +67,10 @@ TEST(ViewMessage, RoundTrip) {
 
 TEST(ViewMessage, BytesAreAsTheFormatSays) {
   const std::string bytes = a_question();
-  // Header; number: rows, 4 bytes, padding; origin and direction: rows, 12 bytes, padding.
-  ASSERT_EQ(bytes.size(), 16u + 16 + 24 + 24);
-  EXPECT_EQ(bytes.substr(0, 16), std::string("phov\1\0\3\0\x50\0\0\0\0\0\0\0", 16));
+  // Header; number and set: rows, 4 bytes, padding; origin and direction: rows, 12 bytes, padding; weights:
+  // rows, 8 bytes.
+  ASSERT_EQ(bytes.size(), 16u + 16 + 16 + 24 + 24 + 16);
+  EXPECT_EQ(bytes.substr(0, 16), std::string("phov\2\0\3\0\x70\0\0\0\0\0\0\0", 16));
   EXPECT_EQ(bytes.substr(16, 16), std::string("\1\0\0\0\0\0\0\0\7\0\0\0\0\0\0\0", 16));
 }
 
@@ -91,15 +95,15 @@ TEST(ViewMessage, DamageIsNamed) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
   says(with(bytes, 0, 'P'), "phov");
-  says(with(bytes, 4, std::uint16_t{2}), "version 2");
+  says(with(bytes, 4, std::uint16_t{1}), "version 1");
   says(with(bytes, 6, std::uint16_t{4}), "kind 4");
   says(with(bytes, 6, std::uint16_t{999}), "kind 999");
-  says(with(bytes, 16, std::uint64_t{2}), "1 rows of ray.origin, and the table has 2");
+  says(with(bytes, 16, std::uint64_t{2}), "1 rows of ray.set, and the table has 2");
   for (const std::uint64_t rows : {std::uint64_t{1} << 32, ~std::uint64_t{0}, std::uint64_t{1} << 62})
     says(with(bytes, 16, rows), "cut off within ray.number");
   says(with(bytes, 28, '\1'), "no zeros");
-  says(with(bytes, 40, std::numeric_limits<float>::infinity()), "ray.origin");
-  says(with(bytes, 40, kUnknown), "not finite");
+  says(with(bytes, 56, std::numeric_limits<float>::infinity()), "ray.origin");
+  says(with(bytes, 56, kUnknown), "not finite");
   EXPECT_NE(refusal(a_scene(3), MessageKind::scene).find("refers to row 3 of vertex"), std::string::npos);
   EXPECT_EQ(refusal(a_scene(kNoRow), MessageKind::scene), "");
 }

@@ -1,6 +1,7 @@
 // Drawing over a G-buffer by OpenGL: pictures, irradiance and radiance records, shadow maps.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "splat/gbuffer.h"
 
 namespace phos::inline splat {
+
+struct LampMap;
 
 /// OpenGL 4.5 core of the library that choose_gl() says. One context per object, used from the thread that
 /// made it.
@@ -34,8 +37,12 @@ class GlRenderer {
   GlossBuffer splat_gloss(const GlossCache& cache, double accuracy, const RayScene& rays,
                           const GBuffer& gbuffer, const Camera& camera, const Vec2& subpixel);
   /// Direct illuminance by shadow maps (preview): per pixel, lx, visibility included. Area lights by
-  /// `light_samples` points each, point lights by six faces.
-  std::vector<Rgb> direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size);
+  /// `light_samples` points each, point lights by six faces. `taps` x `taps` texels are asked (1: no filter).
+  std::vector<Rgb> direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size, int taps = 1);
+  /// use(map, extended) for each of these places on lamps, one map at a time, read back. `extended`: of a
+  /// lamp with an area, or of the environment. Maps of directional light are as wide as what `gbuffer` shows.
+  void each_lamp_map(const GBuffer& gbuffer, int light_samples, int map_size,
+                     const std::function<void(const LampMap& map, bool extended)>& use);
   const char* description() const;  ///< renderer and version, for --stats
 
  private:

@@ -3,6 +3,7 @@
 // the pixel's triangle at that texel (receiver-plane bias), so that only half a texel remains to be added
 // against the facets beside it.
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -11,89 +12,13 @@
 #include "scene/lamp/luminaires.h"
 #include "scene/shading_frame.h"
 #include "splat/direct/lamp_places.h"
+#include "splat/gl/lamp_map.h"
 #include "splat/gl/renderer.h"
 #include "splat/gl/renderer_impl.h"
 #include "splat/gl/shaders.h"
-#include "splat/sight_range.h"
 
 namespace phos::inline splat {
 namespace {
-
-/// A place that light comes from, with the views that its shadow map is made of.
-struct ShadowSample : LampPlace {
-  const ShareMap* map = nullptr;
-  std::vector<GlView> faces;
-  float bias = 0;
-};
-
-Mat3 looking(const DVec3& forward, const DVec3& up, double scale) {
-  return Mat3(glm::transpose(glm::dmat3(glm::cross(forward, up), up, -forward)) * scale);
-}
-
-/// Axis of the greatest extent first: forward, four sides, backward.
-std::vector<Mat3> cube_axes(const Vec3& forward, double scale) {
-  const Frame frame = make_frame(forward);
-  const DVec3 x(frame.x), y(frame.y), z(frame.z);
-  return {looking(z, x, scale), looking(x, z, scale),  looking(-x, z, scale),
-          looking(y, z, scale), looking(-y, z, scale), looking(-z, x, scale)};
-}
-
-/// Perspective views from a point: `faces` of the cube about `forward`, or one of the given half opening.
-void add_views(const Scene& scene, ShadowSample& sample, const Vec3& eye, std::size_t faces,
-               double half_opening, std::int64_t but_instance, int map_size) {
-  const double scale = 1 / farthest_m(scene, eye);
-  GlView view;
-  view.eye = eye;
-  view.lens = Vec4(Vec2(static_cast<float>(1 / half_opening)), 0, 0);
-  view.depth.x = static_cast<float>(0.999 * scale * nearest_m(scene, eye, but_instance) /
-                                    std::sqrt(1 + 2 * half_opening * half_opening));
-  const std::vector<Mat3> axes = cube_axes(sample.forward, scale);
-  for (std::size_t f = 0; f < faces; ++f) view.axes = axes[f], sample.faces.push_back(view);
-  sample.bias = static_cast<float>(half_opening / map_size);
-  sample.colour = Rgb(glm::dvec3(sample.colour) * (scale * scale));
-}
-
-/// Parallel views: only as wide as the visible surfaces.
-void add_parallel_view(const Scene& scene, const GBuffer& g, ShadowSample& sample, int map_size) {
-  const Vec3 eye = scene.bounds.centre();
-  const double scale = 1 / std::max(static_cast<double>(bounding_radius_m(scene)), 1e-30);
-  GlView view;
-  view.eye = eye;
-  view.perspective = false;
-  view.axes = looking(DVec3(sample.forward), DVec3(make_frame(sample.forward).x), scale);
-  Bounds seen;
-  for (std::size_t i = 0; i < g.position.size(); ++i) {
-    if (g.covered(i)) seen.include(view.axes * (Vec3(g.position[i]) - eye));
-  }
-  if (seen.empty()) return;
-  const Vec3 size = glm::max(seen.size(), Vec3(1e-6f)) * (1 + 4 / static_cast<float>(map_size));
-  const Vec3 centre = seen.centre();
-  view.lens = Vec4(2 / size.x, 2 / size.y, -2 * centre.x / size.x, -2 * centre.y / size.y);
-  // The bounding sphere lies within a distance of 1 of its centre.
-  view.depth = Vec2(0.5f, -0.499f);
-  sample.bias = 0.25f * std::max(size.x, size.y) / static_cast<float>(map_size) + 1e-6f;
-  sample.faces.push_back(view);
-}
-
-/// Adds the views of a shadow map. Cones up to 50 degrees off the axis have one map, a little wider than they
-/// are.
-ShadowSample with_views(const Scene& scene, const GBuffer& gbuffer, const LampPlace& lamp,
-                        const ShareMap& map, int map_size) {
-  ShadowSample sample{lamp, &map, {}, 0};
-  if (lamp.shape == PlaceShape::directional) {
-    add_parallel_view(scene, gbuffer, sample, map_size);
-    return sample;
-  }
-  std::size_t faces = 6;
-  double half_opening = 1;
-  if (lamp.shape == PlaceShape::area && !lamp.two_sided) faces = 5;
-  if (lamp.shape == PlaceShape::spot && lamp.cos_outer > 0.64) {
-    const double cosine = std::min(lamp.cos_outer, 1 - 1e-6);
-    faces = 1, half_opening = 1.02 * std::sqrt(1 - cosine * cosine) / cosine;
-  }
-  add_views(scene, sample, lamp.position, faces, half_opening, lamp.instance, map_size);
-  return sample;
-}
 
 /// Geometric normal of the surface in each pixel, on the side that is seen.
 std::vector<Vec4> facets(const Scene& scene, const GBuffer& g) {
@@ -114,8 +39,9 @@ std::vector<Vec4> facets(const Scene& scene, const GBuffer& g) {
 struct GlRenderer::ShadowPass {
   Impl& impl;
   const GlPictureTarget& target;
-  int map_size;
-  GlObject maps, framebuffer, share;
+  ShadowTarget maps;
+  int taps;
+  GlObject share;
 
   /// Binds the map that the samples from here on have.
   void take(const ShareMap& map) {
@@ -126,22 +52,9 @@ struct GlRenderer::ShadowPass {
     gl.BindTextureUnit(4, share.id());
   }
 
-  void draw_maps(const ShadowSample& sample) const {
-    const Gl& gl = impl.context.gl();
-    const float far = 0;
-    gl.Viewport(0, 0, map_size, map_size);
-    for (std::size_t f = 0; f < sample.faces.size(); ++f) {
-      gl.NamedFramebufferTextureLayer(framebuffer.id(), GL_DEPTH_ATTACHMENT, maps.id(), 0,
-                                      static_cast<GLint>(f));
-      gl.ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
-      gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.id());
-      impl.mesh.draw(sample.faces[f]);
-    }
-  }
-
   void add(const ShadowSample& sample) const {
     if (sample.faces.empty()) return;
-    draw_maps(sample);
+    maps.draw(impl.mesh, sample);
     const Gl& gl = impl.context.gl();
     const GlProgram& program = impl.shadow_program;
     std::vector<Mat3> axes;
@@ -154,6 +67,7 @@ struct GlRenderer::ShadowPass {
     program.set("depth", view.depth);
     program.set("perspective", view.perspective ? 1 : 0);
     program.set("bias", sample.bias);
+    program.set("taps", taps);
     program.set("kind", static_cast<int>(sample.shape));
     program.set("two_sided", sample.two_sided ? 1 : 0);
     program.set("colour", sample.colour);
@@ -162,14 +76,15 @@ struct GlRenderer::ShadowPass {
     if (!sample.map->share.empty()) program.set("luminaire_axes", std::span(&sample.map->axes, 1));
     program.use();
     impl.bind_for_sum(target);
-    gl.BindTextureUnit(3, maps.id());
+    gl.BindTextureUnit(3, maps.maps().id());
     gl.BindVertexArray(impl.empty_array.id());
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 };
 
-std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size) {
-  PHOS_CHECK(light_samples > 0 && map_size > 0, light_samples, " samples, maps of ", map_size);
+std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int light_samples, int map_size,
+                                                int taps) {
+  PHOS_CHECK(light_samples > 0 && map_size > 0 && taps > 0, light_samples, " samples, maps of ", map_size);
   const Scene& scene = impl_->scene;
   std::vector<Rgb> illuminance(gbuffer.position.size(), Rgb(0));
   if (illuminance.empty() || scene.light.empty()) return illuminance;
@@ -184,12 +99,7 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   const GlPictureTarget& target = impl_->picture_target(gbuffer);
   gl.TextureSubImage2D(target.facet.id(), 0, 0, 0, gbuffer.width, gbuffer.height, GL_RGBA, GL_FLOAT,
                        facets(scene, gbuffer).data());
-  ShadowPass pass{*impl_, target, size, make_texture_array(gl, GL_DEPTH_COMPONENT32F, size, size, 6), {}, {}};
-  gl.TextureParameteri(pass.maps.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
-  GLuint framebuffer = 0;
-  gl.CreateFramebuffers(1, &framebuffer);
-  pass.framebuffer = GlObject(gl, framebuffer, [](const Gl& g, GLuint id) { g.DeleteFramebuffers(1, &id); });
-  gl.NamedFramebufferDrawBuffers(framebuffer, 0, nullptr);
+  ShadowPass pass{*impl_, target, {impl_->context, size}, taps, {}};
 
   const Luminaires luminaires(scene);
   std::size_t total = 0;
@@ -206,7 +116,7 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
     for (int k = 0; k < count; ++k) {
       throw_if_interrupted();
       if (const auto sample = lamp_place(scene, luminaires, i, k, count, map))
-        pass.add(with_views(scene, gbuffer, *sample, map, size));
+        pass.add(shadow_sample(scene, gbuffer.position, *sample, map, size));
       progress.advance();
     }
   }
@@ -215,6 +125,38 @@ std::vector<Rgb> GlRenderer::direct_illuminance(const GBuffer& gbuffer, int ligh
   impl_->context.check("drawing shadow maps");
   for (std::size_t i = 0; i < sum.size(); ++i) illuminance[i] = Rgb(sum[i]);
   return illuminance;
+}
+
+void GlRenderer::each_lamp_map(const GBuffer& gbuffer, int light_samples, int map_size,
+                               const std::function<void(const LampMap& map, bool extended)>& use) {
+  const Scene& scene = impl_->scene;
+  impl_->context.make_current();
+  const Luminaires luminaires(scene);
+  const int size = std::min(map_size, impl_->context.largest_texture());
+  std::optional<ShadowTarget> target;
+  std::size_t faces = 0;
+  for (std::size_t i = 0; i < scene.light.size(); ++i) {
+    const Light& light = scene.light[i];
+    ShareMap shares;
+    if (light.fitting >= 0) shares = share_map(scene, light);
+    const int count = place_count(light, light_samples);
+    for (int k = 0; k < count; ++k) {
+      throw_if_interrupted();
+      const auto place = lamp_place(scene, luminaires, i, k, count, shares);
+      if (!place) continue;
+      LampMap map;
+      map.sample = shadow_sample(scene, gbuffer.position, *place, shares, size);
+      if (map.sample.faces.empty()) continue;
+      if (!target || faces != map.sample.faces.size()) {
+        faces = map.sample.faces.size();
+        target.emplace(impl_->context, size, static_cast<int>(faces));
+      }
+      target->draw(impl_->mesh, map.sample);
+      map.size = target->size(), map.depth = target->read();
+      use(map, light.extended());
+    }
+  }
+  impl_->context.check("drawing shadow maps");
 }
 
 }  // namespace phos::inline splat

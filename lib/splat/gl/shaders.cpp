@@ -254,15 +254,11 @@ uniform vec3 colour;         // lm/sr over the scale of the scene squared; direc
 uniform vec3 forward;        // normal of an area light; axis of a spot or directional light
 uniform vec2 cone;           // cosines of the outer and the inner half angle
 uniform int two_sided;
+uniform int taps;            // texels each way that are asked
 layout(location = 0) out vec4 illuminance;
 
 // Is the map's texel, carried on to the plane of the receiver, nearer to the light than that plane?
-bool shadowed(vec3 v, vec3 n, int face) {
-  float w = perspective != 0 ? -v.z : 1.0;
-  if (w <= 0.0) return false;
-  vec2 ndc = (v.xy * lens.xy + lens.zw * w) / w;
-  ivec2 size = textureSize(depth_map, 0).xy;
-  ivec2 texel = ivec2(floor((ndc * 0.5 + 0.5) * vec2(size)));
+bool shadowed(vec3 v, vec3 n, int face, ivec2 texel, ivec2 size, float w, float bias) {
   texel = clamp(texel, ivec2(0), size - 1);
   float stored = texelFetch(depth_map, ivec3(texel, face), 0).r;
   vec2 centre = (((vec2(texel) + 0.5) / vec2(size) * 2.0 - 1.0) - lens.zw) / lens.xy;
@@ -276,6 +272,22 @@ bool shadowed(vec3 v, vec3 n, int face) {
   float z = (dot(n, v) - dot(n.xy, centre)) / n.z;
   float carried = clamp(depth.x - depth.y * z, here - 8.0 * bias, here + 8.0 * bias);
   return stored > carried + bias;
+}
+
+// The share of texels about a point that are not nearer to the light (percentage-closer filtering). A texel
+// further off the point lies on facets beside it the more.
+float lit_share(vec3 v, vec3 n, int face) {
+  float w = perspective != 0 ? -v.z : 1.0;
+  if (w <= 0.0) return 1.0;
+  vec2 ndc = (v.xy * lens.xy + lens.zw * w) / w;
+  ivec2 size = textureSize(depth_map, 0).xy;
+  if (taps == 1) return shadowed(v, n, face, ivec2(floor((ndc * 0.5 + 0.5) * vec2(size))), size, w, bias) ? 0.0 : 1.0;
+  ivec2 first = ivec2(floor((ndc * 0.5 + 0.5) * vec2(size) - 0.5 * float(taps - 1)));
+  int lit = 0;
+  for (int y = 0; y < taps; ++y)
+    for (int x = 0; x < taps; ++x)
+      if (!shadowed(v, n, face, first + ivec2(x, y), size, w, bias * float(taps))) ++lit;
+  return float(lit) / float(taps * taps);
 }
 
 // What a luminaire's map says of a direction away from it.
@@ -321,8 +333,9 @@ void main() {
   }
   float cosine = dot(n, to_light);
   if (cosine <= 0.0 || dot(facet, to_light) <= 0.0 || value == vec3(0.0)) return;
-  if (shadowed(v, axes[face] * facet, face)) return;
-  illuminance = vec4(value * cosine, 0.0);
+  float share = lit_share(v, axes[face] * facet, face);
+  if (share == 0.0) return;
+  illuminance = vec4(value * cosine * share, 0.0);
 }
 )";
 

@@ -120,8 +120,33 @@ void EdgeShader::add(const Samples& samples, const Sorted& sorted, Layers& layer
   }
 }
 
-void EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result) const {
+std::vector<SeenSample> EdgeShader::seen(std::size_t pixel) const {
   const Samples samples = trace(pixel);
+  std::vector<SeenSample> all;
+  for (std::size_t s = 0; s < samples.hit.size(); ++s) all.push_back({samples.ray[s], samples.hit[s]});
+  return all;
+}
+
+void EdgeShader::shade_mapped(const Samples& samples, std::span<const LampsAt> lamps, Layers& layers,
+                              ShadingResult& result) const {
+  for (std::size_t s = 0; s < samples.hit.size(); ++s) {
+    if (!samples.seen(s)) {
+      layers.add(samples.pixel, shader_.background(samples.ray[s]));
+      continue;
+    }
+    const SharedLight shared{lamps[s].lux, DVec3(0)};
+    PixelShader::Splat splat;
+    splat.lamps = &lamps[s];
+    const SurfacePoint point = rays_.surface(samples.ray[s], samples.hit[s]);
+    layers.add(samples.pixel, shader_.shade({samples.pixel, static_cast<int>(s), true}, samples.ray[s], point,
+                                            splat, &shared, result));
+  }
+}
+
+void EdgeShader::shade(std::size_t pixel, Layers& layers, ShadingResult& result,
+                       std::span<const LampsAt> lamps) const {
+  const Samples samples = trace(pixel);
+  if (!lamps.empty()) return shade_mapped(samples, lamps, layers, result);
   const bool alone = picture_.shared.empty();
   if (!alone) {
     Sorted sorted = sort(samples);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "splat/direct/edge_light.h"
 #include "splat/direct/same_surface.h"
 #include "splat/gbuffer.h"
 #include "splat/picture/layers.h"
+#include "splat/picture/mapped_lamps.h"
 #include "splat/picture/pixel_shader.h"
 
 namespace phos::inline splat {
@@ -29,8 +31,12 @@ class EdgeShader {
              const PixelShader& shader, const RenderOptions& options, bool cached_direct,
              const SeenPicture& picture);
 
-  /// Adds options.edge_samples samples of the pixel.
-  void shade(std::size_t pixel, Layers& layers, ShadingResult& result) const;
+  /// Adds options.edge_samples samples of the pixel. `lamps`: the light of the lamps at each of seen();
+  /// empty: it is found by rays.
+  void shade(std::size_t pixel, Layers& layers, ShadingResult& result,
+             std::span<const LampsAt> lamps = {}) const;
+  /// These samples, for maps to light.
+  std::vector<SeenSample> seen(std::size_t pixel) const;
 
  private:
   struct Samples {
@@ -62,6 +68,8 @@ class EdgeShader {
   void find_light(const Samples& samples, Sorted& sorted) const;
   PixelSample sample(const Samples& samples, std::size_t s, const Surface* surface,
                      ShadingResult& result) const;
+  void shade_mapped(const Samples& samples, std::span<const LampsAt> lamps, Layers& layers,
+                    ShadingResult& result) const;
   void add(const Samples& samples, const Sorted& sorted, Layers& layers, ShadingResult& result) const;
 
   const RayScene& rays_;

@@ -47,7 +47,9 @@ PixelSample PixelShader::shade(const SampleOfPixel& sample, const Ray& ray, cons
   } else if (shows_lux_) {
     lux_from_cache(point, bsdf, splat, light, result);
   }
-  from_lights(sample, point, bsdf, wo, shared, by_rays, trace_gloss, sequence, light);
+  from_lights(sample, point, bsdf, wo, shared,
+              options_.shadow_filter != ShadowFilter::none ? splat.lamps : nullptr, by_rays, trace_gloss,
+              sequence, light);
   from_caustics(sample, point, bsdf, wo, bsdf.has_gloss() && !trace_gloss, light, result.log);
   if (bsdf.transmits_diffusely()) from_other_side(sample, point, bsdf, wo, sequence, light, result);
   if (trace_gloss) from_gloss(sample, point, bsdf, wo, by_rays, sequence, random, light, result.log);
@@ -191,8 +193,9 @@ bool PixelShader::from_environment(const SurfacePoint& point, const Bsdf& bsdf, 
 }
 
 void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
-                              const Vec3& wo, const SharedLight* shared, bool environment, bool gloss_by_rays,
-                              RandomStream& sequence, PixelSample& light) const {
+                              const Vec3& wo, const SharedLight* shared, const LampsAt* lamps,
+                              bool environment, bool gloss_by_rays, RandomStream& sequence,
+                              PixelSample& light) const {
   const bool diffuse = bsdf.has_diffuse() && !cached_direct_;
   if (options_.direct == DirectBy::none) return;
   if (!(diffuse || bsdf.has_gloss())) {
@@ -201,7 +204,10 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
   }
   from_mirrors(sample, point, bsdf, wo, gloss_by_rays, sequence, light);
   // What lamps show in gloss is not shared. Where rays look for gloss anyway, shadow maps leave it to them.
-  const bool own = bsdf.has_gloss() && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
+  const bool own = bsdf.has_gloss() && !lamps && (options_.direct == DirectBy::interleaved || !gloss_by_rays);
+  // Rays that look for gloss find lamps with an area, and no others.
+  if (lamps && bsdf.has_gloss())
+    light.direct += lamps->point_gloss + (gloss_by_rays ? Rgb(0) : lamps->extended_gloss);
   if (shared && !own) {
     if (cached_direct_) return;
     const Rgb reflected = bsdf.diffuse_reflectance() / kPi;

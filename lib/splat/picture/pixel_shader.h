@@ -7,6 +7,7 @@
 #include "splat/direct/environment_harmonics.h"
 #include "splat/direct/interleaved.h"
 #include "splat/picture/layers.h"
+#include "splat/picture/mapped_lamps.h"
 #include "splat/picture/render.h"
 
 namespace phos::inline splat {
@@ -38,6 +39,8 @@ class PixelShader {
   struct Splat {
     Interpolated found;             // of irradiance
     Vec4 gloss{0}, gloss_error{0};  // as in GlossBuffer
+    const LampsAt* lamps =
+        nullptr;  // light of lamps through glossy lobes, by shadow maps; null: rays find it
   };
   /// Does each sample of the group send one ray of a kind only, so that the noise shows in the spread of a
   /// pixel's samples alone?
@@ -72,8 +75,8 @@ class PixelShader {
   bool from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, PixelSample& light,
                         ShadingLog& log) const;
   void from_lights(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
-                   const SharedLight* shared, bool environment, bool gloss_by_rays, RandomStream& sequence,
-                   PixelSample& light) const;
+                   const SharedLight* shared, const LampsAt* lamps, bool environment, bool gloss_by_rays,
+                   RandomStream& sequence, PixelSample& light) const;
   void from_other_side(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf,
                        const Vec3& wo, RandomStream& sequence, PixelSample& light,
                        ShadingResult& result) const;

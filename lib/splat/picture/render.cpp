@@ -21,6 +21,7 @@
 #include "splat/gl/renderer.h"
 #include "splat/picture/edge_shader.h"
 #include "splat/picture/edges.h"
+#include "splat/picture/mapped_lamps.h"
 #include "splat/picture/overlay_legend.h"
 #include "splat/picture/pixel_shader.h"
 
@@ -29,6 +30,7 @@ namespace phos::inline splat {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
+constexpr std::uint32_t kNoSlot = ~0u;
 
 /// Adds its own life to an entry of a JSON object.
 class Stopwatch {
@@ -162,6 +164,14 @@ void declare_options(Options& options, RenderOptions& r) {
       {1, kMostOrder.as<double>()});
   options.integer("shadow-map-size", r.shadow_map_size, "PIXELS",
                   "with --direct shadow-map: side of a shadow map", {16, 8192});
+  options.choice<ShadowFilter>(
+      "shadow-map-filter", r.shadow_filter,
+      {{"none", ShadowFilter::none}, {"4", ShadowFilter::four}, {"16", ShadowFilter::sixteen}},
+      "with --direct shadow-map: number of samples of each shadow map about a point (percentage-closer "
+      "filtering), which soften the steps of shadows; 4 and 16 light gloss too: of lamps without an area, "
+      "and "
+      "where gloss is read from radiance records of all lamps; none: one sample, and rays for gloss",
+      Recorded::unless_default);
   declare_options(options, r.gloss);
   options.choice<SplatBy>("gloss-splat", r.gloss_splat, {{"cpu", SplatBy::cpu}, {"gl", SplatBy::gl}},
                           "renderer of radiance records: cpu: the processor; gl: OpenGL (OSMesa takes many "
@@ -184,9 +194,8 @@ void resolve(RenderOptions& r, const Camera& camera, const IrradianceCache& cach
   const LayerSet layers(r.layers);
   if (r.overlay != Overlay::none && !layers.has(Layer::beauty))
     throw Error(ExitCode::usage, "--overlay", "is drawn into the layer beauty; give --layers beauty too");
-  if (r.edge_samples > 0 && r.direct == DirectBy::shadow_map)
-    throw Error(ExitCode::usage, "--edge-samples",
-                "needs shadow rays for direct light; give --direct traced or interleaved");
+  if (r.shadow_filter != ShadowFilter::none && r.direct != DirectBy::shadow_map)
+    throw Error(ExitCode::usage, "--shadow-map-filter", "needs shadow maps; give --direct shadow-map too");
   if (r.environment != EnvironmentBy::traced && r.direct != DirectBy::traced)
     throw Error(ExitCode::usage, "--environment-mode", "hsh and sh need --direct traced; leave --direct out");
 }
@@ -230,6 +239,7 @@ class Painter {
       if (s == 0 && options_.edge_samples > 0) find_edges(pass_.gbuffer);
       const SplatBuffer splats = light_from_cache(pass_.gbuffer);
       pass_.shared = shared_light(s, pass_.gbuffer);
+      find_gloss_of_lamps(s, pass_.gbuffer);
       shade(s, pass_.gbuffer, splats, gloss_from_cache(s, pass_.gbuffer), pass_.shared);
     }
     if (!edges_.empty()) shade_edges();
@@ -312,10 +322,41 @@ class Painter {
     return drawn;
   }
 
+  /// Shadow maps have no light through panes: shadow rays stand in for them.
+  bool by_maps() const { return options_.direct == DirectBy::shadow_map && !rays_.has_panes(); }
+  int taps() const { return static_cast<int>(options_.shadow_filter); }
+
+  /// Light of the lamps by shadow maps.
+  std::vector<LampsAt> mapped_lamps(const GBuffer& gbuffer, std::span<const SeenSample> samples) {
+    std::vector<LampsAt> light(samples.size());
+    const MappedLamps lamps(rays_, taps(), options_.shadow_filter != ShadowFilter::none);
+    gl_->each_lamp_map(gbuffer, static_cast<int>(options_.light_samples),
+                       static_cast<int>(options_.shadow_map_size),
+                       [&](const LampMap& map, bool extended) { lamps.add(map, extended, samples, light); });
+    return light;
+  }
+
+  /// Of pixels on glossy surfaces; empty where rays light those, or there are none.
+  void find_gloss_of_lamps(int s, const GBuffer& gbuffer) {
+    gloss_lamps_.clear(), gloss_slot_.clear();
+    if (!by_maps() || options_.shadow_filter == ShadowFilter::none) return;
+    const Stopwatch watch(result_.seconds, "shadow maps");
+    const Scene& scene = rays_.scene();
+    std::vector<SeenSample> samples;
+    gloss_slot_.assign(count_.size(), kNoSlot);
+    for (std::size_t i = 0; i < count_.size(); ++i) {
+      if (!gbuffer.covered(i)) continue;
+      const std::uint32_t instance = scene.triangle_instance[gbuffer.hit[i].triangle];
+      if (scene.material[scene.instance[instance].material].diffuse_alone()) continue;
+      gloss_slot_[i] = static_cast<std::uint32_t>(samples.size());
+      samples.push_back({ray_of(i, subpixel_offset(s, samples_)), gbuffer.hit[i]});
+    }
+    if (!samples.empty()) gloss_lamps_ = mapped_lamps(gbuffer, samples);
+  }
+
   /// Empty if direct light is had another way.
   std::vector<SharedLight> shared_light(int s, const GBuffer& gbuffer) {
-    // Shadow maps have no light through panes: shadow rays stand in for them.
-    const bool by_maps = options_.direct == DirectBy::shadow_map && !rays_.has_panes();
+    const bool by_maps = this->by_maps();
     if (options_.direct == DirectBy::interleaved || (options_.direct == DirectBy::shadow_map && !by_maps)) {
       if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
@@ -326,7 +367,7 @@ class Painter {
     if (!by_maps) return shared;
     const Stopwatch watch(result_.seconds, "shadow maps");
     for (const Rgb& e : gl_->direct_illuminance(gbuffer, static_cast<int>(options_.light_samples),
-                                                static_cast<int>(options_.shadow_map_size)))
+                                                static_cast<int>(options_.shadow_map_size), taps()))
       shared.push_back({e, Rgb(0)});
     return shared;
   }
@@ -352,6 +393,7 @@ class Painter {
       if (!gbuffer.covered(i)) return layers_.add(i, shader_.background(ray));
       const SurfacePoint point = rays_.surface(ray, gbuffer.hit[i]);
       PixelShader::Splat splat{splats.at(i)};
+      if (!gloss_lamps_.empty() && gloss_slot_[i] != kNoSlot) splat.lamps = &gloss_lamps_[gloss_slot_[i]];
       if (!gloss.light.empty()) splat.gloss = gloss.light[i], splat.gloss_error = gloss.error[i];
       layers_.add(i, shader_.shade({i, s}, ray, point, splat, shared.empty() ? nullptr : &shared[i], result));
       if (s == 0) layers_.set_surface(i, point.position, point.smooth_normal, point.distance_m);
@@ -361,8 +403,20 @@ class Painter {
   void shade_edges() {
     const Stopwatch watch(result_.seconds, "edges");
     const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, cached_direct(), pass_);
-    run(edges_.size(), 64,
-        [&](std::size_t e, ShadingResult& result) { edge.shade(edges_[e], layers_, result); });
+    const auto each = static_cast<std::size_t>(options_.edge_samples);
+    std::vector<LampsAt> lamps;
+    if (by_maps()) {
+      std::vector<SeenSample> samples(edges_.size() * each);
+      parallel_for(edges_.size(), 64, [&](std::size_t e) {
+        const std::vector<SeenSample> seen = edge.seen(edges_[e]);
+        std::copy(seen.begin(), seen.end(), samples.begin() + static_cast<std::ptrdiff_t>(e * each));
+      });
+      lamps = mapped_lamps(pass_.gbuffer, samples);
+    }
+    run(edges_.size(), 64, [&](std::size_t e, ShadingResult& result) {
+      edge.shade(edges_[e], layers_, result,
+                 lamps.empty() ? std::span<const LampsAt>() : std::span(lamps).subspan(e * each, each));
+    });
   }
 
   /// body(i, result) for i < n; results are joined in order.
@@ -408,7 +462,9 @@ class Painter {
   Layers layers_;
   std::vector<std::uint16_t> count_;  // samples of each pixel
   std::vector<std::uint32_t> edges_;
-  SeenPicture pass_;  // the latest
+  SeenPicture pass_;                       // the latest
+  std::vector<LampsAt> gloss_lamps_;       // of it, of glossy pixels
+  std::vector<std::uint32_t> gloss_slot_;  // by pixel, where there
   ShadingResult total_;
   Progress progress_;
 };

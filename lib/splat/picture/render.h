@@ -29,6 +29,9 @@ enum class DirectBy {
   none
 };
 
+/// Percentage-closer filtering of shadow maps (Reeves et al. 1987): texels each way about a point.
+enum class ShadowFilter { none = 1, four = 2, sixteen = 4 };
+
 struct RenderOptions {
   std::string camera;  ///< "" = the scene's first
   std::int64_t width = 0,
@@ -43,6 +46,7 @@ struct RenderOptions {
   SplatBy splat = SplatBy::gl;
   LeakTest leak_test = LeakTest::none;
   DirectBy direct = DirectBy::traced;
+  ShadowFilter shadow_filter = ShadowFilter::none;  ///< with a filter, maps light gloss too
   std::int64_t light_samples = 16, gloss_samples = 8, specular_depth = 64;
   std::optional<double> noise;  ///< chooses the first two of these (splat/picture/noise_target.h)
   std::int64_t shadow_map_size = 1024;

@@ -16,8 +16,9 @@ namespace phos::stage {
 inline constexpr int kViewAlgorithm = 1;
 
 struct ViewCommand {
-  std::string scene_path;           ///< or one of the caches: the two may change places
-  std::vector<std::string> caches;  ///< of irradiance and radiance
+  std::string scene_path;            ///< or one of the caches: the two may change places
+  std::vector<std::string> caches;   ///< of irradiance and radiance: FILE, or NAME=FILE (cache_sets.h)
+  std::vector<std::string> compare;  ///< the same of a second set
   SceneOptions scene;
   ServerAddress address;
   std::optional<double> accuracy;  ///< of reading records

@@ -50,18 +50,11 @@ void FilmOptions::resolve(const Options& given, Estimate estimate, bool of_radia
   const auto refuse = [](const char* option, const std::string& message) {
     throw Error(ExitCode::usage, option, message);
   };
-  if (estimate == Estimate::raster) {
-    if (of_radiance)
-      refuse("--estimate",
-             "raster makes irradiance records alone; leave --kind radiance out, or give --estimate gather or "
-             "hull");
-    if (look_ahead == LookAhead::reproject) {
-      if (given.given("look-ahead"))
-        refuse(
-            "--look-ahead",
-            "reproject moves what gathered rays saw, and --estimate raster sends none; give trace or none");
-      look_ahead = LookAhead::trace;
-    }
+  if (estimate == Estimate::raster && look_ahead == LookAhead::reproject) {
+    if (given.given("look-ahead"))
+      refuse("--look-ahead",
+             "reproject moves what gathered rays saw, and --estimate raster sends none; give trace or none");
+    look_ahead = LookAhead::trace;
   }
   if (lives == Lives::midpoint) {
     if (gradients == TemporalGradients::extrapolated)

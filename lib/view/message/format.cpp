@@ -15,6 +15,7 @@ constexpr MessageField kSceneFields[] = {
     {"scene", "bounds_lo", f32, 3, "m", "lower corner of the bounds"},
     {"scene", "bounds_hi", f32, 3, "m", "upper corner of the bounds"},
     {"scene", "origin", f32, 3, "m", "place in the world that all positions are counted from"},
+    {"scene", "sky_lamp", u32, 1, "", "lamp that the table of the sky shows", false, false, "lamp"},
     {"vertex", "position", f32, 3, "m", ""},
     {"vertex", "normal", f32, 3, "", "unit"},
     {"vertex", "uv", f32, 4, "", "texture coordinates of set 0 and of set 1; absent: 0", true},
@@ -23,8 +24,11 @@ constexpr MessageField kSceneFields[] = {
     {"part", "first_triangle", u32, 1, "", "of a run of triangles of one material"},
     {"part", "triangle_count", u32, 1, "", ""},
     {"part", "material", u32, 1, "", "", false, false, "material"},
+    {"part", "mirror", u32, 1, "", "in whose plane all its triangles lie", false, false, "mirror"},
+    {"part", "lamp", u32, 1, "", "lamp whose surface it is", false, false, "lamp"},
     {"material", "diffuse", f32, 4, "", "diffuse reflectance, and alpha; multiplied by colour_texture"},
-    {"material", "gloss", f32, 3, "", "mean reflectance of gloss and mirrors, drawn as if it were diffuse"},
+    {"material", "gloss", f32, 3, "",
+     "mean reflectance of gloss, drawn as if it were diffuse where no radiance record reaches"},
     {"material", "emission", f32, 3, "cd/m2", "multiplied by emission_texture"},
     {"material", "flags", u32, 1, "", "MaterialFlag"},
     {"material", "cutoff", f32, 1, "", "least alpha that is there"},
@@ -34,6 +38,18 @@ constexpr MessageField kSceneFields[] = {
     {"material", "emission_texture", u32, 1, "", "", false, false, "texture"},
     {"material", "emission_set", u32, 1, "", "set of texture coordinates, 0 or 1"},
     {"material", "emission_place", f32, 6, "", "as colour_place"},
+    {"material", "specular", u32, 1, "", "", false, false, "specular"},
+    {"material", "glint", u32, 1, "", "GlintKind: how lamps shine in its gloss"},
+    {"material", "glint_peak", f32, 3, "1/sr",
+     "the lobe itself, where light comes and goes along the normal"},
+    {"material", "glint_width", f32, 1, "",
+     "of GlintKind::ggx and ward the roughness alpha, of phong the exponent"},
+    {"specular", "reflects", f32, kSpecularFloats, "",
+     "share of light that a mirror or glass reflects: RGB at 33 cosines of incidence, evenly from 0 to 1"},
+    {"specular", "passes", f32, kSpecularFloats, "", "share that comes straight through it"},
+    {"mirror", "plane", f32, 4, "m", "unit normal, and minus its product with a point of the plane"},
+    {"mirror", "centre", f32, 3, "m", "of the surfaces in the plane"},
+    {"mirror", "area", f32, 1, "m2", ""},
     {"texture", "width", u32, 1, "", ""},
     {"texture", "height", u32, 1, "", ""},
     {"texture", "wrap", u32, 2, "", "along u and v: 0 repeat, 1 clamp, 2 mirror"},
@@ -85,10 +101,37 @@ constexpr MessageField kRecordFields[] = {
     {"record", "translation", f32, 9, "lx/m", "by colour: the gradient along the surface"},
 };
 
+constexpr MessageField kGlossFields[] = {
+    {"cache", "accuracy", f32, 1, "", "a of the weight of radiance records"},
+    {"lobe", "material", u32, 1, "", "row of the scene's materials that reads radiance records"},
+    {"lobe", "order", u32, 1, "", "n: it reads records of n bands"},
+    {"lobe", "first_row", u32, 1, "", "of its table in lobe_row"},
+    {"lobe", "row_count", u32, 1, "", "row k is the direction of view with tan(t / 2) = k / (row_count - 1)"},
+    {"lobe_row", "bands", u32, 1, "", "bands that the row holds; 0: no records serve this direction"},
+    {"lobe_row", "first_number", u32, 1, "",
+     "of its n (n + 1) / 2 coefficients in lobe_number: c_l^m at l (l + 1) / 2 + m"},
+    {"lobe_number", "value", f32, 3, "1/sqrt(sr)", "RGB"},
+    {"record", "position", f32, 3, "m", ""},
+    {"record", "inverse_radius", f32, 1, "1/m", ""},
+    {"record", "normal", f32, 3, "", "unit"},
+    {"record", "front_limit", f32, 1, "m", "of weight_if_lit()"},
+    {"record", "axis_x", f32, 3, "", "unit, of its frame"},
+    {"record", "over_limit", f32, 1, "m", "of weight_if_lit()"},
+    {"record", "steepness", f32, 1, "1/m", "of step_share(); 0: it takes no steps"},
+    {"record", "weight", f32, 1, "", "its share among others"},
+    {"record", "order", u32, 1, "", "n: it holds n^2 coefficients"},
+    {"record", "first_number", u32, 1, "",
+     "of its coefficients in number, l l + l + m: each takes three rows, light (cd/m2 sqrt(sr)) and its "
+     "change along axis_x and along the other axis (per m)"},
+    {"number", "value", f32, 3, "", "RGB"},
+};
+
 constexpr MessageField kQuestionFields[] = {
     {"ray", "number", u32, 1, "", "which the reading repeats"},
+    {"ray", "set", u32, 1, "", "of caches that are read, by about.json"},
     {"ray", "origin", f32, 3, "m", ""},
     {"ray", "direction", f32, 3, "", "of any length but 0"},
+    {"group", "weight", f32, 1, "", "factor on the light of each group of the set; not below 0"},
 };
 
 constexpr MessageField kReadingFields[] = {
@@ -111,7 +154,8 @@ constexpr MessageField kReadingFields[] = {
 constexpr MessageLayout kLayouts[] = {{MessageKind::scene, "scene", kSceneFields},
                                       {MessageKind::records, "records", kRecordFields},
                                       {MessageKind::question, "question", kQuestionFields},
-                                      {MessageKind::reading, "reading", kReadingFields}};
+                                      {MessageKind::reading, "reading", kReadingFields},
+                                      {MessageKind::gloss, "gloss", kGlossFields}};
 
 std::string_view name_of_type(FieldType type) { return type == u8 ? "u8" : type == u32 ? "u32" : "f32"; }
 

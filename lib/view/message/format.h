@@ -21,7 +21,7 @@
 namespace phos::inline view {
 
 inline constexpr std::string_view kMessageMagic = "phov";
-inline constexpr std::uint16_t kMessageVersion = 1;
+inline constexpr std::uint16_t kMessageVersion = 2;
 inline constexpr std::size_t kMessageHeaderBytes = 16;
 
 enum class MessageKind : std::uint16_t {
@@ -29,6 +29,7 @@ enum class MessageKind : std::uint16_t {
   records = 2,   ///< to the page: irradiance records
   question = 3,  ///< to the server: the light where a ray lands
   reading = 4,   ///< to the page: the answer
+  gloss = 7,     ///< to the page: radiance records, and the lobes that read them
 };
 
 enum class FieldType : std::uint8_t { u8, u32, f32 };
@@ -51,8 +52,12 @@ inline constexpr std::uint32_t kNoRow = 0xffffffff;
 enum MaterialFlag : std::uint32_t {
   kTwoSidedEmission = 1,
   kMasked = 2,  ///< alpha below the cutoff is a hole
-  kClear = 4,   ///< light passes straight: not drawn, and throws no shadow
+  kClear = 4,   ///< more light passes than is reflected: drawn see-through, and throws no shadow
 };
+/// Lobes in which lamps shine.
+enum class GlintKind : std::uint32_t { none = 0, phong = 1, ggx = 2, ward = 3 };
+/// Cosines of incidence of the table `specular`, and numbers of a row.
+inline constexpr unsigned kSpecularCosines = 33, kSpecularFloats = 3 * kSpecularCosines;
 /// Sides of the table of the sky.
 inline constexpr unsigned kSkyColumns = 256, kSkyRows = 128;
 

@@ -1,9 +1,12 @@
 // Illuminance of each pixel by one place of a lamp, where its shadow map lets it through (as
-// splat/gl/shaders.cpp: shadow_fragment).
+// splat/gl/shaders.cpp: shadow_fragment), and the luminance that it has in gloss. After data.glsl and glint.glsl.
 uniform sampler2D position_map;
 uniform sampler2D normal_map;
 uniform sampler2D reflectance_map;       // its w, with the normal's: the facet's normal
 uniform sampler2DArray depth_map;
+uniform bool veiled;
+uniform sampler2DArray veil_map;         // share of light that comes through the panes before the lamp
+uniform sampler2DArray veil_depth_map;   // and the distance of the nearest of them
 uniform sampler2D share_map;             // of colour, by degrees of azimuth and from straight down
 uniform mat3 luminaire_axes;             // rows are its x, y and up
 uniform int face_count;
@@ -17,7 +20,12 @@ uniform vec3 colour;                     // cd; directional: lx
 uniform vec3 forward;
 uniform vec2 cone;                       // cosines of the outer and the inner half angle
 uniform bool two_sided;
+uniform float spacing;                   // half of that between the lamp's places: m, or an angle where directional
+uniform vec3 viewer;                     // the eye
+uniform vec3 backward;                   // of a view without perspective
+uniform bool view_perspective;
 layout(location = 0) out vec4 illuminance;
+layout(location = 1) out vec4 glint;
 
 vec3 from_octahedral(vec2 p) {
   vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
@@ -46,6 +54,18 @@ bool shadowed(vec3 v, vec3 n, int face) {
   return (2.0 * stored - 1.0) * farthest + bias < carried;
 }
 
+// What panes leave of the light.
+vec3 through_panes(vec3 v, int face) {
+  bool perspective = shape != 3;
+  float w = perspective ? -v.z : 1.0;
+  ivec2 size = textureSize(veil_map, 0).xy;
+  vec2 ndc = (v.xy * lens.xy + lens.zw * w) / w;
+  ivec3 texel = ivec3(clamp(ivec2(floor((ndc * 0.5 + 0.5) * vec2(size))), ivec2(0), size - 1), face);
+  float pane = texelFetch(veil_depth_map, texel, 0).r;
+  bool behind = perspective ? pane * farthest < w : (2.0 * pane - 1.0) * farthest < -v.z;
+  return behind ? texelFetch(veil_map, texel, 0).rgb : vec3(1.0);
+}
+
 // What a luminaire's map says of a direction away from it.
 float share_towards(vec3 direction) {
   vec3 d = luminaire_axes * direction;
@@ -61,7 +81,7 @@ float share_towards(vec3 direction) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  illuminance = vec4(0.0);
+  illuminance = glint = vec4(0.0);
   vec4 p = texelFetch(position_map, pixel, 0);
   if (p.w == 0.0) return;
   vec4 normal = texelFetch(normal_map, pixel, 0);
@@ -91,5 +111,9 @@ void main() {
   float cosine = dot(n, to_light);
   if (cosine <= 0.0 || dot(facet, to_light) <= 0.0 || value == vec3(0.0)) return;
   if (shadowed(v, axes[face] * facet, face)) return;
+  if (veiled) value *= through_panes(v, face);
   illuminance = vec4(value * cosine, 0.0);
+  vec3 towards = view_perspective ? normalize(viewer - p.xyz) : backward;
+  float spread = shape == 3 ? spacing : spacing / length(v);
+  glint = vec4(glint_towards(p.w, n, towards, to_light, spread) * value * cosine, 0.0);
 }

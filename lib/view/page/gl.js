@@ -59,7 +59,7 @@ export function makeTexture(gl, format, width, height) {
   return id;
 }
 
-// A framebuffer of textures of one format.
+// A framebuffer of textures. `depth`: true, or the renderbuffer of another one, of the same size.
 export class Target {
   constructor(gl, width, height, formats, depth = false) {
     Object.assign(this, {gl, width, height});
@@ -72,9 +72,10 @@ export class Target {
     });
     gl.drawBuffers(formats.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
     if (depth) {
-      this.depth = gl.createRenderbuffer();
+      this.shares = depth !== true;
+      this.depth = this.shares ? depth : gl.createRenderbuffer();
       gl.bindRenderbuffer(gl.RENDERBUFFER, this.depth);
-      gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT32F, width, height);
+      if (!this.shares) gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT32F, width, height);
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
     }
     if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost())
@@ -87,14 +88,15 @@ export class Target {
     gl.viewport(0, 0, this.width, this.height);
   }
 
-  clear() {
-    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, [0, 0, 0, 0]));
-    if (this.depth) this.gl.clearBufferfv(this.gl.DEPTH, 0, [1]);
+  clear(colour = [0, 0, 0, 0]) {
+    this.bind();
+    this.textures.forEach((_, i) => this.gl.clearBufferfv(this.gl.COLOR, i, colour));
+    if (this.depth && !this.shares) this.gl.clearBufferfv(this.gl.DEPTH, 0, [1]);
   }
 
   remove() {
     this.textures.forEach((id) => this.gl.deleteTexture(id));
-    if (this.depth) this.gl.deleteRenderbuffer(this.depth);
+    if (this.depth && !this.shares) this.gl.deleteRenderbuffer(this.depth);
     this.gl.deleteFramebuffer(this.id);
   }
 }

@@ -1,5 +1,6 @@
 // The places that lamps shine from, each with its shadow maps, which are drawn once.
 import {makeTexture} from './gl.js';
+import {drawVeils} from './lamp_veils.js';
 import {across, add, dot, length, matrixOfRows, normalized, row, scale, subtract} from './vector.js';
 
 const SPOT = 2, DIRECTIONAL = 3;  // PlaceShape
@@ -26,14 +27,17 @@ function cubeAxes(forward) {
 }
 
 export class Lamps {
-  constructor(gl, scene, mesh, program) {
-    Object.assign(this, {gl, mesh, program});
+  // `program` draws depths, `veilProgram` the light that panes let through.
+  constructor(gl, scene, mesh, program, veilProgram) {
+    Object.assign(this, {gl, mesh, program, veilProgram});
     this.lo = row(scene.scene.bounds_lo, 0), this.hi = row(scene.scene.bounds_hi, 0);
     this.shares = Array.from({length: scene.distribution.rows}, (_, i) => this.#makeShare(scene.distribution, i));
     this.places = Array.from({length: scene.sample.rows}, (_, i) => this.#place(scene.sample, i));
+    this.#setSpacings(scene.sample);
     const faces = this.places.reduce((sum, place) => sum + place.axes.length, 0);
     this.size = 2048;
-    while (this.size > 128 && faces * this.size * this.size * 4 > MAP_BYTES) this.size /= 2;
+    const texel = mesh.panes.length ? 16 : 4;  // bytes
+    while (this.size > 128 && faces * this.size * this.size * texel > MAP_BYTES) this.size /= 2;
     this.drawn = 0;
   }
 
@@ -52,7 +56,7 @@ export class Lamps {
   #place(sample, i) {
     const shape = sample.shape[i], forward = row(sample.forward, i), share = this.shares[sample.distribution[i]];
     const place = {
-      shape, forward, colour: row(sample.colour, i), cone: row(sample.cone, i, 2), two_sided: sample.two_sided[i] !== 0,
+      lamp: sample.lamp[i], shape, forward, colour: row(sample.colour, i), cone: row(sample.cone, i, 2), two_sided: sample.two_sided[i] !== 0,
       share: share?.id ?? null, luminaire_axes: share?.axes ?? [1, 0, 0, 0, 1, 0, 0, 0, 1],
       eye: row(sample.position, i), perspective: shape !== DIRECTIONAL,
     };
@@ -67,6 +71,17 @@ export class Lamps {
     place.nearest = 0.999 * sample.nearest[i] / Math.sqrt(1 + 2 * half * half);
     place.half = half;
     return place;
+  }
+
+  // Half the distance from a place to the nearest of the same lamp, or half the angle.
+  #setSpacings({lamp}) {
+    const between = (a, b) => a.shape === DIRECTIONAL ? Math.acos(Math.min(1, dot(a.forward, b.forward))) : length(subtract(a.eye, b.eye));
+    this.places.forEach((place, i) => {
+      let nearest = Infinity;
+      for (let k = 0; k < this.places.length; ++k)
+        if (k !== i && lamp[k] === lamp[i] && this.places[k].shape === place.shape) nearest = Math.min(nearest, between(place, this.places[k]));
+      place.spacing = Number.isFinite(nearest) ? nearest / 2 : 0;
+    });
   }
 
   // Parallel views hold the whole scene.
@@ -99,6 +114,7 @@ export class Lamps {
       });
     });
     gl.deleteFramebuffer(framebuffer);
+    place.veils = this.mesh.panes.length ? drawVeils(gl, this.mesh, this.veilProgram, place, this.size) : null;
     // Half a texel: of the distance, or m.
     place.bias = place.perspective ? place.half / this.size : 0.5 * place.half * 2 / this.size + 1e-6 * place.radius;
   }
@@ -109,16 +125,20 @@ export class Lamps {
     return this.drawn === this.places.length;
   }
 
-  // Adds the light of every place whose maps are drawn to the bound target.
-  light(program, textures) {
+  // Adds the light of every place whose maps are drawn to the bound target. `weights`: of each lamp.
+  light(program, textures, weights) {
     const gl = this.gl;
     program.use(textures);
     for (const place of this.places.slice(0, this.drawn)) {
+      const weight = weights[place.lamp];
+      if (!(weight > 0)) continue;
       program.use({
-        shape: place.shape, colour: place.colour, forward: place.forward, cone: place.cone, two_sided: place.two_sided,
-        eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, face_count: place.axes.length,
+        shape: place.shape, colour: scale(place.colour, weight), forward: place.forward, cone: place.cone, two_sided: place.two_sided,
+        eye: place.eye, lens: place.lens, farthest: place.farthest, bias: place.bias, spacing: place.spacing, face_count: place.axes.length,
         axes: place.axes.flat(), luminaire_axes: place.luminaire_axes,
-        depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps},
+        depth_map: {unit: 3, target: gl.TEXTURE_2D_ARRAY, id: place.maps}, veiled: place.veils !== null,
+        veil_map: {unit: 14, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.shares ?? place.maps},
+        veil_depth_map: {unit: 15, target: gl.TEXTURE_2D_ARRAY, id: place.veils?.depths ?? place.maps},
         share_map: {unit: 4, target: gl.TEXTURE_2D, id: place.share},
       });
       gl.drawArrays(gl.TRIANGLES, 0, 3);

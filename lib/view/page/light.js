@@ -14,8 +14,9 @@ export class LightQuestions {
     this.socket.onclose = lost;
   }
 
-  ask({origin, direction}) {
-    this.waiting = this.messages.write('question', {ray: {number: [++this.number], origin, direction}});
+  // `set`: of caches; `weights`: of its groups.
+  ask({origin, direction}, set, weights) {
+    this.waiting = this.messages.write('question', {ray: {number: [++this.number], set: [set], origin, direction}, group: {weight: weights}});
     if (!this.busy) this.#next();
   }
 

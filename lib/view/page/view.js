@@ -1,17 +1,27 @@
 // The page: loads the scene, draws when something has changed, and asks for the light under the cursor.
 //
 // The address may hold ?camera=N&width=W&height=H, a picture of that size without the panel. With &dump=Q (the
-// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump.
-import {Drawing, loadShaders} from './drawing.js';
+// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump; &dump=isolux&step=LX
+// gives 1 where a line is. &weight=NAME:W dims a group of lamps (?weight=W: caches without names), &wipe=SHARE sets the
+// wipe, and ?bench=FRAMES measures frames, whose times become the text of #bench.
+import {bench} from './bench.js';
+import {Dimming} from './dimming.js';
+import {Distance} from './distance.js';
+import {Drawing, loadShaders, MEASURED} from './drawing.js';
 import {exposureOf, number, scaleEnd} from './exposure.js';
+import {labelsOf, stepFor} from './isolux.js';
 import {LightQuestions} from './light.js';
 import {Messages, names} from './message.js';
+import {Overlay} from './overlay.js';
+import {followTheme} from './theme.js';
 import {Eye, Walk} from './walk.js';
+import {Wipe} from './wipe.js';
 
 const $ = (id) => document.getElementById(id);
-const UNITS = ['cd/m²', 'lx', 'lx', 'lx'];
+const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
 const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
+const WITHOUT_LAMPS = ['2', '4'].includes(asked.get('dump'));  // quantities of records alone
 
 async function load(path, as) {
   const response = await fetch(path);
@@ -28,6 +38,13 @@ class View {
     this.accuracy = drawing.records.accuracy;
     this.exposure = {key: 1, white: 1};
     this.stale = true;
+    this.overlay = new Overlay($('over'));
+    this.distance = new Distance($('distance'));
+    const {sets} = drawing, relight = () => { this.change(); this.askAgain(); };
+    this.wipe = new Wipe({section: $('wipe-section'), slider: $('wipe'), line: $('wipe-line'), labels: $('wipe-labels')},
+                         sets, Number(asked.get('wipe') ?? 0.5), relight);
+    this.dimming = new Dimming({section: $('groups'), list: $('group-list'), all: $('all-on')}, sets,
+                               asked.getAll('weight'), relight);
     this.fillPanel();
     this.listen();
     this.takeCamera(Number(asked.get('camera') ?? 0));
@@ -45,8 +62,8 @@ class View {
     const list = names(camera.name_end, camera_name.utf8);
     (list.length ? list : ['outside']).forEach((name, i) => $('camera').add(new Option(name || `camera ${i}`, i)));
     $('title').textContent = document.title = this.about.title;
-    const {records} = this.drawing;
-    $('count').textContent = `${records.count} irradiance records of ${records.holdsDirect ? 'all' : 'indirect'} light`;
+    $('count').textContent = this.drawing.sets.map((set) =>
+      `${set.count} irradiance records of ${set.holdsDirect ? 'all' : 'indirect'} light`).join(' | ');
     Object.assign($('accuracy'), {min: this.accuracy / 4, max: this.accuracy * 2, value: this.accuracy});
     $('a').textContent = number(this.accuracy);
     for (const note of this.about.notes) {
@@ -71,18 +88,49 @@ class View {
       $('a').textContent = number(this.accuracy);
       this.change();
     };
-    for (const id of ['exposure', 'false', 'low', 'high', 'logarithmic', 'overlay', 'holes']) $(id).oninput = () => this.show();
+    for (const id of ['exposure', 'false', 'low', 'high', 'logarithmic', 'overlay', 'holes', 'isolux', 'isolux-step']) $(id).oninput = () => this.show();
     addEventListener('resize', () => this.change());
     this.canvas.addEventListener('pointermove', (event) => {
       if (this.walk.dragging) return;
-      const box = this.canvas.getBoundingClientRect();
-      const x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height;
-      this.questions.ask(this.eye.ray(x, y, box.width / box.height));
+      this.cursor = this.placeOf(event);
+      this.askAgain();
     });
+    this.canvas.addEventListener('pointerleave', () => this.cursor = null);
+    let pressed = null;
+    this.canvas.addEventListener('pointerdown', (event) => pressed = [event.clientX, event.clientY]);
+    this.canvas.addEventListener('pointerup', (event) => {
+      if ($('measure').checked && pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4)
+        this.takePoint(this.placeOf(event));
+    });
+    this.canvas.addEventListener('keydown', (event) => {
+      if (event.code === 'KeyM' && !event.ctrlKey && !event.metaKey && !event.altKey) this.takePoint(this.cursor ?? [0.5, 0.5]);
+    });
+    $('take-point').onclick = () => this.takePoint([0.5, 0.5]);
+    $('clear-distance').onclick = () => { this.distance.clear(); this.show(); };
+    followTheme($('theme'));
     this.canvas.addEventListener('webglcontextlost', () => {
       $('state').textContent = 'The browser has given the graphics memory away; load the page anew';
       this.lost = true;
     });
+  }
+
+  // From 0 to 1 from the upper left of the picture.
+  placeOf(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  }
+
+  takePoint([x, y]) {
+    this.distance.take(this.drawing.pointAt(x, y));
+    this.show();
+  }
+
+  // The light under the cursor, of the set that is seen there.
+  askAgain() {
+    if (!this.cursor) return;
+    const [x, y] = this.cursor, set = this.wipe.setAt(x);
+    this.questions.ask(this.eye.ray(2 * x - 1, 1 - 2 * y, this.canvas.clientWidth / this.canvas.clientHeight), set,
+                       this.drawing.sets[set].weights);
   }
 
   takeCamera(i) {
@@ -99,6 +147,7 @@ class View {
     this.exposure = exposureOf(values);
     $('exposure').value = 0;
     const high = scaleEnd(values);
+    $('isolux-step').value = stepFor(scaleEnd(this.quantity === 0 ? this.drawing.values(1) : values));
     $('high').value = high, $('low').value = $('logarithmic').checked ? high / 1000 : 0;
     this.show();
   }
@@ -119,7 +168,23 @@ class View {
     this.drawing.show({
       quantity: this.quantity, false_colour: $('false').checked, logarithmic, scale_ends: [low, high],
       key: this.exposure.key * factor, white: this.exposure.white * factor, show_holes: $('holes').checked,
+      isolux_step: this.isoluxStep,
     }, $('overlay').value, this.accuracy);
+    this.drawOver();
+  }
+
+  get isoluxStep() { return $('isolux').checked ? Math.max(Number($('isolux-step').value), 0) : 0; }
+
+  // Numbers of isolux lines, and the distance that is measured.
+  drawOver() {
+    this.overlay.clear();
+    if (this.isoluxStep > 0) {
+      const grid = this.drawing.measure(this.quantity || 1);
+      const there = (i) => grid[4 * i + 1] > 0 && grid[4 * i + 2] === 0;
+      for (const {x, y, level} of labelsOf({size: MEASURED, value: (i) => grid[4 * i], there}, this.isoluxStep))
+        this.overlay.word([x, 1 - y], number(level));
+    }
+    this.distance.draw(this.overlay, this.eye, this.canvas.width / this.canvas.height);
   }
 
   tell(reading) {
@@ -138,7 +203,7 @@ class View {
   frame(now) {
     if (this.lost) return false;
     if (this.walk.step(now)) this.change();
-    if (!this.drawing.records.holdsDirect && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
+    if (!WITHOUT_LAMPS && this.drawing.needsLamps && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
       const {lamps} = this.drawing;
       lamps.prepare(PLACES_A_FRAME);
       $('state').textContent = lamps.drawn < lamps.places.length ? `Shadows: ${lamps.drawn} of ${lamps.places.length}` : '';
@@ -150,37 +215,63 @@ class View {
     const width = Number(asked.get('width')) || Math.round(this.canvas.clientWidth * devicePixelRatio);
     const height = Number(asked.get('height')) || Math.round(this.canvas.clientHeight * devicePixelRatio);
     this.drawing.resize(Math.max(width, 1), Math.max(height, 1));
+    this.drawing.share = this.wipe.share;
     this.drawing.light(this.eye, this.accuracy);
     if (this.measures) this.automatic(); else this.show();
     this.measures = false;
     return true;
   }
 
-  // Values of a quantity as text of the page.
-  dump(quantity) {
-    const bytes = new Uint8Array(this.drawing.pixels(quantity).buffer);
+  // Values of a quantity as text of the page, or lines.
+  dump(what) {
+    const values = what === 'isolux' ? this.drawing.isoluxPixels(1, Number(asked.get('step'))) : this.drawing.pixels(Number(what));
+    const bytes = new Uint8Array(values.buffer);
     let binary = '';
     for (const byte of bytes) binary += String.fromCharCode(byte);
+    this.print('dump', btoa(binary));
+  }
+
+  bench(frames) {
+    const times = bench(frames, (angle) => {
+      this.eye.turn(angle, 0);
+      this.change();
+      this.frame(0);
+    }, () => this.drawing.finish());
+    const {width, height} = this.canvas;
+    this.print('bench', JSON.stringify({width, height, ...times}));
+    $('state').textContent = `${number(times.frames_per_second)} frames a second, ${width} x ${height}`;
+  }
+
+  print(id, words) {
     const text = document.createElement('pre');
-    text.id = 'dump', text.textContent = btoa(binary);
+    text.id = id, text.textContent = words;
     document.body.append(text);
   }
 }
 
 try {
   document.body.classList.toggle('bare', asked.has('width') || asked.has('height'));
-  const [format, about, scene, records, palette, shaders] = await Promise.all([
+  const [format, about, scene, palette, shaders] = await Promise.all([
     load('/format.json', 'json'), load('/about.json', 'json'), load('/scene.bin', 'arrayBuffer'),
-    load('/records.bin', 'arrayBuffer'), load('/palette.bin', 'arrayBuffer'), loadShaders((path) => load(path, 'text'))]);
+    load('/palette.bin', 'arrayBuffer'), loadShaders((path) => load(path, 'text'))]);
   const messages = new Messages(format), colours = new Uint8Array(palette);
   const read = messages.read(scene, 'scene');
-  const drawing = new Drawing($('picture'), shaders, read, messages.read(records, 'records'), colours);
+  const message = async (path, name) => messages.read(await load(path, 'arrayBuffer'), name);
+  const sets = await Promise.all(about.sets.map(async ({label, groups}) => ({
+    label, groups: await Promise.all(groups.map(async (group) =>
+      ({...group, records: await message(group.records, 'records'), gloss: await message(group.gloss, 'gloss')}))),
+  })));
+  const drawing = new Drawing($('picture'), shaders, read, sets, colours);
   const view = new View(drawing, read, {...about, palette: Array.from(colours)}, messages);
   $('state').textContent = '';
   if (asked.has('dump')) {
     while (view.frame(0));
-    view.dump(Number(asked.get('dump')));
+    view.dump(asked.get('dump'));
   } else {
+    if (asked.has('bench')) {
+      while (view.frame(0));
+      view.bench(Number(asked.get('bench')) || 120);
+    }
     const next = (now) => { view.frame(now); requestAnimationFrame(next); };
     requestAnimationFrame(next);
   }

@@ -7,7 +7,6 @@
 #include "estimate/estimator.h"
 #include "estimate/gather_source.h"
 
-
 namespace phos::inline estimate {
 struct Hemisphere;
 struct RecordOptions;
@@ -17,13 +16,16 @@ class Luminaires;
 class RayScene;
 }  // namespace phos::inline scene
 
+namespace phos::inline file {
+class Tool;
+}
+
 namespace phos::inline splat {
 
-/// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels
-/// each way (raster_plane.h); the place that a pixel shows is lit like the place where a gathered ray lands.
-/// Without noise but for the lamps' samples: stderr_lx does not contain the light between pixels. The near
-/// plane lies at the rounding of positions, so that walls which touch the record are drawn as far as they are
-/// told apart from it. With paths = all, direct light at the record is added from samples of the lamps.
+/// The scene drawn by OpenGL from the record's place onto one plane above it, of raster_side pixels each way
+/// (hemisphere_camera.h); the place that a pixel shows is lit like the place where a gathered ray lands.
+/// Without noise but for the lamps' samples: stderr_lx does not contain the light between pixels. With
+/// paths = all, direct light at the record is added from samples of the lamps.
 class RasterEstimator : public Estimator {
  public:
   /// Draws in the thread that calls this. Throws Error(bad_input) if no OpenGL context can be had,
@@ -43,7 +45,11 @@ class RasterEstimator : public Estimator {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Adds --estimate raster to the table of estimators (estimate/registry.h).
+/// Says so where the scene has panes, so that shadow rays stand in for the shadow maps that are asked for.
+void tell_raster_light(const Tool& tool, const RayScene& rays, const RecordOptions& records);
+
+/// Adds --estimate raster to the table of estimators (estimate/registry.h), of irradiance and of radiance
+/// records.
 void register_raster_estimator();
 
 }  // namespace phos::inline splat

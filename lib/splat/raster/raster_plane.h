@@ -27,4 +27,7 @@ struct RasterPlane {
 /// side > 0.
 RasterPlane raster_plane(int side, RasterBorder border);
 
+/// Where pixel border k of 0..side lies.
+inline double plane_border(double k, int side) { return kPlaneHalfSide * (2 * k / side - 1); }
+
 }  // namespace phos::inline splat

@@ -1,4 +1,4 @@
-#include "splat/gl/raster_plane.h"
+#include "splat/raster/raster_plane.h"
 
 #include <cmath>
 
@@ -22,9 +22,6 @@ double below_edge_sr(double y) {
   return 0.5 * (std::atan(y / h) - h / r * std::atan(y / r));
 }
 
-/// Where pixel border k of 0..side lies.
-double border_at(int k, int side) { return kPlaneHalfSide * (2.0 * k / side - 1); }
-
 }  // namespace
 
 RasterPlane raster_plane(int side, RasterBorder border) {
@@ -34,10 +31,10 @@ RasterPlane raster_plane(int side, RasterBorder border) {
   plane.covered = 4 * corner_sr(kPlaneHalfSide, kPlaneHalfSide) / std::numbers::pi;
   const double share = border == RasterBorder::coverage ? plane.covered : 1;
   for (int row = 0; row < side; ++row) {
-    const double y0 = border_at(row, side), y1 = border_at(row + 1, side);
+    const double y0 = plane_border(row, side), y1 = plane_border(row + 1, side);
     const bool side_y = row == 0 || row == side - 1;
     for (int column = 0; column < side; ++column) {
-      const double x0 = border_at(column, side), x1 = border_at(column + 1, side);
+      const double x0 = plane_border(column, side), x1 = plane_border(column + 1, side);
       const bool side_x = column == 0 || column == side - 1;
       double sr = (corner_sr(x1, y1) - corner_sr(x0, y1) - corner_sr(x1, y0) + corner_sr(x0, y0)) / share;
       if (border == RasterBorder::stretch) {
