@@ -12,9 +12,17 @@ int main(int argc, char** argv) {
             stage::kMergeAlgorithm);
   stage::MergeCommand asked;
   tool.options().inputs("SHARD", asked.shards, "all shards of one run, in any order");
+  tool.options().text(
+      "memory", asked.memory, "SIZE",
+      "most memory to take for shards of photons, such as 2G, at least 64M; more photons than "
+      "fit are sorted on disk, in temporary files beside the output of about twice its size "
+      "(default: as much memory as it takes)",
+      Recorded::no);
   tool.options().example("phos-merge a.photons b.photons -o room.photons",
                          "joins the files of --shard 1/2 and 2/2");
   tool.options().example("phos-merge a.irradiance b.irradiance -o room.irradiance",
                          "joins the files of --part 1/2 and 2/2");
+  tool.options().example("phos-merge *.photons --memory 2G -o town.photons",
+                         "joins shards whose photons do not fit in memory");
   return tool.run(argc, argv, [&] { stage::run(tool, asked); });
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -57,6 +58,24 @@ std::string memory_text(double bytes) {
   if (mebibytes < 1024) return text(std::llround(mebibytes), " MiB");
   const double tenths = std::round(mebibytes / 102.4);
   return text(tenths / 10, " GiB");
+}
+
+std::uint64_t parse_memory(const std::string& option, const std::string& size, std::uint64_t least) {
+  constexpr std::string_view kUnits = "KMGT";
+  const char* const end = size.data() + size.size();
+  std::uint64_t number = 0;
+  const auto [unit, failure] = std::from_chars(size.data(), end, number);
+  const std::size_t power = unit + 1 == end ? kUnits.find(*unit) : kUnits.npos;
+  if (failure != std::errc() || power == kUnits.npos || number == 0 || number >> 20 > 0)
+    throw Error(
+        ExitCode::usage, option,
+        text('"', size,
+             "\" is no size of memory; give a whole number up to 1048575 and K, M, G or T, such as 2G"));
+  const std::uint64_t bytes = number << (10 * (power + 1));
+  if (bytes < least)
+    throw Error(ExitCode::usage, option,
+                text(size, " is too little; give ", memory_text(static_cast<double>(least)), " or more"));
+  return bytes;
 }
 
 }  // namespace phos

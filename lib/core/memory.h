@@ -17,4 +17,8 @@ std::string require_memory(const std::string& what, double bytes, const std::str
 /// "23.4 GiB", "512 MiB".
 std::string memory_text(double bytes);
 
+/// Bytes of a size as a command line gives it: a whole number from 1 and K, M, G or T, powers of 1024 bytes
+/// ("512M", "2G"). Throws Error(usage) naming the option for any other text, and for a size below `least`.
+std::uint64_t parse_memory(const std::string& option, const std::string& size, std::uint64_t least = 1);
+
 }  // namespace phos

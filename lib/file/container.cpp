@@ -85,6 +85,46 @@ void check_version(const Provenance& p, const std::string& where) {
            p.tool.empty() ? "" : " (it was made by " + p.tool + ")"));
 }
 
+[[noreturn]] void refuse_changed(const Container& file, const std::string& tensor) {
+  throw Error(ExitCode::bad_input, file.path(),
+              text("damaged: tensor \"", tensor,
+                   "\" has changed since it was written; rerun the command that made it"));
+}
+
+/// Calls act(piece) for one piece after another. Between two it looks whether the user wants to stop.
+template <class Act>
+void for_pieces(std::span<const std::byte> bytes, std::size_t piece, const Act& act) {
+  while (!bytes.empty()) {
+    throw_if_interrupted();
+    const std::size_t n = std::min(bytes.size(), piece);
+    act(bytes.first(n));
+    bytes = bytes.subspan(n);
+  }
+}
+
+/// Of mapped tensors one after another, so that few of their pages are in memory at a time.
+std::map<std::string, std::string> tensor_checksums(const std::map<std::string, Tensor>& tensors,
+                                                    bool mapped) {
+  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  std::map<std::string, std::string> checksums;
+  if (mapped) {
+    for (const auto& [name, tensor] : tensors) {
+      Hasher hasher;
+      for_pieces(tensor.bytes, kPiece, [&](std::span<const std::byte> piece) {
+        hasher.add_bytes(piece.data(), piece.size());
+        release_pages(piece);
+      });
+      checksums[name] = hasher.finish().hex();
+    }
+    return checksums;
+  }
+  std::vector<std::pair<const Tensor*, std::string*>> unknown;
+  for (const auto& [name, tensor] : tensors) unknown.emplace_back(&tensor, &checksums[name]);
+  parallel_for(unknown.size(), 1,
+               [&](std::size_t i) { *unknown[i].second = hash_bytes(unknown[i].first->bytes).hex(); });
+  return checksums;
+}
+
 }  // namespace
 
 std::uint64_t Tensor::elements() const {
@@ -156,10 +196,7 @@ void Container::verify() const {
     changed[i] = hash_bytes(all[i]->second.bytes).hex() != impl_->checksums.at(all[i]->first);
   });
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (changed[i])
-      throw Error(ExitCode::bad_input, path(),
-                  text("damaged: tensor \"", all[i]->first,
-                       "\" has changed since it was written; rerun the command that made it"));
+    if (changed[i]) refuse_changed(*this, all[i]->first);
   impl_->verified = true;
 }
 
@@ -170,6 +207,21 @@ void Container::require_sound() const {
   require_sound_numbers(*this);
   impl_->sound = true;
 }
+
+void Container::require_sound_in(std::size_t window) const {
+  require_layout(*this);
+  for (const auto& [name, tensor] : impl_->tensors) {
+    Hasher hasher;
+    for_pieces(tensor.bytes, window, [&](std::span<const std::byte> piece) {
+      hasher.add_bytes(piece.data(), piece.size());
+      release(piece);
+    });
+    if (hasher.finish().hex() != impl_->checksums.at(name)) refuse_changed(*this, name);
+  }
+  require_sound_numbers(*this, window);
+}
+
+void Container::release(std::span<const std::byte> part) const { impl_->file.release(part); }
 
 bool is_container(const std::string& path) {
   struct stat info {};
@@ -192,17 +244,19 @@ void ContainerWriter::add(const std::string& name, Tensor tensor) {
 }
 
 void ContainerWriter::write(const std::string& path, const Provenance& provenance) const {
+  write(path, provenance, false);
+}
+
+void ContainerWriter::write_mapped(const std::string& path, const Provenance& provenance) const {
+  write(path, provenance, true);
+}
+
+void ContainerWriter::write(const std::string& path, const Provenance& provenance, bool mapped) const {
   AtomicFile file(path);
   Metadata metadata = to_metadata(provenance);
-  std::map<std::string, std::string> checksums;
+  std::map<std::string, std::string> checksums = tensor_checksums(tensors_, mapped);
   Json units(Json::Object{});
-  std::vector<std::pair<const Tensor*, std::string*>> unknown;
-  for (const auto& [name, tensor] : tensors_) {
-    unknown.emplace_back(&tensor, &checksums[name]);
-    units[name] = tensor.unit;
-  }
-  parallel_for(unknown.size(), 1,
-               [&](std::size_t i) { *unknown[i].second = hash_bytes(unknown[i].first->bytes).hex(); });
+  for (const auto& [name, tensor] : tensors_) units[name] = tensor.unit;
   metadata[kUnits] = units.dump();
   checksums[kHeaderChecksum] = header_checksum(metadata, tensors_, checksums);
   Json all(Json::Object{});
@@ -211,15 +265,12 @@ void ContainerWriter::write(const std::string& path, const Provenance& provenanc
 
   const LayoutPlan plan = plan_layout(tensors_, metadata);
   file.write(plan.header);
-  constexpr std::size_t kPiece = std::size_t{64}
-                                 << 20;  // between two looks at whether the user wants to stop
+  const std::size_t piece = std::size_t{mapped ? 4u : 64u} << 20;
   for (const Tensor* tensor : plan.order)
-    for (std::span<const std::byte> rest = tensor->bytes; !rest.empty();) {
-      throw_if_interrupted();
-      const std::size_t n = std::min(rest.size(), kPiece);
-      file.write(rest.first(n));
-      rest = rest.subspan(n);
-    }
+    for_pieces(tensor->bytes, piece, [&](std::span<const std::byte> bytes) {
+      file.write(bytes);
+      if (mapped) release_pages(bytes);
+    });
   file.commit();
 }
 

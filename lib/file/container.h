@@ -67,6 +67,11 @@ class Container {
   /// verify(), and checks that every tensor is there, with numbers as the table of the kind
   /// (file/kinds/tensor_row.h) says. Throws Error(bad_input) naming the first that is not. Looks only once.
   void require_sound() const;
+  /// The same, one tensor after another, with about `window` bytes of the file in memory at a time; looks
+  /// anew at each call.
+  void require_sound_in(std::size_t window) const;
+  /// Takes a part of the file, such as rows of a tensor, out of memory until it is read again.
+  void release(std::span<const std::byte> part) const;
 
  private:
   const Tensor& require(const std::string& name, Dtype dtype, const Shape& shape) const;
@@ -88,8 +93,12 @@ class ContainerWriter {
   void add(const std::string& name, Tensor tensor);
   /// Same tensors and provenance give the same bytes. Throws Error(bad_input) if it cannot be written.
   void write(const std::string& path, const Provenance& provenance) const;
+  /// The same for tensors that all lie in mapped files (ScratchFile): their pages leave memory behind the
+  /// writer.
+  void write_mapped(const std::string& path, const Provenance& provenance) const;
 
  private:
+  void write(const std::string& path, const Provenance& provenance, bool mapped) const;
   std::map<std::string, Tensor> tensors_;
 };
 

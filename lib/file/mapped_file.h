@@ -19,6 +19,8 @@ class MappedFile {
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// As release_pages(), where the file is mapped.
+  void release(std::span<const std::byte> part) const;
 
  private:
   struct alignas(64) Block {
@@ -31,6 +33,10 @@ class MappedFile {
   void* mapping_ = nullptr;
   int watched_ = -1;
 };
+
+/// Takes the pages that lie wholly in `bytes` out of the memory of the process. The system reads them again
+/// where they are touched. `bytes` must be of a mapping of a file.
+void release_pages(std::span<const std::byte> bytes);
 
 void install_read_error_handler();
 /// Throws Error(bad_input) for a file without bytes, which could be of any kind, and for one that is missing.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -173,19 +174,27 @@ void add_totals(PhotonTotals& totals, const PhotonTotals& other) {
 }
 
 Json bounds_to_json(std::span<const Vec3> position) {
-  if (position.empty()) return {};
-  const auto bounds = parallel_reduce<Bounds>(
+  return bounds_to_json(parallel_reduce<Bounds>(
       position.size(), 1 << 16, {},
       [&](std::size_t begin, std::size_t end) {
         Bounds part;
         for (std::size_t i = begin; i < end; ++i) part.include(position[i]);
         return part;
       },
-      [](Bounds& all, const Bounds& part) { all.include(part.lo), all.include(part.hi); });
+      [](Bounds& all, const Bounds& part) { all.include(part.lo), all.include(part.hi); }));
+}
+
+Json bounds_to_json(const Bounds& bounds) {
+  if (bounds.empty()) return {};
   Json j = Json::Object{};
   j["lo"] = rgb(bounds.lo);
   j["hi"] = rgb(bounds.hi);
   return j;
+}
+
+void describe_map(Provenance& provenance, const PhotonTotals& totals, Json bounds_m) {
+  provenance.extra["totals"] = totals_to_json(totals);
+  provenance.extra["bounds_m"] = std::move(bounds_m);
 }
 
 void append(Photons& to, const Photons& from) {

@@ -41,6 +41,9 @@ PhotonTotals totals_of(const Container& file, std::size_t rows);
 void add_totals(PhotonTotals& totals, const PhotonTotals& other);
 /// {"lo":[x,y,z],"hi":[x,y,z]} in m; null without photons.
 Json bounds_to_json(std::span<const Vec3> position);
+Json bounds_to_json(const Bounds& bounds);
+/// What a header says of a map or shard.
+void describe_map(Provenance& provenance, const PhotonTotals& totals, Json bounds_m);
 
 /// Adds the rows of `from` behind the rows of `to`.
 void append(Photons& to, const Photons& from);

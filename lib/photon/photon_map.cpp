@@ -45,8 +45,6 @@ void require_equal_lengths(const Photons& p) {
              "columns of unequal length, position has ", n);
 }
 
-// Checksums of all tensors in parallel: a damaged column would otherwise be wrong light without a word.
-
 }  // namespace
 
 struct PhotonMap::Impl {
@@ -117,8 +115,7 @@ const Container* PhotonMap::container() const { return impl_->file ? &*impl_->fi
 
 void PhotonMap::write(const std::string& path, Provenance provenance) const {
   throw_if_interrupted();  // FLANN builds without looking up
-  provenance.extra["totals"] = totals_to_json(totals);
-  provenance.extra["bounds_m"] = bounds_to_json(position);
+  describe_map(provenance, totals, bounds_to_json(position));
   const std::vector<std::byte> tree = impl_->tree.save();
   TensorWriter writer(FileKind::photons);
   add_columns(writer, {position, flux, direction, normal, source_normal, distance, this->path, bounce, family,

@@ -1,20 +1,11 @@
 #include "photon/photon_shards.h"
 
 #include "core/error.h"
-#include "file/shards.h"
-#include "photon/photon_file.h"
 
 namespace phos::inline photon {
 namespace {
 
 const ShardKind kKind{FileKind::photons, FileForm::shard, "map", "phos-photons --shard i/n"};
-
-/// One shard's photons, in place.
-struct PhotonShard {
-  Shard shard;
-  PhotonColumns columns;
-  PhotonTotals totals;
-};
 
 void require_same_totals(const std::vector<PhotonShard>& shards) {
   const PhotonShard& a = shards.front();
@@ -35,6 +26,8 @@ void require_same_totals(const std::vector<PhotonShard>& shards) {
                 text("the shards hold ", path, " of ", a.totals.emitted, " paths; make them again"));
 }
 
+}  // namespace
+
 std::vector<PhotonShard> open_photon_shards(const std::vector<std::string>& paths) {
   std::vector<PhotonShard> shards;
   for (Shard& shard : open_shards(paths, kKind)) {
@@ -46,12 +39,9 @@ std::vector<PhotonShard> open_photon_shards(const std::vector<std::string>& path
   return shards;
 }
 
-}  // namespace
-
 void write_shard(const std::string& path, const Photons& photons, const PhotonTotals& totals,
                  const std::string& shard, Provenance provenance) {
-  provenance.extra["totals"] = totals_to_json(totals);
-  provenance.extra["bounds_m"] = bounds_to_json(photons.position);
+  describe_map(provenance, totals, bounds_to_json(photons.position));
   provenance.extra[kKind.word()] = shard;
   TensorWriter writer(FileKind::photons);
   add_columns(writer, columns_of(photons));
@@ -62,19 +52,28 @@ std::string key_of_merged(const std::vector<std::string>& paths) {
   return key_of_whole(open_photon_shards(paths).front().shard.file.provenance());
 }
 
-MergedShards read_shards(const std::vector<std::string>& paths) {
-  std::vector<PhotonShard> shards = open_photon_shards(paths);
-  MergedShards merged;
+MergedHeader header_of_merged(const std::vector<PhotonShard>& shards) {
+  MergedHeader merged;
   merged.provenance = shards.front().shard.file.provenance();
   merged.provenance.key = key_of_whole(merged.provenance);
   merged.provenance.extra = Json();
   merged.provenance.counters = Counters();
   merged.totals.emitted = shards.front().totals.emitted;
   merged.totals.flux_exponent = shards.front().totals.flux_exponent;
-  std::size_t rows = 0;
-  for (const PhotonShard& s : shards) rows += s.columns.position.size();
+  for (const PhotonShard& s : shards) {
+    add_totals(merged.totals, s.totals);
+    merged.provenance.counters.merge(s.shard.file.provenance().counters);
+    merged.has_families = merged.has_families || !s.columns.family.empty();
+  }
+  return merged;
+}
+
+MergedShards read_shards(const std::vector<std::string>& paths) {
+  std::vector<PhotonShard> shards = open_photon_shards(paths);
+  MergedHeader header = header_of_merged(shards);
+  MergedShards merged{{}, header.totals, std::move(header.provenance)};
   Photons& p = merged.photons;
-  for_columns([&](auto& column) { column.reserve(rows); }, p);
+  for_columns([&](auto& column) { column.reserve(static_cast<std::size_t>(merged.totals.stored)); }, p);
   for (PhotonShard& open : shards) {
     const PhotonShard s = std::move(open);  // its mapping goes once it is copied
     s.shard.file.require_sound();
@@ -82,8 +81,6 @@ MergedShards read_shards(const std::vector<std::string>& paths) {
     for_columns([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, p, c);
     p.family.insert(p.family.end(), c.family.begin(), c.family.end());
     append(p.flights, c.flights);
-    add_totals(merged.totals, s.totals);
-    merged.provenance.counters.merge(s.shard.file.provenance().counters);
   }
   return merged;
 }

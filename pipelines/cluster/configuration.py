@@ -2,10 +2,10 @@
 import math
 import os
 import re
-import shlex
 from datetime import datetime, timedelta, timezone
 
 from problem import Problem, nearest
+from words import words_of
 
 STAGES = ("photons", "merge", "brdf", "radiance", "irradiance", "splat", "temporal", "frames", "points", "sense", "join", "study")
 
@@ -95,10 +95,7 @@ class Configuration:
                 return []
             if not isinstance(value, str):
                 raise self._wrong(where, "options as one text", value)
-            try:
-                return [self._file_in(word) for word in shlex.split(value)]
-            except ValueError as error:
-                raise Problem(f"{self.path}: {where}: {error}") from None
+            return words_of(value, self.folder, f"{self.path}: {where}")
         if kind == "file":
             path = os.path.join(self.folder, str(value))
             if not os.path.isfile(path):
@@ -119,12 +116,6 @@ class Configuration:
                 raise self._wrong(where, "first and last frame in quotes, like \"0:99\"", value)
             return int(found[1]), int(found[2])
         return self._times(where, value)
-
-    def _file_in(self, word):
-        """A word that names a file beside the configuration (also NAME=FILE) with the path of that file."""
-        head, equals, tail = word.rpartition("=")
-        path = os.path.join(self.folder, tail)
-        return f"{head}{equals}{os.path.realpath(path)}" if tail and os.path.isfile(path) else word
 
     def _times(self, where, value):
         if not isinstance(value, dict):

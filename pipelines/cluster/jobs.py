@@ -13,6 +13,7 @@ import tomllib
 
 from contents import content_key, scene_key
 from problem import Problem, nearest
+from words import with_files
 
 JOIN = os.path.join(os.path.dirname(os.path.realpath(__file__)), "join.py")
 FOLDERS = ("frames", "study")  # stages whose jobs make a folder
@@ -44,10 +45,7 @@ def _key_of(word):
         return "job " + word.key
     if isinstance(word, Scene):
         return "scene " + scene_key(word.path)
-    head, equals, tail = word.rpartition("=")
-    if tail.startswith("/") and os.path.isfile(tail):
-        return f"word {head}{equals}{content_key(tail)}"
-    return "word " + word
+    return "word " + with_files(word, "/", content_key)  # the configuration made files absolute
 
 
 class Graph:

@@ -47,6 +47,33 @@ TEST_F(MergeCli, AnyOrderGivesTheBytesOfTheWhole) {
             std::string::npos);
 }
 
+// 64 MiB hold about 220,000 photons.
+TEST_F(MergeCli, MorePhotonsThanMemoryAreMergedOnDisk) {
+  const std::vector<std::string> many{"--photons", "150000", "--caustic-photons", "0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), many.begin(), many.end());
+    return more;
+  };
+  const std::string whole = photons("whole", with({})), a = photons("a", with({"--shard", "1/2"})),
+                    b = photons("b", with({"--shard", "2/2"}));
+  const std::string stats = folder_ + "/stats.json";
+  const Result run = run_tool({"merge", b, a, "--memory", "64M", "-o", path("merged"), "--stats", stats});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("sorted on disk"), std::string::npos) << run.err;
+  EXPECT_NE(test::slurp(stats).find("\"on_disk\": true"), std::string::npos) << test::slurp(stats);
+  EXPECT_EQ(test::slurp(path("merged")), test::slurp(whole));
+  const Result in_memory = run_tool({"merge", a, b, "--memory", "1G", "-o", path("again"), "--stats", stats});
+  ASSERT_EQ(in_memory.code, 0) << in_memory.err;
+  EXPECT_NE(test::slurp(stats).find("\"on_disk\": false"), std::string::npos) << test::slurp(stats);
+  EXPECT_EQ(test::slurp(path("again")), test::slurp(whole));
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) files += entry.is_regular_file();
+  EXPECT_EQ(files, 6u) << "a temporary file is left";
+  expect_refused({a, b, "--memory", "3"}, 2, "is no size of memory");
+  expect_refused({a, b, "--memory", "2X"}, 2, "is no size of memory");
+  expect_refused({a, b, "--memory", "63M"}, 2, "give 64 MiB or more");
+}
+
 TEST_F(MergeCli, Refusals) {
   const std::string a = photons("a", {"--shard", "1/2"}), b = photons("b", {"--shard", "2/2"});
   const std::string seed = photons("seed", {"--shard", "2/2", "--seed", "1"}), whole = photons("whole", {});

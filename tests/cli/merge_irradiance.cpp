@@ -63,6 +63,7 @@ TEST_F(MergeIrradiance, Refusals) {
   const std::string a = make("a", {"--part", "1/2"}), b = make("b", {"--part", "2/2"});
   expect_refused({"merge", a}, 4, "missing part 2/2");
   expect_refused({"merge", a, b, a}, 4, "and so is");
+  expect_refused({"merge", a, b, "--memory", "1G"}, 2, "--memory: is for shards of photons");
   expect_refused({"merge", a, make("seed", {"--part", "2/2", "--seed", "1"})}, 4, "another run");
   expect_refused({"merge", make("whole", {})}, 3, "is a whole cache already");
   expect_refused({"merge", a, path("photons")}, 3, "irradiance");

@@ -41,6 +41,9 @@ inline std::vector<FaultStage> fault_stages(const std::string& folder) {
   make(photons, "room.photons");
   for (const std::string shard : {"1", "2"})
     make({"photons", room, "--photons", "30000", "--shard", shard + "/2"}, "part" + shard + ".photons");
+  for (const std::string shard : {"1", "2"})
+    make({"photons", room, "--photons", "200000", "--caustic-photons", "0", "--shard", shard + "/2"},
+         "many" + shard + ".photons");
   make({"brdf", room, "--resolution", "8"}, "room.brdf");
   make({"irradiance", room, in("room.photons"), "--accuracy", "0.6"}, "room.irradiance");
   make({"radiance", room, in("room.photons"), in("room.brdf"), "--accuracy", "0.9"}, "room.radiance");
@@ -54,6 +57,9 @@ inline std::vector<FaultStage> fault_stages(const std::string& folder) {
   std::vector<FaultStage> all;
   all.push_back(stage(photons, room, "o.photons"));
   all.push_back(stage({"merge", in("part1.photons"), in("part2.photons")}, in("part2.photons"), "o.photons"));
+  // More photons than 64 MiB hold.
+  all.push_back(stage({"merge", in("many1.photons"), in("many2.photons"), "--memory", "64M"},
+                      in("many2.photons"), "o.photons"));
   all.push_back(stage({"brdf", room, "--resolution", "12"}, room, "o.brdf"));
   all.push_back(stage({"irradiance", room, in("room.photons"), "--accuracy", "0.6"}, in("room.photons"),
                       "o.irradiance"));

@@ -97,6 +97,22 @@ std::size_t first_bad_row(const Tensor& tensor, std::size_t rows, const NumberCh
   });
 }
 
+/// The same, some rows after others.
+std::size_t first_bad_row_in(const Container& file, const Tensor& tensor, std::size_t rows,
+                             const NumberCheck& check, std::size_t window) {
+  const std::size_t row_bytes = tensor.bytes.size() / rows,
+                    most = std::max<std::size_t>(window / row_bytes, 1);
+  for (std::size_t begin = 0; begin < rows; begin += most) {
+    const std::size_t n = std::min(rows - begin, most);
+    const Tensor part{tensor.dtype, tensor.shape, tensor.unit,
+                      tensor.bytes.subspan(begin * row_bytes, n * row_bytes)};
+    const std::size_t bad = first_bad_row(part, n, check);
+    if (bad < n) return begin + bad;
+    file.release(part.bytes);
+  }
+  return rows;
+}
+
 }  // namespace
 
 const Tensor& require_tensor(const Container& file, const std::string& name) {
@@ -119,13 +135,14 @@ Extents require_layout(const Container& file) {
   return known;
 }
 
-void require_sound_numbers(const Container& file) {
+void require_sound_numbers(const Container& file, std::optional<std::size_t> window) {
   for_each_due(file, [&](const TensorRow& row, const std::string&, const std::string& name) {
     if (row.check.rule == NumberCheck::Rule::any) return;
     const Tensor& t = require_tensor(file, name);
     const auto rows = static_cast<std::size_t>(t.shape.front());
     if (t.bytes.empty()) return;
-    const std::size_t bad = first_bad_row(t, rows, row.check);
+    const std::size_t bad =
+        window ? first_bad_row_in(file, t, rows, row.check, *window) : first_bad_row(t, rows, row.check);
     if (bad == rows) return;
     throw Error(ExitCode::bad_input, file.path(),
                 text("row ", bad, " of tensor \"", name, "\" is not ", row.check.words,

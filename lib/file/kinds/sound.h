@@ -1,6 +1,9 @@
 // Checks a file against the table of its kind.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "file/container.h"
 #include "file/kinds/shape_pattern.h"
 
@@ -14,7 +17,8 @@ const Tensor& require_tensor(const Container& file, const std::string& name);
 Extents require_layout(const Container& file);
 
 /// Throws Error(bad_input), naming tensor, row and file, for the first number that fails the check of its
-/// row. Aborts for a layout that require_layout() has not seen.
-void require_sound_numbers(const Container& file);
+/// row. Aborts for a layout that require_layout() has not seen. With a `window`, about as many bytes of the
+/// file are in memory at a time.
+void require_sound_numbers(const Container& file, std::optional<std::size_t> window = {});
 
 }  // namespace phos::inline file

@@ -14,10 +14,19 @@ void TensorWriter::add_bytes(const std::string& name, Dtype dtype, std::span<con
   file_.add(name, {dtype, std::move(shape), std::string(unit), bytes});
 }
 
-void TensorWriter::write(const std::string& path, Provenance provenance) const {
+void TensorWriter::complete(Provenance& provenance) const {
   provenance.kind = kind_;
   provenance.version = row_of(kind_).version;
+}
+
+void TensorWriter::write(const std::string& path, Provenance provenance) const {
+  complete(provenance);
   file_.write(path, provenance);
+}
+
+void TensorWriter::write_mapped(const std::string& path, Provenance provenance) const {
+  complete(provenance);
+  file_.write_mapped(path, provenance);
 }
 
 TensorReader::TensorReader(const Container& file) : file_(file), extents_(require_layout(file)) {}

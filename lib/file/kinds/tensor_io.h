@@ -28,8 +28,11 @@ class TensorWriter {
   }
   /// As ContainerWriter::write(), with the kind and the version of the table.
   void write(const std::string& path, Provenance provenance) const;
+  /// As ContainerWriter::write_mapped().
+  void write_mapped(const std::string& path, Provenance provenance) const;
 
  private:
+  void complete(Provenance& provenance) const;
   void add_bytes(const std::string& name, Dtype dtype, std::span<const std::byte> bytes);
   FileKind kind_;
   Extents extents_;

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "core/parallel.h"
-#include "photon/tree/split.h"
 
 namespace phos::inline photon {
 namespace {
@@ -31,16 +30,17 @@ struct Node {
 /// A piece of the tree, by one thread.
 class Piece {
  public:
-  Piece(std::span<TreePoint> all, int leaf_size, std::vector<std::byte>& saved)
-      : all_(all), leaf_size_(static_cast<std::size_t>(leaf_size)), saved_(saved) {}
+  /// `origin` is the number of the first of all points in the tree's order.
+  Piece(std::span<TreePoint> all, std::size_t origin, int leaf_size, std::vector<std::byte>& saved)
+      : all_(all), origin_(origin), leaf_size_(static_cast<std::size_t>(leaf_size)), saved_(saved) {}
 
   /// `box` becomes the one about the points.
   void divide(std::size_t begin, std::size_t end, Bounds& box) {
     const std::size_t at = saved_.size();
     saved_.resize(at + kTreeNode);
     if (end - begin <= leaf_size_) {
-      put(&saved_[at + kLeft], static_cast<std::int32_t>(begin));
-      put(&saved_[at + kRight], static_cast<std::int32_t>(end));
+      put(&saved_[at + kLeft], static_cast<std::int32_t>(origin_ + begin));
+      put(&saved_[at + kRight], static_cast<std::int32_t>(origin_ + end));
       saved_[at + kIsLeaf] = std::byte{1};
       box = tight_box(all_.subspan(begin, end - begin));
       return;
@@ -58,7 +58,7 @@ class Piece {
 
  private:
   std::span<TreePoint> all_;
-  std::size_t leaf_size_;
+  std::size_t origin_, leaf_size_;
   std::vector<std::byte>& saved_;
 };
 
@@ -90,12 +90,12 @@ std::vector<Node> build_top(std::span<TreePoint> all, const Bounds& box) {
   return nodes;
 }
 
-void build_pieces(std::span<TreePoint> all, int leaf_size, std::vector<Node>& nodes) {
+void build_pieces(std::span<TreePoint> all, std::size_t origin, int leaf_size, std::vector<Node>& nodes) {
   parallel_for(nodes.size(), 1, [&](std::size_t i) {
     Node& node = nodes[i];
     if (node.first != 0) return;
     node.saved.reserve((node.end - node.begin) / static_cast<std::size_t>(leaf_size) * 4 * kTreeNode);
-    Piece(all, leaf_size, node.saved).divide(node.begin, node.end, node.box);
+    Piece(all, origin, leaf_size, node.saved).divide(node.begin, node.end, node.box);
   });
   for (std::size_t i = nodes.size(); i-- > 0;)
     if (Node& node = nodes[i]; node.first != 0)
@@ -108,8 +108,8 @@ struct Places {
   std::size_t end;
 };
 
-Places depth_first(const std::vector<Node>& nodes, std::size_t begin) {
-  Places places{std::vector<std::size_t>(nodes.size()), begin};
+Places depth_first(const std::vector<Node>& nodes) {
+  Places places{std::vector<std::size_t>(nodes.size()), 0};
   std::vector<std::size_t> rest{0};
   while (!rest.empty()) {
     const std::size_t i = rest.back();
@@ -122,46 +122,66 @@ Places depth_first(const std::vector<Node>& nodes, std::size_t begin) {
   return places;
 }
 
-/// What stands before the order: sizes, no points of its own, no names, none removed, not reordered.
-void put_index(std::byte* at, std::uint64_t points, int leaf_size, const Bounds& box) {
-  std::fill(at, at + kTreeOrder, std::byte{0});
-  put(at, points), put(at + 8, std::uint64_t{3}), put(at + 16, points);
-  put(at + 51, leaf_size);
-  put(at + 55, std::uint64_t{3});
-  for (int c = 0; c < 3; ++c) {
-    const std::size_t side = kTreeBox + 8 * static_cast<std::size_t>(c);
-    put(at + side, box.lo[c]), put(at + side + 4, box.hi[c]);
-  }
-  put(at + kTreeOrder - 8, points);
+/// The nodes of the top, each with its place, and the pieces.
+Column<std::byte> joined(const std::vector<Node>& nodes) {
+  const Places places = depth_first(nodes);
+  Column<std::byte> saved(places.end);
+  parallel_for(nodes.size(), 1, [&](std::size_t i) {
+    const Node& node = nodes[i];
+    std::byte* const at = saved.data() + places.of_node[i];
+    if (node.first == 0)
+      std::memcpy(at, node.saved.data(), node.saved.size());
+    else
+      put(at, saved_node(node.axis, nodes[node.first].box, nodes[node.second].box));
+  });
+  return saved;
 }
 
 }  // namespace
+
+std::array<std::byte, kTreeNode> saved_node(int axis, const Bounds& first, const Bounds& second) {
+  std::array<std::byte, kTreeNode> node{};
+  put(&node[kAxis], axis);
+  put(&node[kLow], first.hi[axis]);
+  put(&node[kHigh], second.lo[axis]);
+  return node;
+}
+
+// No points of its own, no names, none removed, not reordered.
+std::array<std::byte, kTreeOrder> saved_index(std::uint64_t points, int leaf_size, const Bounds& box) {
+  std::array<std::byte, kTreeOrder> index{};
+  put(&index[0], points), put(&index[8], std::uint64_t{3}), put(&index[16], points);
+  put(&index[51], leaf_size);
+  put(&index[55], std::uint64_t{3});
+  for (int c = 0; c < 3; ++c) {
+    const std::size_t side = kTreeBox + 8 * static_cast<std::size_t>(c);
+    put(&index[side], box.lo[c]), put(&index[side + 4], box.hi[c]);
+  }
+  put(&index[kTreeOrder - 8], points);
+  return index;
+}
+
+Column<std::byte> build_nodes(std::span<TreePoint> points, std::size_t begin, int leaf_size, Bounds& box) {
+  std::vector<Node> nodes = build_top(points, box);
+  build_pieces(points, begin, leaf_size, nodes);
+  box = nodes.front().box;
+  return joined(nodes);
+}
 
 Column<std::byte> build_tree(std::span<const Vec3> points, int leaf_size) {
   Column<TreePoint> all(points.size());
   parallel_for(all.size(), kCopyChunk, [&](std::size_t i) {
     all[i] = {points[i], static_cast<std::int32_t>(i)};
   });
-  std::vector<Node> nodes = build_top(all, tight_box_in_parallel(all));
-  build_pieces(all, leaf_size, nodes);
+  Bounds box = tight_box_in_parallel(all);
+  const Column<std::byte> nodes = build_nodes(all, 0, leaf_size, box);
   const std::size_t begin = kTreeOrder + sizeof(std::int32_t) * all.size();
-  const Places places = depth_first(nodes, begin);
-  Column<std::byte> saved(places.end);
-  put_index(saved.data(), points.size(), leaf_size, nodes.front().box);
+  Column<std::byte> saved(begin + nodes.size());
+  put(saved.data(), saved_index(points.size(), leaf_size, box));
   parallel_for(all.size(), kCopyChunk,
                [&](std::size_t i) { put(saved.data() + kTreeOrder + sizeof(std::int32_t) * i, all[i].row); });
-  parallel_for(nodes.size(), 1, [&](std::size_t i) {
-    const Node& node = nodes[i];
-    std::byte* const at = saved.data() + places.of_node[i];
-    if (node.first == 0) {
-      std::memcpy(at, node.saved.data(), node.saved.size());
-      return;
-    }
-    put(at + kLeft, std::int32_t{0}), put(at + kRight, std::int32_t{0});
-    put(at + kAxis, node.axis);
-    put(at + kLow, nodes[node.first].box.hi[node.axis]);
-    put(at + kHigh, nodes[node.second].box.lo[node.axis]);
-    at[kIsLeaf] = std::byte{0};
+  parallel_chunks(nodes.size(), kCopyChunk, [&](std::size_t first, std::size_t end) {
+    std::memcpy(saved.data() + begin + first, nodes.data() + first, end - first);
   });
   return saved;
 }

@@ -59,6 +59,8 @@ class Blocks {
       : contents_(contents), header_bytes_(header_bytes), ends_(block_ends(contents, header_bytes)) {}
 
   std::size_t count() const { return ends_.size(); }
+  /// Where a block begins in the contents.
+  std::size_t begin(std::size_t i) const { return i == 0 ? 0 : ends_[i - 1]; }
 
   /// A length (of all but the first) and a block.
   std::vector<std::byte> compressed(std::size_t i) const {
@@ -75,7 +77,6 @@ class Blocks {
   }
 
  private:
-  std::size_t begin(std::size_t i) const { return i == 0 ? 0 : ends_[i - 1]; }
   std::size_t size(std::size_t i) const { return ends_[i] - begin(i); }
   bool is_full(std::size_t i) const { return size(i) + (i == 0 ? header_bytes_ : 0) == kBlock; }
 
@@ -116,19 +117,31 @@ class Blocks {
 
 }  // namespace
 
-std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents) {
+void compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents,
+                   const std::function<void(std::span<const std::byte>, std::size_t)>& give) {
+  const std::size_t at_a_time = std::max<std::size_t>(64, 2 * static_cast<std::size_t>(thread_count()));
   const Blocks blocks(contents, header.size());
-  std::vector<std::vector<std::byte>> compressed(blocks.count());
-  parallel_for(blocks.count(), 1, [&](std::size_t i) { compressed[i] = blocks.compressed(i); });
-  std::vector<std::size_t> place(blocks.count() + 1, header.size());
-  for (std::size_t i = 0; i < compressed.size(); ++i) place[i + 1] = place[i] + compressed[i].size();
-  std::vector<std::byte> stream(place.back() + sizeof(std::uint64_t));  // no length: the end
-  std::copy(header.begin(), header.end(), stream.begin());
-  const std::uint64_t first = compressed.front().size();
-  std::memcpy(stream.data() + header.size() - sizeof first, &first, sizeof first);
-  parallel_for(compressed.size(), 8, [&](std::size_t i) {
-    std::copy(compressed[i].begin(), compressed[i].end(),
-              stream.begin() + static_cast<std::ptrdiff_t>(place[i]));
+  std::vector<std::byte> piece(header.begin(), header.end());
+  std::vector<std::vector<std::byte>> compressed(at_a_time);
+  for (std::size_t begin = 0; begin < blocks.count(); begin += at_a_time) {
+    const std::size_t n = std::min(at_a_time, blocks.count() - begin);
+    parallel_for(n, 1, [&](std::size_t i) { compressed[i] = blocks.compressed(begin + i); });
+    if (begin == 0) {
+      const std::uint64_t first = compressed.front().size();
+      std::memcpy(piece.data() + header.size() - sizeof first, &first, sizeof first);
+    }
+    for (std::size_t i = 0; i < n; ++i) piece.insert(piece.end(), compressed[i].begin(), compressed[i].end());
+    if (begin + n == blocks.count())
+      piece.resize(piece.size() + sizeof(std::uint64_t));  // no length: the end
+    give(piece, begin + n < 2 ? 0 : blocks.begin(begin + n - 2));
+    piece.clear();
+  }
+}
+
+std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents) {
+  std::vector<std::byte> stream;
+  compress_tree(header, contents, [&](std::span<const std::byte> piece, std::size_t) {
+    stream.insert(stream.end(), piece.begin(), piece.end());
   });
   return stream;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,5 +13,10 @@ namespace phos::inline photon {
 /// if after all before it. `contents` are the bytes that build_tree() returns; values do not span blocks.
 /// Throws std::bad_alloc.
 std::vector<std::byte> compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents);
+
+/// The same in pieces, one after another: give(piece, done), where the first `done` bytes of the contents are
+/// not needed any more.
+void compress_tree(std::span<const std::byte> header, std::span<const std::byte> contents,
+                   const std::function<void(std::span<const std::byte>, std::size_t)>& give);
 
 }  // namespace phos::inline photon

@@ -10,11 +10,15 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
+#include "file/mapped_file.h"
+#include "file/scratch/scratch_file.h"
 #include "photon/limits.h"
 #include "photon/tree/build.h"
 #include "photon/tree/check.h"
 #include "photon/tree/flann_compress.h"
 #include "photon/tree/flann_stream.h"
+#include "photon/tree/tree_on_disk.h"
 
 namespace phos::inline photon {
 namespace {
@@ -192,11 +196,15 @@ KdTree::~KdTree() = default;
 KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
+void KdTree::require_fit(std::size_t count) {
+  if (count > kMostPoints)
+    throw Error(
+        ExitCode::numerical, "",
+        text(count, " photons are more than one map can hold (", kMostPhotons.most, "); use fewer paths"));
+}
+
 void KdTree::require_fit(std::span<const Vec3> points) {
-  if (points.size() > kMostPoints)
-    throw Error(ExitCode::numerical, "",
-                text(points.size(), " photons are more than one map can hold (", kMostPhotons.most,
-                     "); use fewer paths"));
+  require_fit(points.size());
   if (const std::size_t bad = count_out_of_range(points); bad > 0)
     throw Error(ExitCode::numerical, "",
                 text(bad, " of ", points.size(), " photon positions are not finite or beyond ",
@@ -255,6 +263,25 @@ std::vector<std::byte> KdTree::save() const {
   Contents contents;
   impl_->tree().serialize(contents);
   return compress_tree(bytes, std::span(contents.bytes).subspan(sizeof header));
+}
+
+void KdTree::save_on_disk(ScratchFile& points, std::size_t count, std::uint64_t memory_bytes,
+                          const std::string& output, ScratchFile& saved) {
+  if (count == 0) return;
+  ScratchFile file(output);
+  build_tree_on_disk(points, count, kLeafSize, memory_bytes, output, file);
+  const flann::IndexHeader header = header_of(count);
+  const std::span<const std::byte> contents = file.map();
+  Progress progress("compressing the kd-tree", contents.size(), "bytes");
+  std::size_t released = 0;
+  compress_tree(std::as_bytes(std::span(&header, 1)), contents,
+                [&](std::span<const std::byte> piece, std::size_t done) {
+                  saved.write(piece);
+                  release_pages(contents.subspan(released, done - released));
+                  progress.advance(done - released);
+                  released = done;
+                });
+  progress.advance(contents.size() - released);
 }
 
 void KdTree::in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const {

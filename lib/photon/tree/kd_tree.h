@@ -11,6 +11,10 @@
 
 #include "core/vector.h"
 
+namespace phos::inline file {
+class ScratchFile;
+}
+
 namespace phos::inline photon {
 
 /// Exact neighbour search over points that stay where they are: the tree refers to the span it was made with.
@@ -30,6 +34,8 @@ class KdTree {
   /// Throws Error(numerical) for a coordinate that is not finite or larger than kLargestCoordinate_m, or for
   /// more than 2^31-1 points.
   static void require_fit(std::span<const Vec3> points);
+  /// The same of a number of points that are in range.
+  static void require_fit(std::size_t count);
 
   /// The same points give the same tree; in space_order() they are faster to build over, and to ask. Throws
   /// as require_fit().
@@ -43,6 +49,12 @@ class KdTree {
 
   /// Bytes for load(); none if there are no points.
   std::vector<std::byte> save() const;
+
+  /// Appends to `saved` the bytes of save() over `count` points that need not fit in memory: `points` holds
+  /// one TreePoint (photon/tree/split.h) for each, in order, and in another order afterwards. They must be in
+  /// range. Holds about `memory_bytes`, and files beside `output`. Throws Error(bad_input) for a full disk.
+  static void save_on_disk(ScratchFile& points, std::size_t count, std::uint64_t memory_bytes,
+                           const std::string& output, ScratchFile& saved);
 
   /// Points with |p - point| <= radius_m, unsorted, replacing `rows`; nothing for a negative or NaN radius.
   void in_sphere(const Vec3& p, float radius_m, std::vector<std::uint32_t>& rows) const;

@@ -10,12 +10,6 @@ namespace {
 constexpr std::size_t kChunk = 1 << 16;
 constexpr int kBits = 21;  // of each axis: three fill a word
 
-struct Row {
-  std::uint64_t cube;
-  std::uint32_t row;
-  auto operator<=>(const Row&) const = default;
-};
-
 /// Two zeros before each of the lowest 21 bits, by halving the groups that are already apart.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffff;
@@ -38,17 +32,19 @@ Bounds bounds_of(std::span<const Vec3> points) {
 
 }  // namespace
 
-Column<std::uint32_t> space_order(std::span<const Vec3> points) {
-  const Bounds bounds = bounds_of(points);
-  const double side_m = max_component(bounds.size());
+std::uint64_t SpaceCubes::operator()(const Vec3& point) const {
   const auto cell = [&](float x_m, float lowest_m) {
-    const double part = side_m > 0 ? (double{x_m} - double{lowest_m}) / side_m : 0;
+    const double part = side_m_ > 0 ? (double{x_m} - double{lowest_m}) / side_m_ : 0;
     return spread(static_cast<std::uint64_t>(part * ((1 << kBits) - 1)));
   };
-  Column<Row> rows(points.size());
+  return cell(point.x, lo_.x) << 2 | cell(point.y, lo_.y) << 1 | cell(point.z, lo_.z);
+}
+
+Column<std::uint32_t> space_order(std::span<const Vec3> points) {
+  const SpaceCubes cube(bounds_of(points));
+  Column<CubeRow> rows(points.size());
   parallel_for(rows.size(), kChunk, [&](std::size_t i) {
-    const Vec3 &p = points[i], &lo = bounds.lo;
-    rows[i] = {cell(p.x, lo.x) << 2 | cell(p.y, lo.y) << 1 | cell(p.z, lo.z), static_cast<std::uint32_t>(i)};
+    rows[i] = {cube(points[i]), static_cast<std::uint32_t>(i)};
   });
   parallel_sort(rows, kChunk);
   Column<std::uint32_t> order(rows.size());

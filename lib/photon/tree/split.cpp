@@ -3,7 +3,6 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -12,37 +11,6 @@ namespace phos::inline photon {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 14;
-
-struct Plane {
-  int axis;
-  float at;
-};
-
-/// The axis along which the box is widest; but one along which the box is wider than the points are along
-/// that one, if the points are, too.
-Plane plane_of(const Bounds& box, const Bounds& points) {
-  const Vec3 about = box.hi - box.lo, extent = points.hi - points.lo;
-  int widest = 0;
-  for (int i = 1; i < 3; ++i)
-    if (about[i] > about[widest]) widest = i;
-  int axis = widest;
-  for (int i = 0; i < 3; ++i)
-    if (i != widest && about[i] > extent[axis] && extent[i] > extent[axis]) axis = i;
-  return {axis, (points.lo[axis] + points.hi[axis]) / 2};
-}
-
-/// Swaps the first point that is not `before` with the last that is, the second with the last but one, and so
-/// on; returns how many are `before`.
-template <class Before>
-std::size_t partition(std::span<TreePoint> points, const Before& before) {
-  std::size_t left = 0, right = points.size();
-  for (;;) {
-    while (left < right && before(points[left])) ++left;
-    while (left < right && !before(points[right - 1])) --right;
-    if (left == right) return left;
-    std::swap(points[left++], points[--right]);
-  }
-}
 
 /// The same swaps, once it is known which points take part.
 template <class Before>
@@ -94,25 +62,42 @@ std::size_t partition_in_parallel(std::span<TreePoint> points, const Before& bef
 }
 
 template <class Partition>
-TreeSplit split_at(const Plane& plane, std::span<TreePoint> points, const Partition& part) {
+TreeSplit split_at(const SplitPlane& plane, std::span<TreePoint> points, const Partition& part) {
   const auto [axis, at] = plane;
   const std::size_t below = part(points, [=](const TreePoint& p) { return p.position[axis] < at; });
   const std::size_t not_above =
       below + part(points.subspan(below), [=](const TreePoint& p) { return p.position[axis] <= at; });
-  const std::size_t half = points.size() / 2;
-  return {axis, at, below > half ? below : not_above < half ? not_above : half};
+  return {axis, at, first_of_split(points.size(), below, not_above)};
 }
 
 }  // namespace
 
+// The axis along which the box is widest; but one along which the box is wider than the points are along that
+// one, if the points are, too.
+SplitPlane split_plane(const Bounds& box, const Bounds& points) {
+  const Vec3 about = box.hi - box.lo, extent = points.hi - points.lo;
+  int widest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (about[i] > about[widest]) widest = i;
+  int axis = widest;
+  for (int i = 0; i < 3; ++i)
+    if (i != widest && about[i] > extent[axis] && extent[i] > extent[axis]) axis = i;
+  return {axis, (points.lo[axis] + points.hi[axis]) / 2};
+}
+
+std::size_t first_of_split(std::size_t n, std::size_t below, std::size_t not_above) {
+  const std::size_t half = n / 2;
+  return below > half ? below : not_above < half ? not_above : half;
+}
+
 TreeSplit split_points(std::span<TreePoint> points, const Bounds& box) {
-  return split_at(plane_of(box, tight_box(points)), points,
-                  [](std::span<TreePoint> p, const auto& before) { return partition(p, before); });
+  return split_at(split_plane(box, tight_box(points)), points,
+                  [](std::span<TreePoint> p, const auto& before) { return partition_points(p, before); });
 }
 
 TreeSplit split_points_in_parallel(std::span<TreePoint> points, const Bounds& box) {
   return split_at(
-      plane_of(box, tight_box_in_parallel(points)), points,
+      split_plane(box, tight_box_in_parallel(points)), points,
       [](std::span<TreePoint> p, const auto& before) { return partition_in_parallel(p, before); });
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "core/vector.h"
 
@@ -12,6 +13,11 @@ namespace phos::inline photon {
 struct TreePoint {
   Vec3 position;
   std::int32_t row;
+};
+
+struct SplitPlane {
+  int axis;
+  float at;
 };
 
 struct TreeSplit {
@@ -26,6 +32,24 @@ struct TreeSplit {
 TreeSplit split_points(std::span<TreePoint> points, const Bounds& box);
 /// The same by all threads.
 TreeSplit split_points_in_parallel(std::span<TreePoint> points, const Bounds& box);
+
+/// The plane of split_points() for points in `box` with the tight box `points`.
+SplitPlane split_plane(const Bounds& box, const Bounds& points);
+/// How many of n points come first, of which `below` lie before the plane and `not_above` before or on it.
+std::size_t first_of_split(std::size_t n, std::size_t below, std::size_t not_above);
+
+/// Swaps the first point that is not `before` with the last that is, the second with the last but one, and so
+/// on; returns how many are `before`.
+template <class Before>
+std::size_t partition_points(std::span<TreePoint> points, const Before& before) {
+  std::size_t left = 0, right = points.size();
+  for (;;) {
+    while (left < right && before(points[left])) ++left;
+    while (left < right && !before(points[right - 1])) --right;
+    if (left == right) return left;
+    std::swap(points[left++], points[--right]);
+  }
+}
 
 /// About one point or more. Of equal coordinates (-0 and 0) the first counts.
 Bounds tight_box(std::span<const TreePoint> points);

@@ -83,6 +83,22 @@ rm "shards/store/${names[3]}"
 "$py" run shards "${names[3]}" "$merge"
 same "shards/store/$merge" truth/box.photons
 
+echo "--- options from files, and several files in one option"
+mkdir site
+cp "$project"/data/luminaires/* site/
+lamps=(site/*)
+printf '# what the scene stands under\nluminaire = a=%s,b=%s\nluminaires-as points\n' "${lamps[0]}" "${lamps[1]}" >site.opts
+sed "s|^scenes:.*|scenes: {box: {file: $project/data/cornell-empty.glb, options: '@site.opts'}}|" box.yaml >site.yaml
+"$py" plan site.yaml site-run >/dev/null
+first=$("$py" list site.yaml site-run --stage photons | head -1)
+"$py" command site-run "$first" | grep -qF -- "--luminaire a=$scratch/${lamps[0]},b=$scratch/${lamps[1]} --luminaires-as points" || wrong "options from a file: $("$py" command site-run "$first")"
+for lamp in "${lamps[0]}" "${lamps[1]}"; do
+  echo >>"$lamp"
+  [[ $("$py" list site.yaml site-run --stage photons | head -1) != "$first" ]] || wrong "$lamp: other content, and the same key"
+done
+sed 's/@site.opts/@none.opts/' site.yaml >bad.yaml
+refused 3 'none.opts: No such file' cluster bad.yaml out
+
 echo "--- a job that ends without its file"
 mkdir liar
 printf '#!/bin/sh\n[ "$1" != --options-json ] || exec %s "$@"\n' "$(command -v phos-splat)" >liar/phos-splat

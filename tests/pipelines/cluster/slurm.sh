@@ -53,11 +53,11 @@ wait_for() {
   wrong "not so after $((tries / 4)) s: $*"
 }
 stored() { (($(find "$1/store/$2" -type f -not -name '.*' 2>/dev/null | wc -l) >= $3)); }
-# stops_on NODE: stops a program of phos that runs there, so that it cannot end before its node.
-stops_on() {
+# runs_on NODE: does a program of phos run there?
+runs_on() {
   local number
   for number in $(site_processes "$1"); do
-    [[ $(cat "/proc/$number/comm" 2>/dev/null) != phos-* ]] || ! kill -STOP "$number" 2>/dev/null || return 0
+    [[ $(cat "/proc/$number/comm" 2>/dev/null) != phos-* ]] || return 0
   done
   return 1
 }
@@ -81,13 +81,18 @@ cluster box.yaml snake --profile slurm
 stamps snake | cmp - before || wrong "touch: files were made anew"
 
 step "two nodes, by array jobs; a node dies"
+# phos-photons that waits on node2, so that it cannot end before its node
+mkdir held
+printf '#!/bin/sh\nwhile [ "$SLURMD_NODENAME" = node2 ] && [ -e %s/hold ]; do sleep 0.1; done\nexec %s "$@"\n' "$scratch" "$(command -v phos-photons)" >held/phos-photons
+chmod +x held/phos-photons
+free=$PATH PATH=$scratch/held:$PATH
+touch hold
 cluster box.yaml dies --profile sbatch
-for ((i = 0; i < 600; ++i)); do
-  if stops_on node2; then break; fi
-  sleep 0.02
-done
+wait_for 120 runs_on node2
 site_kill node2
+rm hold
 scontrol update nodename=node2 state=down reason=test
+refused 3 "still in Slurm's queue" cluster box.yaml dies --profile sbatch
 site_node node2
 scontrol update nodename=node2 state=resume
 # Slurm lets jobs of dead nodes wait for two minutes
@@ -96,16 +101,17 @@ wait_for 300 idle
 cluster box.yaml dies --profile sbatch --wait yes
 check_results dies truth
 once dies
+PATH=$free
 grep -c '^\$ ' -r dies/log/*/ | grep -q ':2$' || wrong "dies: no job was lost with its node"
 
 step "an array is cancelled"
 cluster box.yaml cancelled --profile sbatch
-wait_for 60 stored cancelled photons 1
-refused 3 "still in Slurm's queue" cluster box.yaml cancelled --profile sbatch
+wait_for 120 stored cancelled photons 1
 scancel --name="phos-$(<cancelled/.shared)"
 wait_for 60 idle
 stamps cancelled >before
 [[ ! -e cancelled/results/results.csv ]] || wrong "cancelled: was not cancelled in time"
+[[ -z $(find cancelled/store/sense -type f 2>/dev/null) ]] || wrong "cancelled: little was left to do"
 cluster box.yaml cancelled --profile sbatch --wait yes
 check_results cancelled truth
 stamps cancelled | comm -23 before - >lost
