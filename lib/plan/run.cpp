@@ -58,14 +58,17 @@ void learn(Pilot& pilot, const PlanRound& round, bool whole) {
 /// are these.)
 double left_over_s(const PlanTask& task, const Pilot& pilot, const Knobs& there, const Knobs& knobs) {
   const auto same = [&](Knob knob) { return there[at(knob)] == knobs[at(knob)]; };
-  std::vector<const char*> parts;
-  if (same(Knob::photons)) parts.push_back("photons");
-  parts.push_back("lobes");
-  if (same(Knob::photons) && same(Knob::accuracy) && same(Knob::rays) && !(task.image && task.lux))
-    parts.insert(parts.end(), {"coarse records", "records", "coarse records, for gloss", "gloss records"});
+  const bool photons = same(Knob::photons);
+  const bool records = photons && same(Knob::accuracy) && same(Knob::rays) && !(task.image && task.lux);
+  const std::pair<const char*, bool> parts[] = {{"photons", photons},
+                                                {"lobes", true},
+                                                {"coarse records", records},
+                                                {"records", records},
+                                                {"coarse records, for gloss", records},
+                                                {"gloss records", records}};
   double sum = 0;
-  for (const char* name : parts)
-    if (const Posynomial* p = pilot.time.find(name)) sum += p->best(knobs);
+  for (const auto& [name, left] : parts)
+    if (const Posynomial* p = left ? pilot.time.find(name) : nullptr) sum += p->best(knobs);
   return sum;
 }
 

@@ -33,22 +33,20 @@ Traits traits_of(const Scene& scene, const GlossCache* gloss) {
 std::vector<std::string> drawing_notes(const RayScene& rays, const IrradianceCache& cache,
                                        const GlossCache* gloss) {
   const Traits traits = traits_of(rays.scene(), gloss);
+  const std::pair<bool, const char*> all[] = {
+      {traits.gloss, "gloss without radiance records reflects lamps, and other light as a matt surface does"},
+      {traits.records,
+       "gloss is drawn from radiance records; on curved surfaces, lobes keep their shape about the mirrored "
+       "direction"},
+      {traits.specular,
+       "mirrors and glass reflect once: the flat ones that matter most by a second view of the scene, others "
+       "by cube maps about them"},
+      {rays.has_panes(), "glass is seen through, and lets light of lamps pass, without bending"},
+      {traits.bumps, "normal maps are not drawn"},
+      {cache.caustics != nullptr, "caustic light, which the cache holds as photons, is not drawn"}};
   std::vector<std::string> notes;
-  if (traits.gloss)
-    notes.push_back("gloss without radiance records reflects lamps, and other light as a matt surface does");
-  if (traits.records)
-    notes.push_back(
-        "gloss is drawn from radiance records; on curved surfaces, lobes keep their shape about the mirrored "
-        "direction");
-  if (traits.specular)
-    notes.push_back(
-        "mirrors and glass reflect once: the flat ones that matter most by a second view of the scene, "
-        "others "
-        "by cube maps about them");
-  if (rays.has_panes())
-    notes.push_back("glass is seen through, and lets light of lamps pass, without bending");
-  if (traits.bumps) notes.push_back("normal maps are not drawn");
-  if (cache.caustics) notes.push_back("caustic light, which the cache holds as photons, is not drawn");
+  for (const auto& [applies, note] : all)
+    if (applies) notes.emplace_back(note);
   return notes;
 }
 

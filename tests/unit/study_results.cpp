@@ -1,4 +1,5 @@
 // What a study makes of its measurements, by hand.
+#include "core/text/base64.h"
 #include "core/text/markup.h"
 #include "study/results/results.h"
 
