@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text/quantity.h"
 #include "estimate/hemisphere/hemisphere.h"
 #include "plan/calibration.h"
 
@@ -14,6 +15,14 @@ namespace c = calibration;
 
 double power_of_two(double v, double least, double most) {
   return std::clamp(std::exp2(std::round(std::log2(v))), least, most);
+}
+
+/// Photons of a plan, at most.
+constexpr double kMostPhotons = 5e7;
+
+/// The error whose usual settings have that many photons; nothing finer is planned without a pilot.
+double least_usual_error() {
+  return c::kUsualError * std::pow(c::kUsualPhotons / kMostPhotons, 1 / c::kUsualPhotonsFinerError);
 }
 
 /// Rays of whole rings.
@@ -31,7 +40,7 @@ Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps) {
   Knobs k{};
   const double photons =
       times(task.by_photons ? c::kUsualPhotonsAlone : c::kUsualPhotons, c::kUsualPhotonsFinerError);
-  k[at(Knob::photons)] = std::clamp(std::round(photons / 1e4) * 1e4, 5e4, 5e7);
+  k[at(Knob::photons)] = std::clamp(std::round(photons / 1e4) * 1e4, 5e4, kMostPhotons);
   k[at(Knob::accuracy)] =
       std::clamp(std::round(100 * times(c::kUsualAccuracy, -c::kUsualAccuracyFinerError)) / 100, 0.1, 0.4);
   k[at(Knob::rays)] = whole_rings(times(c::kUsualRays, c::kUsualRaysFinerError));
@@ -50,9 +59,16 @@ Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps) {
 
 Plan usual_plan(const PlanTask& task, const PlanGoal& goal, double usual_error, std::size_t lamps,
                 const std::string& why) {
+  const double error = goal.error.value_or(usual_error);
+  if (error < least_usual_error())
+    throw Error(
+        ExitCode::usage, "--error",
+        text(percent(error), " is out of reach of the settings that are planned without a pilot; give ",
+             percent(least_usual_error()),
+             " or more, or more --pilot-seconds, or use phos-reference --error"));
   Plan plan;
   plan.predicted = false;
-  plan.chosen.knobs = usual_knobs(task, goal.error.value_or(usual_error), lamps);
+  plan.chosen.knobs = usual_knobs(task, error, lamps);
   plan.warnings = {why};
   return plan;
 }

@@ -45,5 +45,13 @@ TEST(UsualSettings, PredictNothing) {
   EXPECT_EQ(plan.chosen.knobs, usual_knobs({}, 0.05, 1));
 }
 
+TEST(UsualSettings, EndWherePhotonsEnd) {
+  PlanGoal goal;
+  goal.error = 0.004;
+  EXPECT_LT(usual_plan({}, goal, 0.05, 1, "").chosen.knobs[at(Knob::photons)], 5e7);
+  goal.error = 0.0036;
+  EXPECT_THROW(usual_plan({}, goal, 0.05, 1, ""), Error);
+}
+
 }  // namespace
 }  // namespace phos::test
