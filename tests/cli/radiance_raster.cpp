@@ -11,7 +11,7 @@ namespace {
 
 Run radiance(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"radiance", data("cornell-glossy22.glb"), "--gather-bounces", "1"});
-  arguments.insert(arguments.end(), {"--place", "surface", "--min-radius", "0.15"});
+  arguments.insert(arguments.end(), {"--place", "surface", "--min-radius", "0.15", "--store", "float"});
   return run_tool(arguments);
 }
 

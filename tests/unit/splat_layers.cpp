@@ -199,14 +199,6 @@ TEST(Render, EdgeSamplesHaveTheLightOfTheirOwnPlace) {
   }
 }
 
-TEST(Render, EdgeSamplesCannotHaveShadowMaps) {
-  const IrradianceCache cache = empty_cache(Quantity::indirect, 0.2);
-  RenderOptions options;
-  options.edge_samples = 2;
-  options.direct = DirectBy::shadow_map;
-  EXPECT_THROW(resolve(options, Camera(), cache), Error);
-}
-
 /// Packets give what single rays give, bit for bit, also where the picture does not fill them.
 TEST(GBuffer, PacketsAreSingleRays) {
   const AnalyticScene s = integrating_sphere(0.5f, 1280);
