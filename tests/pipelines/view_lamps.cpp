@@ -29,7 +29,7 @@ class Lamps : public testing::Test {
     if (!has_chromium())
       GTEST_SKIP() << "chromium is not installed; pipelines/install.sh --tests installs it";
     std::vector<std::string> words = groups_.named();
-    words.insert(words.end(), {"--compare", groups_.cache("all")});
+    words.insert(words.end(), {"--compare", groups_.cache("all"), "--lamp-places", "4"});
     view_ = std::make_unique<ViewProgram>(words);
     ASSERT_NE(view_->port(), 0u);
   }
@@ -66,20 +66,19 @@ LampGroups Lamps::groups_;
 float greatest(const std::vector<float>& values) { return *std::max_element(values.begin(), values.end()); }
 
 TEST_F(Lamps, AddUpWithTheirWeights) {
-  for (const char* quantity : {"0", "1"}) {
-    const std::string of = std::string("dump=") + quantity + "&wipe=1";
-    const auto v =
-        dumps({of + "&weight=right:0", of + "&weight=left:0", of + "&weight=left:0.5&weight=right:0.25",
-               of + "&weight=left:0.5&weight=right:0.5", of});
-    const float rounding = 1e-6f * greatest(v[4]);
-    EXPECT_GT(rounding, 0);
-    for (std::size_t i = 0; i < v[0].size(); ++i) {
-      ASSERT_NEAR(v[2][i], 0.5f * v[0][i] + 0.25f * v[1][i], rounding) << quantity << " at " << i;
-      ASSERT_NEAR(v[4][i], v[0][i] + v[1][i], rounding) << quantity << " at " << i;
-      ASSERT_NEAR(v[3][i], 0.5f * v[4][i], rounding) << quantity << " at " << i;
-    }
-    EXPECT_NE(v[0], v[1]);
+  // Luminance holds all that a picture adds up: records, direct light and emission.
+  const std::string of = "dump=0&wipe=1";
+  const auto v =
+      dumps({of + "&weight=right:0", of + "&weight=left:0", of + "&weight=left:0.5&weight=right:0.25",
+             of + "&weight=left:0.5&weight=right:0.5", of});
+  const float rounding = 1e-6f * greatest(v[4]);
+  EXPECT_GT(rounding, 0);
+  for (std::size_t i = 0; i < v[0].size(); ++i) {
+    ASSERT_NEAR(v[2][i], 0.5f * v[0][i] + 0.25f * v[1][i], rounding) << i;
+    ASSERT_NEAR(v[4][i], v[0][i] + v[1][i], rounding) << i;
+    ASSERT_NEAR(v[3][i], 0.5f * v[4][i], rounding) << i;
   }
+  EXPECT_NE(v[0], v[1]);
 }
 
 TEST_F(Lamps, WipeShowsASetOnEachSide) {
