@@ -10,7 +10,8 @@ namespace phos::inline plan {
 /// pixel's rays.
 Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps);
 /// A plan with usual_knobs(); it predicts nothing. `why` is its only warning. A goal without an error stands
-/// for `usual_error`. Throws Error(usage) for an error below that of the most photons that plans have (0.37 %).
+/// for `usual_error`. Throws Error(usage) for an error below 0.37 %: its usual settings have more photons
+/// than plans may have.
 Plan usual_plan(const PlanTask& task, const PlanGoal& goal, double usual_error, std::size_t lamps,
                 const std::string& why);
 

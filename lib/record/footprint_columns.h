@@ -1,4 +1,5 @@
-// Footprints of records, and numbers of their axes alone, as columns of a file, all of which it has, or none.
+// Footprints of records, and numbers of their axes, as columns of a file. A file has all of these columns or
+// none.
 #pragma once
 
 #include <memory>

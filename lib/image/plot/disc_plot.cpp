@@ -40,7 +40,8 @@ struct Layout {
   }
 };
 
-/// Share of a pixel, whose upper left corner is counted from that of the square, that lies in the disc.
+/// Share of a pixel that lies in the disc. The pixel is told by the place of its upper left corner in the
+/// square about the disc.
 double share_inside(int x, int y, int diameter) {
   int inside = 0;
   for (int j = 0; j < kSubPixels; ++j)

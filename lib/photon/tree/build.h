@@ -21,7 +21,7 @@ inline constexpr std::size_t kTreeOrder = 95, kTreeNode = 21, kTreeBox = 63;
 /// the tree's order, in which the points are put. `box` holds them all, and is the one about them afterwards.
 Column<std::byte> build_nodes(std::span<TreePoint> points, std::size_t begin, int leaf_size, Bounds& box);
 
-/// A node over two others, of which `first` and `second` are the boxes.
+/// A node over two others; `first` and `second` are their boxes.
 std::array<std::byte, kTreeNode> saved_node(int axis, const Bounds& first, const Bounds& second);
 
 /// What stands before the order: sizes and the box about all points.

@@ -35,7 +35,8 @@ TreeSplit split_points_in_parallel(std::span<TreePoint> points, const Bounds& bo
 
 /// The plane of split_points() for points in `box` with the tight box `points`.
 SplitPlane split_plane(const Bounds& box, const Bounds& points);
-/// How many of n points come first, of which `below` lie before the plane and `not_above` before or on it.
+/// Number of points on the first side, of n points: `below` lie before the plane, `not_above` before it or on
+/// it.
 std::size_t first_of_split(std::size_t n, std::size_t below, std::size_t not_above);
 
 /// Swaps the first point that is not `before` with the last that is, the second with the last but one, and so

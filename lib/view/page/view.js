@@ -208,7 +208,8 @@ class View {
   frame(now) {
     if (this.lost) return false;
     if (this.walk.step(now)) this.change();
-    if (!WITHOUT_LAMPS && this.drawing.needsLamps && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
+    // The first frame shows the light of records at once.
+    if (this.seen && !WITHOUT_LAMPS && this.drawing.needsLamps && this.drawing.lamps.drawn < this.drawing.lamps.places.length) {
       const {lamps} = this.drawing;
       lamps.prepare(PLACES_A_FRAME);
       $('state').textContent = lamps.drawn < lamps.places.length ? `Shadows: ${lamps.drawn} of ${lamps.places.length}` : '';
@@ -223,7 +224,7 @@ class View {
     this.drawing.share = this.wipe.share;
     this.drawing.light(this.eye, this.reach);
     if (this.measures) this.automatic(); else this.show();
-    this.measures = false;
+    this.measures = false, this.seen = true;
     return true;
   }
 
