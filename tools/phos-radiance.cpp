@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   declare_options(options, asked.store);
   declare_options(options, asked.radiance);
   declare_raster_options(options, asked.radiance.records, {Recorded::unless_default, Adopted::estimate});
+  declare_radiance_footprint_options(options, asked.radiance.records);
   declare_place_options(options, asked.placement);
   declare_isa(options, asked.isa);
   declare_gl(options, asked.gl);

@@ -56,7 +56,7 @@ Made RadianceEstimator::record_from(const RecordSite& site, std::span<const Hemi
                                     Estimator::Worker& worker) const {
   auto& w = static_cast<RadianceWorker&>(worker);
   PHOS_CHECK(passes.size() == 1, passes.size(), " passes");
-  return impl_->radiance.record(site, passes.front(), {}, w.projector);
+  return impl_->radiance.record(site, passes.front(), {}, w.projector, w.counters);
 }
 
 const Hemisphere& RadianceEstimator::seen(const Estimator::Worker& worker) {

@@ -209,6 +209,19 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
   options.another_name("direct", "paths");
 }
 
+void declare_radiance_footprint_options(Options& options, RecordOptions& r) {
+  options.section("Zones of records");
+  options.choice<Footprint>(
+      "footprint", r.footprint, {{"circle", Footprint::circle}, {"adaptive", Footprint::adaptive}},
+      "zone that a record serves: circle: a disc. With --estimate gather also adaptive: eight axes, each with "
+      "its length",
+      {Recorded::unless_default, Adopted::estimate});
+  options.number("rho", r.rho, "R",
+                 "with --footprint adaptive: relative error of light along an axis, which is shortened until "
+                 "the error is met",
+                 {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
+}
+
 void declare_raster_options(Options& options, RecordOptions& r, const InFiles& in_files) {
   options.integer("raster-side", r.raster_side, "PIXELS",
                   "with --estimate raster: side of the plane on which the scene is drawn", {8, 1024},

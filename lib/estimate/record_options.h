@@ -115,6 +115,8 @@ void declare_raster_options(Options& options, RecordOptions& records,
                             const InFiles& in_files = Adopted::estimate);
 /// --footprint, --rho and --direct (another name of --paths).
 void declare_footprint_options(Options& options, RecordOptions& records);
+/// --footprint and --rho of records that hold no direct light, discs or adaptive.
+void declare_radiance_footprint_options(Options& options, RecordOptions& records);
 // Some of them, for tools that read no others: the reach of a record, the zones of photons, and rays with the
 // light that they read where they land.
 void declare_reach_options(Options& options, RecordOptions& records);

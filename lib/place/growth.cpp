@@ -74,6 +74,7 @@ void RadiusRules::finish(std::vector<IrradianceRecord>& records, std::vector<Rad
     r.radius_m = radius_m(i);
     if (r.footprint) {
       records.push_back(r);
+      if (radiance && made_[i].radiance) radiance->emplace_back(*made_[i].radiance).radius_m = r.radius_m;
       continue;
     }
     const float raw = std::min(clamp_.radius_m(i), limit_m_[i]);

@@ -36,6 +36,7 @@ const char* what_is_wrong(const RadianceRecord& r) {
     return "coefficients that are not of one order";
   if (!is_finite(r)) return "a value that is not finite";
   if (!(r.radius_m > 0) || !(r.distance_m >= 0)) return "a radius that is not positive";
+  if (r.footprint_m && !are_lengths(*r.footprint_m)) return "a footprint's axis of no length";
   constexpr float kSlack = 1e-3f;
   if (std::fabs(glm::length(r.frame.x) - 1) > kSlack || std::fabs(glm::length(r.frame.z) - 1) > kSlack ||
       std::fabs(glm::dot(r.frame.x, r.frame.z)) > kSlack)
@@ -81,9 +82,19 @@ IrradianceRecord irradiance_of(const RadianceRecord& r) {
     e.stderr_lx[c] =
         std::hypot(static_cast<float>(kFirst) * r.stderr_light[at], static_cast<float>(kSecond) * second);
   }
-  if (r.gradient_x.empty()) return e;
-  const Rgb x = irradiance_of(r.gradient_x), y = irradiance_of(r.gradient_y);
-  for (int c = 0; c < 3; ++c) e.translation_gradient[c] = x[c] * r.frame.x + y[c] * r.frame.y;
+  Rgb x(0), y(0);
+  if (!r.gradient_x.empty()) {
+    x = irradiance_of(r.gradient_x), y = irradiance_of(r.gradient_y);
+    for (int c = 0; c < 3; ++c) e.translation_gradient[c] = x[c] * r.frame.x + y[c] * r.frame.y;
+  }
+  if (!r.footprint_m) return e;
+  AdaptiveFootprint::Axes axes;
+  for (int k = 0; k < AdaptiveFootprint::kAxes; ++k) {
+    const Vec2 u = AdaptiveFootprint::direction(k);
+    const float length_m = (*r.footprint_m)[static_cast<std::size_t>(k)];
+    axes[static_cast<std::size_t>(k)] = {.length_m = length_m, .slope = length_m * (u.x * x + u.y * y)};
+  }
+  e.footprint = std::make_shared<AdaptiveFootprint>(r.frame.x, r.frame.z, axes);
   return e;
 }
 
@@ -104,8 +115,10 @@ int RadianceCache::order() const {
 
 void settle_slopes(RadianceRecord& r, double accuracy) {
   if (r.gradient_x.empty()) return;
-  const double raised = static_cast<double>(r.radius_m) /
-                        static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  const double raised = r.footprint_m
+                            ? 1
+                            : static_cast<double>(r.radius_m) /
+                                  static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
   const double turn = std::sqrt(0.3) * accuracy * std::max(1.0, raised);
   for (std::size_t l = 1; l < static_cast<std::size_t>(r.order()); ++l) {
     const double spread = static_cast<double>(l) * turn;
@@ -122,8 +135,9 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   const bool gradients = n > 0 && !cache.records.front().gradient_x.empty();
   std::vector<Vec3> position(n), frame(2 * n);
   std::vector<float> distance(n), radius(n), shared(n), light(3 * n * count), error(3 * n * bands);
-  std::vector<float> along[2];
+  std::vector<float> along[2], footprint;
   for (auto& g : along) g.resize(gradients ? light.size() : 0);
+  const bool shaped = n > 0 && cache.records.front().footprint_m;
   std::vector<std::uint8_t> order(n);
   for (std::size_t i = 0; i < n; ++i) {
     const RadianceRecord& r = cache.records[i];
@@ -132,6 +146,8 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
                    r.gradient_y.size() == expected,
                "record ", i, " is of another shape");
     PHOS_CHECK(what_is_wrong(r) == nullptr, "record ", i, " has ", what_is_wrong(r));
+    PHOS_CHECK(r.footprint_m.has_value() == shaped, "records with and without footprints, such as ", i);
+    if (shaped) footprint.insert(footprint.end(), r.footprint_m->begin(), r.footprint_m->end());
     position[i] = r.position, frame[2 * i] = r.frame.x, frame[2 * i + 1] = r.frame.z;
     distance[i] = r.distance_m, radius[i] = r.radius_m, shared[i] = r.shared;
     order[i] = static_cast<std::uint8_t>(r.order());
@@ -169,6 +185,7 @@ void write_radiance(const std::string& path, const RadianceCache& cache, Provena
   file.add<float>("radius", radius);
   if (std::any_of(shared.begin(), shared.end(), [](float s) { return s != kSharedByZones; }))
     file.add<float>("shared", shared);
+  if (shaped) file.add<float>("footprint_length", footprint);
   add_caustics(cache.caustics, file, provenance);
   provenance.scene_hash = cache.scene_hash;
   provenance.extra[kAccuracyEntry] = cache.accuracy;
@@ -209,6 +226,7 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
   const float *frame = column("frame"), *distance = column("distance"), *radius = column("radius");
   const StoredColumn light(tensors, "coefficients", "light_scale"), error(tensors, "stderr", "light_scale");
   const float* shared = tensors.has("shared") ? column("shared") : nullptr;
+  const float* footprint = tensors.has("footprint_length") ? column("footprint_length") : nullptr;
   std::vector<StoredColumn> along;
   if (tensors.has("gradient_x"))
     for (const char* name : {"gradient_x", "gradient_y"})
@@ -242,6 +260,7 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
     r.frame.y = glm::cross(r.frame.z, r.frame.x);
     r.distance_m = distance[i], r.radius_m = radius[i];
     if (shared) r.shared = shared[i];
+    if (footprint) std::copy_n(footprint + r.footprint_m.emplace().size() * i, r.footprint_m->size(), r.footprint_m->begin());
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
     if (!along.empty()) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);

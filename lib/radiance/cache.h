@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct RadianceRecord {
   /// about the normal do not change). Errors of different coefficients are about independent.
   std::vector<float> stderr_light;
   float shared = kSharedByZones;  ///< as IrradianceRecord::shared
+  /// Lengths of the axes of an AdaptiveFootprint, the first along frame.x; radius_m belongs to the longest.
+  /// None: it serves a disc.
+  std::optional<AdaptiveFootprint::Lengths> footprint_m{};
 
   int order() const { return static_cast<int>(stderr_light.size() / 3); }
 };
@@ -48,8 +52,9 @@ bool is_finite(const RadianceRecord& record);
 Rgb irradiance_of(std::span<const float> light);
 
 /// The irradiance record of a radiance record: its translation gradient comes from the gradients of the
-/// coefficients, and it has no rotation gradient. Place, radius and distance are the record's own, so that
-/// rules for radii of irradiance records serve radiance records too.
+/// coefficients, and it has no rotation gradient. Place, radius, distance and footprint are the record's own,
+/// so that rules for zones of irradiance records serve radiance records too. Light along the axes of a
+/// footprint changes by that gradient.
 IrradianceRecord irradiance_of(const RadianceRecord& record);
 
 struct RadianceCache {
@@ -63,10 +68,11 @@ struct RadianceCache {
 /// All records, in order.
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
-/// reading_accuracy() of radiance records: light that leaves through a lobe has the noise of many
-/// coefficients.
+/// reading_accuracy() of radiance records that were placed with accuracy `placed`: light that leaves through a
+/// lobe has the noise of many coefficients.
+inline double radiance_reading_accuracy(double placed) { return phos::reading_accuracy(placed, 0.6); }
 inline double reading_accuracy(const RadianceCache& cache) {
-  return phos::reading_accuracy(cache.accuracy, 0.6);
+  return radiance_reading_accuracy(cache.accuracy);
 }
 
 /// For reading a record at `accuracy`: of band l, slopes keep exp(-t^2 / 2), t = l sqrt(0.3) accuracy x
@@ -74,7 +80,8 @@ inline double reading_accuracy(const RadianceCache& cache) {
 /// but where it has been raised): on a step s, the light that it sees turns by about s / R, and harmonics of
 /// band l by l times that. They change like a sine, of which this is the best linear part where steps are
 /// spread normally; sqrt(0.3) of its reach is the rms step of those that a record serves (its weight
-/// counted). Full slopes overshoot in the higher bands, and bring in more noise than change.
+/// counted). Full slopes overshoot in the higher bands, and bring in more noise than change. R / D counts as 1
+/// where a footprint has lengths of its own for near and far surroundings.
 void settle_slopes(RadianceRecord& record, double accuracy);
 
 /// The `.radiance` file (file/kinds/tables.cpp). The header names the basis. Of a film there are `more`

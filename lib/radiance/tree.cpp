@@ -54,6 +54,7 @@ struct RadianceTree::Impl {
   std::vector<float> steepness_per_m;
 
   float weight(const IrradianceRecord& r, const Vec3& p, const Vec3& n) const {
+    if (r.footprint) return weight_within(*r.footprint, r, accuracy, p, n) * r.weight;
     return weight_at(r.position, r.normal, r.radius_m, accuracy, p, n) * r.weight;
   }
   /// How far along frame.x and frame.y a record is followed towards p, m.

@@ -118,6 +118,10 @@ AdaptiveFootprint::Axis with_length(const AdaptiveFootprint::Axis& axis, float l
   return told;
 }
 
+bool are_lengths(const AdaptiveFootprint::Lengths& lengths_m) {
+  return std::all_of(lengths_m.begin(), lengths_m.end(), [](float m) { return m > 0 && std::isfinite(m); });
+}
+
 const char* what_is_wrong(const AdaptiveFootprint& f, const Vec3& normal) {
   bool finite = is_finite(f.x()), positive = true;
   for (const AdaptiveFootprint::Axis& a : f.axes()) {

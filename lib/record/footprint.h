@@ -36,6 +36,7 @@ class AdaptiveFootprint {
         turn_bend{0};  ///< lx per radian and radian^2, of the sine of the turn towards this axis
   };
   using Axes = std::array<Axis, kAxes>;
+  using Lengths = std::array<float, kAxes>;  ///< of the axes, m
 
   /// Axis k lies at 45 k degrees from unit x towards cross(n, x), n the record's normal.
   AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes);
@@ -77,6 +78,9 @@ class AdaptiveFootprint {
 /// (docs/methods.md#e4): exact where it is no longer than the axis. Beyond the axis the light of its end
 /// stands.
 AdaptiveFootprint::Axis with_length(const AdaptiveFootprint::Axis& axis, float length_m);
+
+/// Is each of them finite and above 0?
+bool are_lengths(const AdaptiveFootprint::Lengths& lengths_m);
 
 /// What is wrong with one that was read, in words that follow "has"; nullptr: nothing.
 const char* what_is_wrong(const AdaptiveFootprint& footprint, const Vec3& normal);

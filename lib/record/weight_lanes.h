@@ -58,6 +58,15 @@ PHOS_INLINED Real in_units(Real x, Unit inverse) {
 #undef Own
 #undef OwnVec
 
+/// The shares that the axes of a footprint have of a vector (x, y) of the tangent plane, w[k] of axis k.
+template <class R>
+PHOS_INLINED void shares_of_axes(R x, R y, R* w) {
+  w[0] = share_of_axis(x, y), w[4] = share_of_axis(-x, y);
+  w[2] = share_of_axis(y, x), w[6] = share_of_axis(-y, x);
+  w[1] = share_of_diagonal(x, y), w[3] = share_of_diagonal(-x, y);
+  w[5] = share_of_diagonal(-x, -y), w[7] = share_of_diagonal(x, -y);
+}
+
 }  // namespace
 }  // namespace phos::inline record
 

@@ -68,6 +68,7 @@ void add_records(const Scene& scene, const GlossCache* cache, MessageWriter& mes
     const RadianceTree& tree = *cache->tree(static_cast<int>(n));
     for (std::size_t i = 0; i < tree.size(); ++i) {
       const RadianceRecord& r = tree[i];
+      PHOS_CHECK(!r.footprint_m, "records with footprints");
       if (!(r.radius_m > 0)) continue;  // serves nothing
       add(position, r.position), add(normal, r.frame.z), add(axis_x, r.frame.x);
       inverse_radius.push_back(std::min(1 / r.radius_m, kMost));

@@ -128,4 +128,11 @@ int main(int argc, char** argv) {
       ground.measure("hybrid", with(rays, accuracy, hybrid), {1, 1.5, reading_accuracy(accuracy) / accuracy});
   for (const auto& [name, mode] : {std::pair{"analytic", analytic}, std::pair{"none", none}})
     ground.measure(name, with(4096, 0.3, mode), {1, 1.5, reading_accuracy(0.3) / 0.3});
+  const double as_read = radiance_reading_accuracy(0.3) / 0.3;
+  ground.measure("circle", with(4096, 0.3, hybrid), {as_read});
+  for (const double rho : {0.1, 0.2, 0.4}) {
+    RadianceOptions shaped = with(4096, 0.3, hybrid);
+    shaped.records.footprint = Footprint::adaptive, shaped.records.rho = rho;
+    ground.measure(text("rho ", rho).c_str(), shaped, {as_read});
+  }
 }

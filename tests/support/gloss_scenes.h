@@ -43,6 +43,16 @@ inline std::vector<RadianceRecord> radiance_in_view(const RayScene& rays, const 
   return records;
 }
 
+/// Three in four records get footprints, with axes of a tenth to all of their reach.
+inline void shape(std::vector<RadianceRecord>& records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (i % 4 == 0) continue;
+    RandomStream random(7, Stage::test, i);
+    for (float& length_m : records[i].footprint_m.emplace())
+      length_m = records[i].radius_m * (0.1f + 0.9f * random.uniform());
+  }
+}
+
 /// A cache of them.
 inline GlossCache gloss_cache(const RayScene& rays, const GlossTables& tables, double accuracy,
                               const std::vector<RadianceRecord>& records) {

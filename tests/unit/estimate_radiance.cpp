@@ -71,6 +71,7 @@ void expect_kept(RadianceCache cache, std::size_t columns) {
       EXPECT_EQ(a.gradient_x, b.gradient_x);
       EXPECT_EQ(a.gradient_y, b.gradient_y);
       EXPECT_EQ(a.stderr_light, b.stderr_light);
+      EXPECT_EQ(a.footprint_m, b.footprint_m);
     }
   }
 }
@@ -79,6 +80,15 @@ TEST(RadianceFile, KeepsEveryNumber) { expect_kept(test::random_radiance(7, 4), 
 TEST(RadianceFile, KeepsRecordsOfDifferentOrders) {
   expect_kept(test::random_radiance({2, 4, 1, 4, 3}), 7);
   EXPECT_EQ(test::random_radiance({2, 4, 1}).order(), 4);
+}
+
+TEST(RadianceFile, KeepsFootprints) {
+  RadianceCache cache = test::random_radiance(7, 4);
+  for (std::size_t i = 0; i < cache.records.size(); ++i)
+    for (float& length_m : cache.records[i].footprint_m.emplace())
+      length_m = 0.01f + static_cast<float>(i);
+  cache.records[2].footprint_m->at(5) = 0.25f;
+  expect_kept(cache, 7);
 }
 
 /// Colour before coefficient, as the format says.

@@ -66,6 +66,19 @@ TEST(GlossSplat, IsTheLookupOnFlatSurfaces) {
   EXPECT_EQ(box.draw(box.cache(box.records(20, 0.2f, 0.5f))).turned, 0u);
 }
 
+TEST(GlossSplat, FootprintsAmongDiscsAreTheLookup) {
+  const Gloss box{test::glossy_cornell()};
+  std::vector<RadianceRecord> records = box.records(80, 0.2f, 0.8f);
+  const GlossBuffer discs = box.draw(box.cache(records));
+  test::shape(records);
+  box.expect_as_looked_up(records, 500);
+  EXPECT_LT(box.draw(box.cache(records)).pairs, discs.pairs) << "they reach less far";
+  const Gloss sphere{test::glossy_sphere().scene};
+  records = sphere.records(60, 0.6f, 3);
+  test::shape(records);
+  sphere.expect_as_looked_up(records, 2000);
+}
+
 TEST(GlossSplat, TurnsRecordsOnCurvedOnes) {
   const Gloss sphere{test::glossy_sphere().scene};
   const std::vector<RadianceRecord> records = sphere.records(40, 0.3f, 2);
@@ -143,6 +156,13 @@ TEST(GlGloss, CurvedSurfaces) {
   expect_gl_as_cpu(sphere, sphere.records(40, 0.3f, 2));
 }
 
+TEST(GlGloss, FootprintsAmongDiscs) {
+  const Gloss box{test::glossy_cornell()};
+  std::vector<RadianceRecord> records = box.records(80, 0.2f, 0.8f);
+  test::shape(records);
+  expect_gl_as_cpu(box, records);
+}
+
 TEST(GlossSplat, LeavesAllElseAlone) {
   const Gloss box{test::glossy_cornell()};
   const GlossCache cache = box.cache(box.records(30, 0.2f, 3));
@@ -173,7 +193,7 @@ TEST(GlossSplat, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.pairs, five.pairs);
 }
 
-TEST(GlossSplat, KernelsGiveTheSameBits) {
+void expect_the_same_bits(bool shaped) {
 #ifdef PHOS_SPLAT_AVX2
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
   constexpr int kOrder = 7, kNumbers = 3 * kOrder * kOrder;
@@ -192,6 +212,10 @@ TEST(GlossSplat, KernelsGiveTheSameBits) {
   GlossSplat record{};
   record.inverse_radius = 0.7f, record.front_limit_m = -10, record.steepness_per_m = 1.3f;
   record.weight = 0.6f;
+  if (shaped) {
+    for (float& inverse : record.inverse) inverse = 0.5f + random.uniform();
+    record.inverse_shortest = 2, record.per_radius = 1.2f;
+  }
   record.normal[2] = record.x[0] = record.y[1] = 1;
   record.light = light.data(), record.gradient_x = x.data(), record.gradient_y = y.data(),
   record.stderr_light = error.data();
@@ -222,6 +246,9 @@ TEST(GlossSplat, KernelsGiveTheSameBits) {
   GTEST_SKIP() << "not an x86-64 build";
 #endif
 }
+
+TEST(GlossSplat, KernelsGiveTheSameBits) { expect_the_same_bits(false); }
+TEST(GlossSplat, KernelsGiveTheSameBitsOfFootprints) { expect_the_same_bits(true); }
 
 }  // namespace
 }  // namespace phos

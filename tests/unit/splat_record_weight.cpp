@@ -98,6 +98,32 @@ void expect_the_same(const IrradianceRecord& r, const GBuffer& g, const SplatBuf
   }
 }
 
+/// The weights of a gloss record at the places of a picture.
+std::vector<float> gloss_weights(const GlossSplat& splat, const GBuffer& g) {
+  std::vector<float> weights;
+  for (std::size_t first = 0; first < g.position.size(); first += kGlossLanes) {
+    GlossGroup group{};
+    for (int k = 0; k < kGlossLanes; ++k) {
+      const Vec4 &p = g.position[first + static_cast<std::size_t>(k)],
+                 &n = g.normal[first + static_cast<std::size_t>(k)];
+      group.px.of[k] = p.x, group.py.of[k] = p.y, group.pz.of[k] = p.z;
+      group.nx.of[k] = n.x, group.ny.of[k] = n.y, group.nz.of[k] = n.z;
+    }
+    GlossLane weight;
+    gloss_kernel_plain.weights(group, splat, 1 / kAccuracy, kLeastWeight, weight);
+    for (int k = 0; k < kGlossLanes; ++k) weights.push_back(weight.of[k]);
+  }
+  return weights;
+}
+
+GlossSplat gloss_splat(const PackedRecord& packed) {
+  GlossSplat splat{};
+  for (int c = 0; c < 3; ++c) splat.position[c] = packed.position[c], splat.normal[c] = packed.normal[c];
+  splat.inverse_radius = packed.inverse_radius, splat.weight = packed.weight;
+  splat.front_limit_m = packed.front_limit_m, splat.over_limit_m = packed.over_limit_m;
+  return splat;
+}
+
 class RecordWeightBy : public ::testing::TestWithParam<float> {};
 
 TEST_P(RecordWeightBy, IsTheSameInEachLanguage) {
@@ -115,24 +141,8 @@ TEST_P(RecordWeightBy, IsTheSameInEachLanguage) {
     expect_the_same(r, g, side_by_side, by_cpu);
     expect_the_same(r, g, gl.splat(std::vector{r}, kAccuracy, g, camera), by_gl);
 
-    GlossSplat splat{};
-    const PackedRecord packed = pack_record(r);
-    for (int c = 0; c < 3; ++c) splat.position[c] = packed.position[c], splat.normal[c] = packed.normal[c];
-    splat.inverse_radius = packed.inverse_radius, splat.weight = packed.weight;
-    splat.front_limit_m = packed.front_limit_m, splat.over_limit_m = packed.over_limit_m;
-    for (std::size_t first = 0; first < g.position.size(); first += kGlossLanes) {
-      GlossGroup group{};
-      for (int k = 0; k < kGlossLanes; ++k) {
-        const Vec4 &p = g.position[first + static_cast<std::size_t>(k)],
-                   &n = g.normal[first + static_cast<std::size_t>(k)];
-        group.px.of[k] = p.x, group.py.of[k] = p.y, group.pz.of[k] = p.z;
-        group.nx.of[k] = n.x, group.ny.of[k] = n.y, group.nz.of[k] = n.z;
-      }
-      GlossLane weight;
-      gloss_kernel_plain.weights(group, splat, 1 / kAccuracy, kLeastWeight, weight);
-      for (int k = 0; k < kGlossLanes; ++k)
-        ASSERT_EQ(weight.of[k], side_by_side.light[first + static_cast<std::size_t>(k)].w);
-    }
+    const std::vector<float> gloss = gloss_weights(gloss_splat(pack_record(r)), g);
+    for (std::size_t i = 0; i < gloss.size(); ++i) ASSERT_EQ(gloss[i], side_by_side.light[i].w);
   }
   for (const std::array<int, kPlaces>& lit : {by_cpu, by_gl}) {
     EXPECT_EQ(lit[at_the_record], 20 * (kSide * kSide + kPlaces - 1) / kPlaces);
@@ -183,9 +193,17 @@ TEST(RecordWeight, OfFootprintsIsTheSame) {
     }
     splat_footprint_plain(*tile, pack_record(r), pack_footprint(r), 0, kTilePixels,
                           {1 / kAccuracy, kLeastWeight, 0.01f});
+    GlossSplat splat = gloss_splat(pack_record(r));
+    const PackedFootprint packed = pack_footprint(r);
+    std::copy(std::begin(packed.x), std::end(packed.x), splat.x);
+    std::copy(std::begin(packed.y), std::end(packed.y), splat.y);
+    std::copy(std::begin(packed.inverse), std::end(packed.inverse), splat.inverse);
+    splat.inverse_shortest = packed.inverse_shortest, splat.per_radius = packed.per_radius;
+    const std::vector<float> gloss = gloss_weights(splat, g);
     const Camera camera = test::look_at(r.position, r.position + Vec3(1, 0, 0), {0, 0, 1}, 1);
     const SplatBuffer by_gl = gl.splat(std::vector{r}, kAccuracy, g, camera);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
+      ASSERT_EQ(gloss[i], tile->light[3][i]) << "place " << i;
       const Vec3 p(g.position[i]), n(g.normal[i]);
       const float found = tile->light[3][i];
       ASSERT_NEAR(found, weight_of(r, p, n), kSame) << "place " << i;

@@ -37,15 +37,14 @@ Rgb told(const Rgb& at_place, const Rgb& slope, const Rgb& bend, float s) {
   return glm::max(at_place + slope * s + bend * (0.5f * s * s), Rgb(0));
 }
 
-template <class Radii>
-void limit_slopes(Radii& radius_m) {
-  for (int round = 0; round < kAxes; ++round)
-    for (std::size_t k = 0; k < radius_m.size(); ++k)
-      radius_m[k] = std::min(radius_m[k],
-                             kSlope * std::min(radius_m[(k + 1) % kAxes], radius_m[(k + kAxes - 1) % kAxes]));
-}
-
 }  // namespace
+
+void limit_slopes(AdaptiveFootprint::Lengths& lengths_m) {
+  for (int round = 0; round < kAxes; ++round)
+    for (std::size_t k = 0; k < lengths_m.size(); ++k)
+      lengths_m[k] = std::min(
+          lengths_m[k], kSlope * std::min(lengths_m[(k + 1) % kAxes], lengths_m[(k + kAxes - 1) % kAxes]));
+}
 
 AxisFit fit_axis(const Rgb& at_place, const std::function<Rgb(float)>& light, float length_m, float least_m,
                  float rho) {

@@ -98,6 +98,9 @@ struct FittedFootprint {
 std::array<float, AdaptiveFootprint::kAxes> radii_by_surroundings(std::span<const Hemisphere> passes,
                                                                   const FootprintBounds& bounds);
 
+/// Shortens axes until none is more than twice its neighbours (docs/methods.md#e7).
+void limit_slopes(AdaptiveFootprint::Lengths& lengths_m);
+
 /// The footprint of a record at the place of the passes. `direct`: light straight from the lamps at a step on
 /// the tangent plane, the same samples of them with visibility tested anew; empty: none counts. `lamps`: its
 /// samples at the place. `rotation`: rotation gradient of the record (docs/methods.md#b1).

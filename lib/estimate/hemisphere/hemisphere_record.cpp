@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "estimate/events.h"
-#include "estimate/hemisphere/footprint_fit.h"
+#include "estimate/hemisphere/footprint_bounds.h"
 #include "estimate/next_surface.h"
 
 namespace phos::inline estimate {
@@ -75,17 +75,9 @@ Vec3 HemisphereRecords::within_sight(const RecordSite& site, float lift_m, const
 void HemisphereRecords::fit(const RecordSite& site, float site_least_m, std::span<const Hemisphere> passes,
                             HemisphereWorker& worker, IrradianceRecord& record) const {
   const float lift_m = receiver(rays.scene(), site.position, site.normal).error_m;
-  const auto least_m = static_cast<float>(*options.min_radius_m),
-             most_m = static_cast<float>(*options.max_radius_m);
-  FootprintBounds bounds;
-  bounds.accuracy = static_cast<float>(reading_accuracy(options.accuracy));
-  bounds.rho = static_cast<float>(options.rho);
-  bounds.least_m = std::clamp(site_least_m, least_m, most_m);
-  bounds.most_m = std::clamp(site.most_radius_m, bounds.least_m, most_m);
-  const float next_m = height_over_next_m(rays, site.position, site.normal, 2 * lift_m, bounds.most_m);
-  bounds.most_m = std::max(bounds.least_m, std::min(bounds.most_m, next_m / kNextSurface));
-
-  const LightNearby nearby(passes, options.gradients, least_m);
+  const FootprintBounds bounds =
+      footprint_bounds(rays, site, site_least_m, options, reading_accuracy(options.accuracy));
+  const LightNearby nearby(passes, options.gradients, static_cast<float>(*options.min_radius_m));
   std::function<Rgb(const Vec2&)> direct;
   if (options.paths == Quantity::all && lights.size() > 0) {
     const int samples = samples_nearby(lights, options.light_samples);

@@ -221,6 +221,10 @@ constexpr TensorRow kOrder[] = {
     {"order", Dtype::u8, "n", "1", kAny,
      "order of the record; absent where all orders are N; coefficients beyond a record's order are 0"},
 };
+constexpr TensorRow kRadianceFootprint[] = {
+    {"footprint_length", Dtype::f32, "n,8", "m", kPositive,
+     "length of each of eight axes, 45 degrees apart, the first along x of `frame`"},
+};
 constexpr TensorRow kRadianceChanges[] = {
     {"coefficients_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/frame", kFinite,
      "change of the coefficients per frame", "", kChangeHalf},
@@ -261,6 +265,8 @@ constexpr TensorGroup kRadianceGroups[] = {
     {optional, "", kGradientExponent},
     {optional, "", kChangeScale, FileForm::film},
     {optional, "", kGradientChangeExponent, FileForm::film},
+    {optional, "With `--footprint adaptive` ([E8](../methods.md#e8)):", kRadianceFootprint, FileForm::whole,
+     FileForm::film},
     kSharedGroup,
     kCausticGroup,
     kCausticFlightGroup,

@@ -26,8 +26,15 @@ bool same(const Frame& a, const Frame& b) {
   return near(a.x, b.x) && near(a.z, b.z);
 }
 
-GlossSplat pack(const RadianceRecord& r) {
+/// `footprint`: its own, or null.
+GlossSplat pack(const RadianceRecord& r, const AdaptiveFootprint* footprint) {
+  static_assert(GlossSplat::kAxes == AdaptiveFootprint::kAxes);
   GlossSplat s{};
+  if (footprint) {
+    std::copy(footprint->inverse_m().begin(), footprint->inverse_m().end(), s.inverse);
+    s.inverse_shortest = std::min(1 / footprint->shortest_m(), std::numeric_limits<float>::max());
+    s.per_radius = footprint->longest_m() / r.radius_m;
+  }
   for (int i = 0; i < 3; ++i)
     s.position[i] = r.position[i], s.normal[i] = r.frame.z[i], s.x[i] = r.frame.x[i], s.y[i] = r.frame.y[i];
   // A tiny radius must not become infinite: 0 * infinity at the record itself is not a number.
@@ -133,7 +140,7 @@ class GlossSplatter {
     c.bounds = record_bounds(c.records, accuracy_, camera_, g_.width, g_.height);
     c.frame.resize(tree->size()), c.splat.resize(tree->size());
     parallel_for(tree->size(), 64, [&](std::size_t i) {
-      if (!c.bounds[i].empty()) c.frame[i] = (*tree)[i].frame, c.splat[i] = pack((*tree)[i]);
+      if (!c.bounds[i].empty()) c.frame[i] = (*tree)[i].frame, c.splat[i] = pack((*tree)[i], c.records[i].footprint.get());
     });
     classes_.push_back(std::move(c));
   }

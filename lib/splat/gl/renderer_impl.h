@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 
 #include "splat/gl/mesh.h"
 #include "splat/gl/raster.h"
@@ -38,8 +39,9 @@ struct GlRenderer::Impl {
   void bind_for_sum(const GlPictureTarget& target, bool spread = false) const;
   void prepare_splat();
   void prepare_footprints();
-  /// The program that draws radiance records of an order, made when it is first asked for.
-  GlProgram& gloss_program(int order);
+  /// The program that draws radiance records of an order, with or without footprints, made when it is first
+  /// asked for.
+  GlProgram& gloss_program(int order, bool shaped);
   void read(const GlObject& texture, std::vector<Vec4>& pixels) const;
 
   const Scene& scene;
@@ -48,7 +50,7 @@ struct GlRenderer::Impl {
   GlRasterTarget raster;
   GlPictureTarget picture;
   GlProgram splat_program, footprint_program, shadow_program;
-  std::map<int, GlProgram> gloss_programs;  // by order
+  std::map<std::pair<int, bool>, GlProgram> gloss_programs;  // by order and shape
   GlObject empty_array, splat_array, splat_instances;
   GlObject footprint_array, footprint_rects, footprint_block;
   GlObject gloss_array, gloss_rects, gloss_record;

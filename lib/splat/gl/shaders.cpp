@@ -179,6 +179,11 @@ layout(std140, binding = 0) uniform Record {
   vec4 normal;                            // and the limit of the in-front test
   vec4 axis_x;                            // and the steepness
   vec4 axis_y;                            // and the record's own weight
+#ifdef FOOTPRINT
+  vec4 inverse_straight;                  // 1 / length of the axes along x, y, -x, -y
+  vec4 inverse_diagonal;                  // of the axes after each of them
+  vec4 shape;                             // 1 / the shortest axis, the longest axis over the radius
+#endif
   vec4 numbers[3 * COUNT];                // of each coefficient: light, change along x, along y;
                                           // the first also holds the limit of what lies over its plane
 };
@@ -192,6 +197,19 @@ layout(location = 0) out vec4 light;
 layout(location = 1) out vec4 error;
 layout(location = 2) out vec4 spread;
 
+#ifdef FOOTPRINT
+float error_in_footprint(vec3 d, vec3 turn) {
+  float x = dot(d, axis_x.xyz), y = dot(d, axis_y.xyz);
+  vec4 straight = vec4(share_of_axis(x, y), share_of_axis(y, x), share_of_axis(-x, y), share_of_axis(-y, x));
+  vec4 diagonal = vec4(share_of_diagonal(x, y), share_of_diagonal(-x, y), share_of_diagonal(-x, -y),
+                       share_of_diagonal(x, -y));
+  float along = dot(straight + diagonal, vec4(1.0));
+  float inwards = dot(straight, inverse_straight) + dot(diagonal, inverse_diagonal);
+  float reach = border_reach(x, y, 1.0 / (along > 0.0 ? along : 1.0), inwards);
+  return footprint_error(reach, dot(d, normal.xyz) * shape.x, sqrt(dot(turn, turn)), shape.y);
+}
+#endif
+
 vec3 coefficient(int i, vec3 shares) {
   return shares.x * numbers[3 * i].rgb + shares.y * numbers[3 * i + 1].rgb + shares.z * numbers[3 * i + 2].rgb;
 }
@@ -203,7 +221,11 @@ void main() {
   if (lobe.x < rule.z || lobe.x >= rule.w) return;
   vec3 d = texelFetch(position_map, pixel, 0).xyz - position.xyz;
   vec3 n = texelFetch(normal_map, pixel, 0).xyz;
+#ifdef FOOTPRINT
+  float left = weight_left(error_in_footprint(d, n - normal.xyz), rule.x, rule.y);
+#else
   float left = weight_left(disc_error(d, n - normal.xyz, position.w), rule.x, rule.y);
+#endif
   float w = weight_if_lit(left, d, n, normal.xyz, normal.w, numbers[0].w) * axis_y.w;
   if (!(w > 0.0)) return;
   float share = axis_x.w > 0.0 ? w * step_share(d, axis_x.w) : 0.0;

@@ -49,7 +49,7 @@ Made RadianceRasterEstimator::make(const RecordSite& site, Worker& worker) const
   w.counters.merge(w.light->counters);
   w.light->counters = Counters();
   impl_->pieces.spread(w.seen, w.whole);
-  return impl_->radiance.record(site, w.whole, impl_->pieces.borders, w.projector);
+  return impl_->radiance.record(site, w.whole, impl_->pieces.borders, w.projector, w.counters);
 }
 
 }  // namespace phos::inline splat
