@@ -29,6 +29,12 @@ Sector sector_of(float x, float y) {
           std::max(0.f, kPerSine * (kAxisX[k] * y - kAxisY[k] * x))};
 }
 
+AdaptiveFootprint::Axes axes_of(const AdaptiveFootprint::Lengths& lengths_m) {
+  AdaptiveFootprint::Axes axes;
+  for (std::size_t k = 0; k < axes.size(); ++k) axes[k].length_m = lengths_m[k];
+  return axes;
+}
+
 }  // namespace
 
 AdaptiveFootprint::AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes)
@@ -39,6 +45,15 @@ AdaptiveFootprint::AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& a
     inverse_m_[k] = std::isgreater(length_m, 1 / most) ? 1 / length_m : most;
     longest_m_ = std::fmax(longest_m_, length_m), shortest_m_ = std::fmin(shortest_m_, length_m);
   }
+}
+
+AdaptiveFootprint::AdaptiveFootprint(const Vec3& x, const Vec3& n, const Lengths& lengths_m)
+    : AdaptiveFootprint(x, n, axes_of(lengths_m)) {}
+
+AdaptiveFootprint::Lengths AdaptiveFootprint::lengths_m() const {
+  Lengths lengths;
+  std::transform(axes_.begin(), axes_.end(), lengths.begin(), [](const Axis& a) { return a.length_m; });
+  return lengths;
 }
 
 Vec2 AdaptiveFootprint::direction(int k) { return {kAxisX[k], kAxisY[k]}; }

@@ -40,10 +40,13 @@ class AdaptiveFootprint {
 
   /// Axis k lies at 45 k degrees from unit x towards cross(n, x), n the record's normal.
   AdaptiveFootprint(const Vec3& x, const Vec3& n, const Axes& axes);
+  /// Light is even in it.
+  AdaptiveFootprint(const Vec3& x, const Vec3& n, const Lengths& lengths_m);
 
   const Vec3& x() const { return x_; }
   const Vec3& y() const { return y_; }
   const Axes& axes() const { return axes_; }
+  Lengths lengths_m() const;
   /// 1 / length of each axis.
   const std::array<float, kAxes>& inverse_m() const { return inverse_m_; }
   float longest_m() const { return longest_m_; }

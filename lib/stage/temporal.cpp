@@ -62,9 +62,10 @@ void run(Tool& tool, TemporalCommand& asked) {
     throw Error(ExitCode::usage, "--store",
                 "shortens radiance records; add --kind radiance, or leave it out");
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
-  if (job.of_radiance && records.footprint != Footprint::circle)
+  if (job.of_radiance && records.footprint != Footprint::circle && records.footprint != Footprint::adaptive)
     throw Error(ExitCode::usage, "--footprint",
-                "the zones of radiance records in films are discs; leave it out, or leave --kind radiance out");
+                "radiance records have discs or adaptive footprints; give circle or adaptive, or leave --kind "
+                "radiance out");
   use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
   register_raster_estimator();

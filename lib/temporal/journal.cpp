@@ -14,7 +14,7 @@
 namespace phos::inline temporal {
 namespace {
 
-constexpr std::string_view kHeader = "phos film journal 2 ";
+constexpr std::string_view kHeader = "phos film journal 3 ";
 constexpr std::uint64_t kMostNumbers = 1u << 20;  // in one vector of an entry: beyond it is damage
 
 class Writer {
@@ -107,7 +107,10 @@ void radiance(Way& way, Record& r) {
 
 void put(Writer& out, const std::shared_ptr<const RadianceRecord>& r) {
   out.value(static_cast<std::uint8_t>(r != nullptr));
-  if (r) radiance(out, *r);
+  if (!r) return;
+  radiance(out, *r);
+  out.value(static_cast<std::uint8_t>(r->footprint_m.has_value()));
+  if (r->footprint_m) out.value(*r->footprint_m);
 }
 std::shared_ptr<const RadianceRecord> get(Reader& in) {
   std::uint8_t there = 0;
@@ -115,6 +118,9 @@ std::shared_ptr<const RadianceRecord> get(Reader& in) {
   if (!there) return nullptr;
   auto r = std::make_shared<RadianceRecord>();
   radiance(in, *r);
+  std::uint8_t shaped = 0;
+  in.value(shaped);
+  if (shaped) in.value(r->footprint_m.emplace());
   return r;
 }
 

@@ -141,7 +141,8 @@ RadianceOptions radiance_options(const RecordOptions& given, const Options& opti
   r.records = given;
   if (!options.given("rays")) r.records.rays = defaults.rays;
   if (!options.given("accuracy")) r.records.accuracy = defaults.accuracy;
-  r.records.gradients = defaults.gradients, r.records.footprint = defaults.footprint;
+  if (!options.given("rho")) r.records.rho = defaults.rho;
+  r.records.gradients = defaults.gradients;
   return r;
 }
 

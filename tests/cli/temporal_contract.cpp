@@ -52,7 +52,7 @@ TEST(Temporal, RefusesInOneLine) {
       temporal({scene, "--frames", "0:3", "--footprint", "adaptive", "--estimate", "hull", "-o", out}), 2,
       "--estimate gather");
   expect_failure(
-      temporal({scene, "--frames", "0:3", "--footprint", "adaptive", "--kind", "radiance", "-o", out}), 2,
+      temporal({scene, "--frames", "0:3", "--footprint", "circle-min", "--kind", "radiance", "-o", out}), 2,
       "--footprint");
   expect_failure(temporal({"nowhere.glb", "--frames", "0:3", "-o", out}), 3, "nowhere.glb");
   expect_failure(temporal({scene, "--frames", "0:3", "-o", folder + "/absent/o.irradiance"}), 3, "absent");

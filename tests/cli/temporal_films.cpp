@@ -90,17 +90,24 @@ TEST(TemporalFilm, RadianceFilmOfWhatIsGlossy) {
   slabs.animate(slabs.lamp_node, "translation", {0, 16}, {-0.5f, 1, 0, 0.5f, 1, 0});
   slabs.slab("tray", 1, 0, 0.2f, 0, waxed());
   const std::string scene = slabs.write("temporal-gloss", 17), folder = scratch("temporal-gloss-out");
-  const test::Run radiance =
-      temporal(quick({scene, "--frames", "0:8", "--kind", "radiance", "-o", folder + "/f.radiance"}));
-  ASSERT_EQ(radiance.code, 0) << radiance.err;
-  EXPECT_TRUE(Container::open(folder + "/f.radiance", FileKind::radiance).has("birth"));
-  const test::Run rest =
-      temporal(quick({scene, folder + "/f.radiance", "--frames", "0:8", "-o", folder + "/f.irradiance"}));
-  ASSERT_EQ(rest.code, 0) << rest.err;
-  const test::Run splat = run_tool({"splat", scene, folder + "/f.radiance", folder + "/f.irradiance",
-                                    "--frames", "3:4", "--width", "24", "-o", folder + "/%02d.exr"});
-  EXPECT_EQ(splat.code, 0) << splat.err;
-  EXPECT_TRUE(std::filesystem::exists(folder + "/04.exr"));
+  for (const std::string footprint : {"circle", "adaptive"}) {
+    const std::string film = folder + "/" + footprint;
+    const test::Run radiance = temporal(quick({scene, "--frames", "0:8", "--kind", "radiance", "--footprint",
+                                               footprint, "-o", film + ".radiance"}));
+    ASSERT_EQ(radiance.code, 0) << radiance.err;
+    const Container file = Container::open(film + ".radiance", FileKind::radiance);
+    EXPECT_TRUE(file.has("birth"));
+    for (const char* tensor : {"footprint_length", "footprint_length_change"})
+      EXPECT_EQ(file.has(tensor), footprint == "adaptive") << tensor;
+    EXPECT_EQ(run_tool({"info", file.path(), "--verify"}).code, 0);
+    const test::Run rest =
+        temporal(quick({scene, film + ".radiance", "--frames", "0:8", "-o", film + ".irradiance"}));
+    ASSERT_EQ(rest.code, 0) << rest.err;
+    const test::Run splat = run_tool({"splat", scene, film + ".radiance", film + ".irradiance", "--frames",
+                                      "3:4", "--width", "24", "-o", film + "-%02d.exr"});
+    EXPECT_EQ(splat.code, 0) << splat.err;
+    EXPECT_TRUE(std::filesystem::exists(film + "-04.exr"));
+  }
 }
 
 // The radiance film among the inputs must be of these frames and this scene.

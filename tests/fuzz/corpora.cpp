@@ -76,6 +76,9 @@ void radiance_files(const std::string& to) {
   write_radiance(to + "same.radiance", test::random_radiance(3, 2), test::radiance_provenance());
   write_radiance(to + "compact.radiance", test::random_radiance({3, 2}), test::radiance_provenance(),
                  Store::compact);
+  RadianceCache shaped = test::random_radiance(3, 2);
+  for (RadianceRecord& r : shaped.records) r.footprint_m.emplace().fill(0.5f);
+  write_radiance(to + "shaped.radiance", shaped, test::radiance_provenance());
   write_radiance(to + "orders.radiance", test::random_radiance({1, 3, 2}), test::radiance_provenance());
 }
 
@@ -100,8 +103,9 @@ void films(const std::string& to) {
     for (const bool anchored : {false, true}) {
       const std::string name = text(to, name_of(g), anchored);
       write_film(name + ".irradiance", test::random_film(4, anchored, g), test::irradiance_provenance());
-      write_film(name + ".radiance", test::random_radiance_film({1, 2, 1}, anchored, g),
-                 test::radiance_provenance());
+      RadianceFilm radiance = test::random_radiance_film({1, 2, 1}, anchored, g);
+      if (anchored) test::add_footprints(radiance);
+      write_film(name + ".radiance", radiance, test::radiance_provenance());
     }
 }
 
@@ -111,8 +115,11 @@ struct Estimates : Estimator {
   Made make(const RecordSite& site, Worker& worker) const override {
     Made made;
     made.record = test::random_cache(4).records[site.item % 4];
-    if (site.item % 2)
-      made.radiance = std::make_shared<RadianceRecord>(test::random_radiance(1, 2).records[0]);
+    if (site.item % 2) {
+      RadianceRecord radiance = test::random_radiance(1, 2).records[0];
+      if (site.item % 4 == 1) radiance.footprint_m.emplace().fill(0.5f);
+      made.radiance = std::make_shared<RadianceRecord>(radiance);
+    }
     if (site.item % 3) made.ahead = std::make_shared<Ahead>(Ahead{made.record, made.radiance, 0.1f});
     worker.counters.add("records probed");
     return made;

@@ -117,4 +117,17 @@ inline RadianceFilm random_radiance_film(const std::vector<int>& orders, bool an
   return film;
 }
 
+/// Gives every record of a film a footprint, which changes as all else does.
+inline void add_footprints(RadianceFilm& film) {
+  for (std::size_t i = 0; i < film.records.size(); ++i) {
+    FilmRadianceRecord& r = film.records[i];
+    const auto lengths = [&](std::uint64_t item, float scale) {
+      return AdaptiveFootprint(Vec3(1, 0, 0), Vec3(0, 0, 1), random_axes(item, scale, 0)).lengths_m();
+    };
+    r.record.footprint_m = lengths(i, r.record.radius_m);
+    if (film.info.gradients == TemporalGradients::none) continue;
+    r.change.footprint_m = lengths(1000 + i, (i % 2 == 0 ? -0.05f : 0.05f) * r.record.radius_m);
+  }
+}
+
 }  // namespace phos::test

@@ -154,6 +154,25 @@ TEST(FilmFile, KeepsEveryNumberOfRadiance) {
   }
 }
 
+TEST(FilmFile, KeepsFootprintsOfRadiance) {
+  for (const TemporalGradients gradients : kAllGradients) {
+    RadianceFilm film = test::random_radiance_film({2, 4, 4, 1, 3, 4, 2}, true, gradients);
+    test::add_footprints(film);
+    for (const Store store : {Store::floats, Store::compact}) {
+      const std::string path = scratch_file("shaped.radiance");
+      write_film(path, film, test::radiance_provenance(), store);
+      const Container file = Container::open(path, FileKind::radiance);
+      EXPECT_EQ(file.has("footprint_length_change"), gradients != TemporalGradients::none);
+      const RadianceFilm back = read_radiance_film(file);
+      ASSERT_EQ(back.records.size(), film.records.size());
+      for (std::size_t i = 0; i < film.records.size(); ++i) {
+        EXPECT_EQ(back.records[i].record.footprint_m, film.records[i].record.footprint_m);
+        EXPECT_EQ(back.records[i].change.footprint_m, film.records[i].change.footprint_m);
+      }
+    }
+  }
+}
+
 TEST(FilmFile, HeaderTellsChainsAndMeanLife) {
   const std::string path = scratch_file("b.irradiance");
   write_film(path, test::random_film(7, false, TemporalGradients::none), test::irradiance_provenance());
@@ -648,6 +667,37 @@ TEST(RadianceChange, LeadsToTheNextRecord) {
   const std::vector<float> other = test::projected([&](const Vec3& w) { return later(kTurn * w); }, frame, 4);
   for (std::size_t i = 0; i < other.size(); ++i)
     EXPECT_NEAR(middle.light[i], 0.6f * a.record.light[i] + 0.4f * other[i], 5e-6f) << i;
+}
+
+/// The zone at the end of a record's life is the zone of the next record, on its surface, which has turned.
+TEST(RadianceChange, FootprintsLeadToTheNextOne) {
+  const Scene first = one_triangle(), second = one_triangle(1, kTurn, kMove);
+  const Frame frame = make_frame(glm::normalize(Vec3(0.2f, -0.3f, 0.9f)));
+  const auto lengths = [](std::uint64_t item) {
+    return AdaptiveFootprint(Vec3(1, 0, 0), Vec3(0, 0, 1), test::random_axes(item, 1, 0)).lengths_m();
+  };
+  FilmRadianceRecord a, b;
+  a.life = on_triangle(10, 15, first), b.life = on_triangle(15, 20, second);
+  a.record = test::radiance_record(sky, Vec3(0), frame, 3);
+  b.record = test::radiance_record(sky, Vec3(0), make_frame(glm::normalize(kTurn * frame.z)), 3);
+  a.record.footprint_m = lengths(1), b.record.footprint_m = lengths(2);
+  for (RadianceRecord* r : {&a.record, &b.record}) r->radius_m = 4 * irradiance_of(*r).footprint->longest_m();
+  a.change = change_between(a, b);
+  const IrradianceRecord end = irradiance_of(changed(a, 15)), next = irradiance_of(b.record);
+  for (int k = 0; k < AdaptiveFootprint::kAxes; ++k) {
+    const Vec2 u = AdaptiveFootprint::direction(k);
+    const Vec3 to = 0.3f * (u.x * end.footprint->x() + u.y * end.footprint->y());
+    EXPECT_NEAR(record_error(end, end.position + to, end.normal),
+                record_error(next, next.position + kTurn * to, next.normal), 1e-4)
+        << k;
+  }
+  const RadianceFilm film{film_info(TemporalGradients::interpolated), {a}};
+  const RadianceRecord middle = cache_at(film, 12, first).records.at(0);
+  for (std::size_t k = 0; k < middle.footprint_m->size(); ++k)
+    EXPECT_NEAR((*middle.footprint_m)[k],
+                (*a.record.footprint_m)[k] + 2 * (*a.change.footprint_m)[k], 1e-5f);
+  // Neighbours and bounds do not change the zone.
+  EXPECT_FALSE(change_between(a, b, Reach::stays).footprint_m);
 }
 
 TEST(RadianceChange, OfAnotherOrderIsAsFarAsTheFirstGoes) {

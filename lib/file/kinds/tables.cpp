@@ -225,6 +225,10 @@ constexpr TensorRow kRadianceFootprint[] = {
     {"footprint_length", Dtype::f32, "n,8", "m", kPositive,
      "length of each of eight axes, 45 degrees apart, the first along x of `frame`"},
 };
+constexpr TensorRow kRadianceFootprintChange[] = {
+    {"footprint_length_change", Dtype::f32, "n,8", "m/frame", kFinite,
+     "change of `footprint_length` per frame; absent with `--temporal-gradients none`", "f8"},
+};
 constexpr TensorRow kRadianceChanges[] = {
     {"coefficients_change", Dtype::f32, "n,rgb,N^2", "cd/m2 sqrt(sr)/frame", kFinite,
      "change of the coefficients per frame", "", kChangeHalf},
@@ -265,8 +269,8 @@ constexpr TensorGroup kRadianceGroups[] = {
     {optional, "", kGradientExponent},
     {optional, "", kChangeScale, FileForm::film},
     {optional, "", kGradientChangeExponent, FileForm::film},
-    {optional, "With `--footprint adaptive` ([E8](../methods.md#e8)):", kRadianceFootprint, FileForm::whole,
-     FileForm::film},
+    {optional, "With `--footprint adaptive` ([E8](../methods.md#e8)):", kRadianceFootprint},
+    {optional, "", kRadianceFootprintChange, FileForm::film},
     kSharedGroup,
     kCausticGroup,
     kCausticFlightGroup,

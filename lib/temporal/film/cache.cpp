@@ -74,6 +74,12 @@ void turn_about_normal(RadianceRecord& r, const Frame& frame) {
   }
   for (std::vector<float>* numbers : {&r.light, &r.gradient_x, &r.gradient_y})
     if (!numbers->empty()) rotate_about_z(*numbers, angle, 3);
+  if (r.footprint_m) {
+    const AdaptiveFootprint own(r.frame.x, r.frame.z, *r.footprint_m),
+        other = own.with_axes_from(frame.x, frame.z);
+    r.footprint_m = other.lengths_m();
+    r.radius_m *= other.longest_m() / own.longest_m();
+  }
   r.frame = frame;
 }
 
@@ -153,10 +159,15 @@ RadianceChange change_between(const FilmRadianceRecord& from, const FilmRadiance
   const RadianceRecord& a = from.record;
   RadianceRecord b = to.record;
   turn(b, Pose{.turn = to.life.turn}, Pose{.turn = from.life.turn});
+  PHOS_CHECK(a.footprint_m.has_value() == b.footprint_m.has_value(),
+             "records of one place, with and without a footprint");
   turn_about_normal(b, a.frame);
-  return {change_of(a.light, b.light, frames), change_of(a.gradient_x, b.gradient_x, frames),
-          change_of(a.gradient_y, b.gradient_y, frames),
-          reach == Reach::changes ? (b.radius_m - a.radius_m) / frames : 0};
+  RadianceChange change{change_of(a.light, b.light, frames), change_of(a.gradient_x, b.gradient_x, frames),
+                        change_of(a.gradient_y, b.gradient_y, frames)};
+  if (reach == Reach::stays) return change;
+  change.radius_m = (b.radius_m - a.radius_m) / frames;
+  if (a.footprint_m) change.footprint_m = footprint_change(*a.footprint_m, *b.footprint_m, frames);
+  return change;
 }
 
 IrradianceRecord changed(const FilmRecord& film, std::int64_t frame) {
@@ -179,6 +190,7 @@ RadianceRecord changed(const FilmRadianceRecord& film, std::int64_t frame) {
   add(r.gradient_x, age, film.change.gradient_x);
   add(r.gradient_y, age, film.change.gradient_y);
   r.radius_m = radius_at(film, frame);
+  if (film.change.footprint_m) change_footprint(film, age, r);
   return r;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct IrradianceChange {
 struct RadianceChange {
   std::vector<float> light, gradient_x, gradient_y;
   float radius_m = 0;
+  /// Of a record with a footprint: the change of the lengths of its axes (docs/methods.md#f8). None: they stay.
+  std::optional<AdaptiveFootprint::Lengths> footprint_m{};
 };
 
 struct FilmRecord {

@@ -67,6 +67,7 @@ struct RadianceChanges {
   std::size_t n, bands, count;  ///< records, bands, coefficients of a colour
   bool gradients;
   std::vector<float> light, gradient_x, gradient_y, radius_m;
+  std::vector<float> length_m;        ///< of the axes of footprints, where records have them
   std::optional<HalfColumns> halves;  ///< of light, in compact files
   std::optional<ByteColumns> bytes;   ///< of gradients, in compact files
 
@@ -91,6 +92,9 @@ struct RadianceChanges {
       put(change.gradient_x, record.gradient_x, gradient_x);
       put(change.gradient_y, record.gradient_y, gradient_y);
       radius_m.push_back(change.radius_m);
+      if (!record.footprint_m) continue;
+      const auto lengths_m = change.footprint_m.value_or(AdaptiveFootprint::Lengths{});
+      length_m.insert(length_m.end(), lengths_m.begin(), lengths_m.end());
     }
     if (store == Store::floats) return;
     halves.emplace(n, FloatColumns{light});
@@ -113,6 +117,7 @@ struct RadianceChanges {
       file.add<float>("gradient_y_change", gradient_y);
     }
     file.add<float>("radius_change", radius_m);
+    if (!length_m.empty()) file.add<float>(text("footprint_length", kChangeEnding), length_m);
   }
 };
 
@@ -126,6 +131,15 @@ void read_changes(const TensorReader& file, const std::vector<std::size_t>& rows
   const auto bands = static_cast<std::size_t>(file.extent("N")), count = bands * bands;
   const auto radius_m = file.values<float>("radius_change");
   for (std::size_t k = 0; k < rows.size(); ++k) film.records[k].change.radius_m = radius_m[rows[k]];
+  const std::string length = "footprint_length", length_change = length + kChangeEnding;
+  if (file.has(length) || file.has(length_change)) {  // both or none
+    file.values<float>(length);
+    const float* of_all = file.values<float>(length_change).data();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      AdaptiveFootprint::Lengths& change = film.records[k].change.footprint_m.emplace();
+      std::copy_n(of_all + change.size() * rows[k], change.size(), change.begin());
+    }
+  }
   std::vector<float> space;
   const auto take = [&](const char* name, const char* unit, std::vector<float> RadianceRecord::*of,
                         std::vector<float> RadianceChange::*to) {
@@ -152,7 +166,9 @@ bool all_finite(const IrradianceRecord& r) {
     finite = finite && is_finite(r.rotation_gradient[c]) && is_finite(r.translation_gradient[c]);
   return finite && !(r.footprint && what_is_wrong(*r.footprint, r.normal));
 }
-bool all_finite(const RadianceRecord& r) { return is_finite(r); }
+bool all_finite(const RadianceRecord& r) {
+  return is_finite(r) && !(r.footprint_m && !are_lengths(*r.footprint_m));
+}
 
 /// nullptr: nothing. What changes is largest or least at the end of a life.
 template <class Record>

@@ -19,4 +19,9 @@ std::shared_ptr<const AdaptiveFootprint::Axes> footprint_change(const AdaptiveFo
 /// length that interpolation to any other leaves.
 void change_footprint(const FilmRecord& film, float age, IrradianceRecord& r);
 
+/// The same of lengths alone.
+AdaptiveFootprint::Lengths footprint_change(const AdaptiveFootprint::Lengths& from,
+                                            const AdaptiveFootprint::Lengths& to, float frames);
+void change_footprint(const FilmRadianceRecord& film, float age, RadianceRecord& r);
+
 }  // namespace phos::inline temporal
