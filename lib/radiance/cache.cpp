@@ -260,7 +260,10 @@ RadianceCache read_radiance_rows(const Container& file, FileForm form, const std
     r.frame.y = glm::cross(r.frame.z, r.frame.x);
     r.distance_m = distance[i], r.radius_m = radius[i];
     if (shared) r.shared = shared[i];
-    if (footprint) std::copy_n(footprint + r.footprint_m.emplace().size() * i, r.footprint_m->size(), r.footprint_m->begin());
+    if (footprint) {
+      AdaptiveFootprint::Lengths& lengths_m = r.footprint_m.emplace();
+      std::copy_n(footprint + lengths_m.size() * i, lengths_m.size(), lengths_m.begin());
+    }
     r.light = take(light, count, own);
     r.stderr_light = take(error, bands, own_bands);
     if (!along.empty()) r.gradient_x = take(along[0], count, own), r.gradient_y = take(along[1], count, own);

@@ -132,7 +132,7 @@ FittedAxes fit_axes(const Hemisphere& h, const RadianceRecord& record, bool with
   else
     told.gradient_x.clear(), told.gradient_y.clear();
   const float steepness = steepness_per_m(told);
-  const double floor = kLeastLight * kLeastLight * squares(here);
+  const double least = kLeastLight * kLeastLight * squares(here);
 
   const auto known = [&](float seen) { return std::fabs(seen - 1) <= bounds.unseen; };
   /// Of the light at a step, relative.
@@ -145,7 +145,7 @@ FittedAxes fit_axes(const Hemisphere& h, const RadianceRecord& record, bool with
         told_here += static_cast<double>(followed.x * told.gradient_x[i] + followed.y * told.gradient_y[i]);
       off += (light[i] - told_here) * (light[i] - told_here);
     }
-    return off > 0 ? static_cast<float>(std::sqrt(off / std::max(squares(light), floor))) : 0;
+    return off > 0 ? static_cast<float>(std::sqrt(off / std::max(squares(light), least))) : 0;
   };
 
   const std::array<float, kAxes> around = radii_by_surroundings({&h, 1}, bounds);

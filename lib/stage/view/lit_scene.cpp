@@ -1,5 +1,6 @@
 #include "stage/view/lit_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.h"
@@ -56,9 +57,12 @@ LitGroup lit_group(const CacheGroup& group, LitScenes& scenes, const std::string
   require_together(files, scene_path, lit.scene, allow_mismatch);
   SplatCaches all = read_caches(files, lit.scene, !glossy_materials(lit.scene).empty());
   IrradianceCache records = std::move(all.irradiance);
-  if (any_footprint(records.records))
-    throw Error(ExitCode::usage, group.paths[0],
+  if (any_footprint(records.records)) {
+    const auto shaped = std::find_if(files.begin(), files.end(),
+                                     [](const Container& file) { return file.has("footprint_length"); });
+    throw Error(ExitCode::usage, (shaped == files.end() ? files.front() : *shaped).path(),
                 "has adaptive records, which the page does not draw; make the cache with --footprint circle");
+  }
   if (records.records.empty())
     throw Error(ExitCode::usage, group.paths[0], "holds no record; make a cache with phos-irradiance");
   RenderOptions render;
