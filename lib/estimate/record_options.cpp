@@ -211,11 +211,12 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
 
 void declare_radiance_footprint_options(Options& options, RecordOptions& r) {
   options.section("Zones of records");
-  options.choice<Footprint>(
-      "footprint", r.footprint, {{"circle", Footprint::circle}, {"adaptive", Footprint::adaptive}},
-      "zone that a record serves: circle: a disc. With --estimate gather also adaptive: eight axes, each with "
-      "its length",
-      {Recorded::unless_default, Adopted::estimate});
+  options.choice<Footprint>("footprint", r.footprint,
+                            {{"circle", Footprint::circle}, {"adaptive", Footprint::adaptive}},
+                            "zone that a record serves: circle: a disc. With --estimate gather also "
+                            "adaptive: eight axes, each with "
+                            "its length",
+                            {Recorded::unless_default, Adopted::estimate});
   options.number("rho", r.rho, "R",
                  "with --footprint adaptive: relative error of light along an axis, which is shortened until "
                  "the error is met",

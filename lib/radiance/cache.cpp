@@ -115,10 +115,10 @@ int RadianceCache::order() const {
 
 void settle_slopes(RadianceRecord& r, double accuracy) {
   if (r.gradient_x.empty()) return;
-  const double raised = r.footprint_m
-                            ? 1
-                            : static_cast<double>(r.radius_m) /
-                                  static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
+  const double raised =
+      r.footprint_m ? 1
+                    : static_cast<double>(r.radius_m) /
+                          static_cast<double>(std::max(r.distance_m, std::numeric_limits<float>::min()));
   const double turn = std::sqrt(0.3) * accuracy * std::max(1.0, raised);
   for (std::size_t l = 1; l < static_cast<std::size_t>(r.order()); ++l) {
     const double spread = static_cast<double>(l) * turn;

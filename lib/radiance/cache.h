@@ -68,8 +68,8 @@ struct RadianceCache {
 /// All records, in order.
 IrradianceCache irradiance_of(const RadianceCache& cache);
 
-/// reading_accuracy() of radiance records that were placed with accuracy `placed`: light that leaves through a
-/// lobe has the noise of many coefficients.
+/// reading_accuracy() of radiance records that were placed with accuracy `placed`: light that leaves through
+/// a lobe has the noise of many coefficients.
 inline double radiance_reading_accuracy(double placed) { return phos::reading_accuracy(placed, 0.6); }
 inline double reading_accuracy(const RadianceCache& cache) {
   return radiance_reading_accuracy(cache.accuracy);
@@ -80,8 +80,8 @@ inline double reading_accuracy(const RadianceCache& cache) {
 /// but where it has been raised): on a step s, the light that it sees turns by about s / R, and harmonics of
 /// band l by l times that. They change like a sine, of which this is the best linear part where steps are
 /// spread normally; sqrt(0.3) of its reach is the rms step of those that a record serves (its weight
-/// counted). Full slopes overshoot in the higher bands, and bring in more noise than change. R / D counts as 1
-/// where a footprint has lengths of its own for near and far surroundings.
+/// counted). Full slopes overshoot in the higher bands, and bring in more noise than change. R / D counts as
+/// 1 where a footprint has lengths of its own for near and far surroundings.
 void settle_slopes(RadianceRecord& record, double accuracy);
 
 /// The `.radiance` file (file/kinds/tables.cpp). The header names the basis. Of a film there are `more`

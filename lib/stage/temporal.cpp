@@ -63,9 +63,10 @@ void run(Tool& tool, TemporalCommand& asked) {
                 "shortens radiance records; add --kind radiance, or leave it out");
   job.options.resolve(tool.options(), records.estimate, job.of_radiance);
   if (job.of_radiance && records.footprint != Footprint::circle && records.footprint != Footprint::adaptive)
-    throw Error(ExitCode::usage, "--footprint",
-                "radiance records have discs or adaptive footprints; give circle or adaptive, or leave --kind "
-                "radiance out");
+    throw Error(
+        ExitCode::usage, "--footprint",
+        "radiance records have discs or adaptive footprints; give circle or adaptive, or leave --kind "
+        "radiance out");
   use_gl(tool, asked.gl);
   if (tool.up_to_date()) return;
   register_raster_estimator();

@@ -44,7 +44,8 @@ struct Room {
         const test::Seen s = all.look(DVec3(0), w);
         const std::size_t i = h.at(j, k);
         h.direction[i] = Vec3(w), h.hit_normal[i] = Vec3(s.normal);
-        h.distance_m[i] = static_cast<float>(s.distance), h.radiance[i] = Rgb(static_cast<float>(s.luminance));
+        h.distance_m[i] = static_cast<float>(s.distance),
+        h.radiance[i] = Rgb(static_cast<float>(s.luminance));
         h.projected_sr[i] = h.solid_sr(i) * static_cast<float>(z);
       }
     return h;
@@ -111,6 +112,14 @@ TEST(RadianceAxes, AreShortWhereLightChanges) {
   EXPECT_NEAR(axes.length_m[2], axes.length_m[6], 0.05f * axes.length_m[2]);
 }
 
+/// One colour, in which bands count as the energy of a lobe of this order does.
+std::vector<double> by_lobe(std::vector<double> v) {
+  for (int l = 0, i = 0; l < kOrder; ++l)
+    for (int m = -l; m <= l; ++m, ++i)
+      v[static_cast<std::size_t>(i)] *= std::pow(10.0, -static_cast<double>(l * l) / (kOrder * kOrder));
+  return v;
+}
+
 /// At three quarters of each axis, a reader that follows the record is off by about rho, and no more.
 TEST(RadianceAxes, MeetTheErrorThatIsAskedFor) {
   const Quadrature fine = hemisphere_quadrature(60, 120);
@@ -119,7 +128,7 @@ TEST(RadianceAxes, MeetTheErrorThatIsAskedFor) {
   RadianceRecord record = projector.project(h, RadianceGradient::hybrid, 0.02f);
   double longest[2] = {};
   for (const bool more : {false, true}) {
-    const FootprintBounds bounds = bounds_to(5, more ? 0.2f : 0.1f);
+    const FootprintBounds bounds = bounds_to(5, more ? 0.1f : 0.04f);
     const FittedAxes axes = fit_axes(h, record, true, 0.02f, bounds);
     EXPECT_EQ(axes.unresolved, 0);
     RadianceRecord read = record;
@@ -134,7 +143,9 @@ TEST(RadianceAxes, MeetTheErrorThatIsAskedFor) {
         told.push_back(static_cast<double>(
             read.light[i] + share * (step.x * read.gradient_x[i] + step.y * read.gradient_y[i])));
       const std::vector<double> truth = kHall.scene().coefficients(DVec3(step.x, step.y, 0), kOrder, fine);
-      EXPECT_LT(test::distance(told, truth), (static_cast<double>(bounds.rho) + 0.03) * test::norm(truth)) << k;
+      EXPECT_LT(test::distance(by_lobe(told), by_lobe(truth)),
+                (static_cast<double>(bounds.rho) + 0.02) * test::norm(by_lobe(truth)))
+          << k;
       longest[more] += static_cast<double>(axes.length_m[k]);
     }
   }
@@ -151,8 +162,9 @@ TEST(RadianceAxes, ScaleWithTheScene) {
     RadianceProjector projector(kOrder);
     FootprintBounds bounds = bounds_to(5 * scale, 0.1f);
     bounds.least_m *= scale;
-    const FittedAxes scaled = fit_axes(
-        other, projector.project(other, RadianceGradient::hybrid, 0.02f * scale), true, 0.02f * scale, bounds);
+    const FittedAxes scaled =
+        fit_axes(other, projector.project(other, RadianceGradient::hybrid, 0.02f * scale), true,
+                 0.02f * scale, bounds);
     for (std::size_t k = 0; k < kAxes; ++k)
       EXPECT_NEAR(scaled.length_m[k] / scale, axes.length_m[k], 1e-3 * axes.length_m[k]) << scale << ' ' << k;
   }

@@ -126,8 +126,9 @@ TEST(RadianceFootprint, RefusesWhatDoesNotGoTogether) {
 TEST(RadianceFootprint, ThePageRefusesThem) {
   ASSERT_EQ(radiance("shown", {"--footprint", "adaptive"}).code, 0);
   ASSERT_EQ(run_tool({"irradiance", scene(), at("c.photons"), "-o", at("beside")}).code, 0);
-  expect_failure(run_tool({"view", scene(), at("beside"), at("shown"), at("c.brdf"), "--static", at("p.html")}),
-                 2, "--footprint circle");
+  expect_failure(
+      run_tool({"view", scene(), at("beside"), at("shown"), at("c.brdf"), "--static", at("p.html")}), 2,
+      "--footprint circle");
   EXPECT_FALSE(std::filesystem::exists(at("p.html")));
 }
 

@@ -85,8 +85,7 @@ TEST(RadianceFile, KeepsRecordsOfDifferentOrders) {
 TEST(RadianceFile, KeepsFootprints) {
   RadianceCache cache = test::random_radiance(7, 4);
   for (std::size_t i = 0; i < cache.records.size(); ++i)
-    for (float& length_m : cache.records[i].footprint_m.emplace())
-      length_m = 0.01f + static_cast<float>(i);
+    for (float& length_m : cache.records[i].footprint_m.emplace()) length_m = 0.01f + static_cast<float>(i);
   cache.records[2].footprint_m->at(5) = 0.25f;
   expect_kept(cache, 7);
 }

@@ -213,8 +213,9 @@ TEST_P(DamagedTensorOf, AreRefusedByName) {
                            }),
                  "another shape");
     // A tensor that may be absent alone is no damage.
-    const bool alone = name == "shared" || name == "order" || name == "family" ||
-                       (name == "footprint_length" && GetParam().starts_with("radiance") && !file_.has("birth"));
+    const bool alone =
+        name == "shared" || name == "order" || name == "family" ||
+        (name == "footprint_length" && GetParam().starts_with("radiance") && !file_.has("birth"));
     const std::string without = complaint(name, [](Tensor&, std::vector<std::byte>&) { return false; });
     if (alone)
       EXPECT_EQ(without, "") << name;

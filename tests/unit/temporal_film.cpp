@@ -694,8 +694,7 @@ TEST(RadianceChange, FootprintsLeadToTheNextOne) {
   const RadianceFilm film{film_info(TemporalGradients::interpolated), {a}};
   const RadianceRecord middle = cache_at(film, 12, first).records.at(0);
   for (std::size_t k = 0; k < middle.footprint_m->size(); ++k)
-    EXPECT_NEAR((*middle.footprint_m)[k],
-                (*a.record.footprint_m)[k] + 2 * (*a.change.footprint_m)[k], 1e-5f);
+    EXPECT_NEAR((*middle.footprint_m)[k], (*a.record.footprint_m)[k] + 2 * (*a.change.footprint_m)[k], 1e-5f);
   // Neighbours and bounds do not change the zone.
   EXPECT_FALSE(change_between(a, b, Reach::stays).footprint_m);
 }

@@ -11,8 +11,8 @@ class RayScene;
 
 namespace phos::inline estimate {
 
-/// The bounds that `resolved`, the site (at least `site_least_m`) and the surface next to it set for axes of a
-/// record that is read at accuracy `read_with`.
+/// The bounds that `resolved`, the site (at least `site_least_m`) and the surface next to it set for axes of
+/// a record that is read at accuracy `read_with`.
 FootprintBounds footprint_bounds(const RayScene& rays, const RecordSite& site, float site_least_m,
                                  const RecordOptions& resolved, double read_with);
 

@@ -24,8 +24,8 @@ struct HemisphereRadiance {
   GatherSource source;
 
   /// The record of a hemisphere at a site, as Made::radiance. Its radius is limited by its surroundings
-  /// (reach_m) and the surface next to it. `borders`: of an unstructured hemisphere (RayBorder). Where records
-  /// are to have footprints, axes that are off by more than rho at their least length are counted
+  /// (reach_m) and the surface next to it. `borders`: of an unstructured hemisphere (RayBorder). Where
+  /// records are to have footprints, axes that are off by more than rho at their least length are counted
   /// (kUnresolvedEvent).
   Made record(const RecordSite& site, const Hemisphere& h, std::span<const RayBorder> borders,
               RadianceProjector& projector, Counters& counters) const;

@@ -15,37 +15,61 @@ constexpr std::size_t kAxes = AdaptiveFootprint::kAxes;
 constexpr float kLightsEnough = 1024;
 // Hits of neighbouring rays make one light where their normals and distances differ by no more than that.
 constexpr float kAlikeNormal = 0.95f, kAlike = 1.25f;
-constexpr float kLeastNearness = 0.25f;     // how near hits come, of their distance
-constexpr float kLeastEmitterCosine = 0.1f; // docs/methods.md#b4
-constexpr double kLeastLight = 1e-3;        // of the light at the record: less is none
-constexpr float kWhere = 0.75f;             // of an axis: where light is compared
-constexpr float kShorter = 0.75f;           // a step towards a place where enough is known
+constexpr float kLeastNearness = 0.25f;      // how near hits come, of their distance
+constexpr float kLeastEmitterCosine = 0.1f;  // docs/methods.md#b4
+constexpr double kLeastLight = 1e-3;         // of the light at the record: less is none
+constexpr float kWhere = 0.75f;              // of an axis: where light is compared
+constexpr float kShorter = 0.75f;            // a step towards a place where enough is known
 // A step towards a length with an error of rho, where the error goes as the square of the length.
 constexpr float kMargin = 0.95f, kLeastStep = 0.5f, kMostStep = 0.9f;
 
 Vec2 axis_of(std::size_t k) { return AdaptiveFootprint::direction(static_cast<int>(k)); }
 
-double squares(const std::vector<double>& v) {
-  double sum = 0;
-  for (const double x : v) sum += x * x;
-  return sum;
-}
-
-/// Norm of each colour over the coefficients of a x + b y; y may be absent.
-Rgb norm_of(float a, const std::vector<float>& x, float b, const std::vector<float>& y) {
-  DVec3 sum(0);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto v = static_cast<double>(a * x[i] + (y.empty() ? 0 : b * y[i]));
-    sum[static_cast<int>(i % 3)] += v * v;
+/// What bands count for in squares of coefficients [order^2][3]: as in lobes that need this order, of whose
+/// energy a hundredth is beyond it. Those of light through a lobe count as the energy of the lobe's band
+/// does.
+class BandShares {
+ public:
+  explicit BandShares(int order) {
+    for (int l = 0; l < order; ++l) {
+      const double part = static_cast<double>(l) / order;
+      share_.insert(share_.end(), static_cast<std::size_t>(3 * (2 * l + 1)),
+                    std::exp(-kSpectrum * part * part));
+    }
   }
-  return Rgb(glm::sqrt(sum));
-}
+  /// Sum of the squares of number(i).
+  template <class Number>
+  double squares(const Number& number) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < share_.size(); ++i) {
+      const double x = number(i);
+      sum += share_[i] * x * x;
+    }
+    return sum;
+  }
+  /// The root of that, of each colour.
+  template <class Number>
+  Rgb norm(const Number& number) const {
+    DVec3 sum(0);
+    for (std::size_t i = 0; i < share_.size(); ++i) {
+      const double x = number(i);
+      sum[static_cast<int>(i % 3)] += share_[i] * x * x;
+    }
+    return Rgb(glm::sqrt(sum));
+  }
+
+ private:
+  static constexpr double kSpectrum = 4.605170185988091;  // log(100)
+  std::vector<double> share_;
+};
 
 /// How much of radius_m the change along u leaves, as within_gradient_m() of all directions.
-float within_change_m(const RadianceRecord& r, const Vec2& u, float radius_m) {
-  const Rgb slope = norm_of(u.x, r.gradient_x, u.y, r.gradient_y);
+float within_change_m(const RadianceRecord& r, const BandShares& bands, const Vec2& u, float radius_m) {
+  const Rgb slope = bands.norm(
+      [&](std::size_t i) { return static_cast<double>(u.x * r.gradient_x[i] + u.y * r.gradient_y[i]); });
   const Vec3 along[3] = {Vec3(slope.x, 0, 0), Vec3(slope.y, 0, 0), Vec3(slope.z, 0, 0)};
-  return within_gradient_m(norm_of(1, r.light, 0, {}), along, radius_m);
+  const Rgb light = bands.norm([&](std::size_t i) { return static_cast<double>(r.light[i]); });
+  return within_gradient_m(light, along, radius_m);
 }
 
 }  // namespace
@@ -72,7 +96,8 @@ RadianceNearby::RadianceNearby(const Hemisphere& h, int order, float least_m) : 
   const auto add_ray = [&](std::size_t i) {
     const Vec3 w = h.frame.to_local(h.direction[i]), n = h.frame.to_local(h.hit_normal[i]);
     const float d = std::max(h.distance_m[i], least_m);
-    auto bundle = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& b) { return b.takes(d, n); });
+    auto bundle =
+        std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& b) { return b.takes(d, n); });
     if (bundle == bundles.end()) bundle = bundles.insert(bundle, Bundle{.distance_m = d, .normal = n});
     const float sr = h.solid_sr(i), seen = sr / (2 * kPi);
     bundle->seen += seen, bundle->direction += seen * w, bundle->normals += seen * n;
@@ -132,20 +157,20 @@ FittedAxes fit_axes(const Hemisphere& h, const RadianceRecord& record, bool with
   else
     told.gradient_x.clear(), told.gradient_y.clear();
   const float steepness = steepness_per_m(told);
-  const double least = kLeastLight * kLeastLight * squares(here);
+  const BandShares bands(record.order());
+  const double least = kLeastLight * kLeastLight * bands.squares([&](std::size_t i) { return here[i]; });
 
   const auto known = [&](float seen) { return std::fabs(seen - 1) <= bounds.unseen; };
   /// Of the light at a step, relative.
   const auto error_at = [&](const Vec2& step, const std::vector<double>& light) {
     const Vec2 followed = steepness > 0 ? step_share(Vec3(step, 0), steepness) * step : Vec2(0);
-    double off = 0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      double told_here = here[i];
-      if (followed != Vec2(0))
-        told_here += static_cast<double>(followed.x * told.gradient_x[i] + followed.y * told.gradient_y[i]);
-      off += (light[i] - told_here) * (light[i] - told_here);
-    }
-    return off > 0 ? static_cast<float>(std::sqrt(off / std::max(squares(light), least))) : 0;
+    const double off = bands.squares([&](std::size_t i) {
+      if (followed == Vec2(0)) return light[i] - here[i];
+      return light[i] - here[i] -
+             static_cast<double>(followed.x * told.gradient_x[i] + followed.y * told.gradient_y[i]);
+    });
+    const double there = bands.squares([&](std::size_t i) { return light[i]; });
+    return off > 0 ? static_cast<float>(std::sqrt(off / std::max(there, least))) : 0;
   };
 
   const std::array<float, kAxes> around = radii_by_surroundings({&h, 1}, bounds);
@@ -153,7 +178,7 @@ FittedAxes fit_axes(const Hemisphere& h, const RadianceRecord& record, bool with
   std::array<float, kAxes> radius_m;
   for (std::size_t k = 0; k < kAxes; ++k) {
     const Vec2 u = axis_of(k);
-    float r = std::max(bounds.least_m, within_change_m(record, u, around[k]));
+    float r = std::max(bounds.least_m, within_change_m(record, bands, u, around[k]));
     for (;;) {
       const Vec2 step = kWhere * bounds.accuracy * r * u;
       const RadianceNearby::Light light = nearby.at(step);

@@ -46,7 +46,7 @@ class RadianceNearby {
 struct FittedAxes {
   AdaptiveFootprint::Lengths length_m{};  ///< in the record's frame
   float radius_m = 0;                     ///< of the longest axis
-  int unresolved = 0;                     ///< axes that are as short as they may be and still off by more than rho
+  int unresolved = 0;  ///< axes that are as short as they may be and still off by more than rho
 };
 
 /// docs/methods.md#e8. `record` is made of `h`, with its gradients; it is read with them, or, unless

@@ -29,13 +29,13 @@ struct GlossGroup {
 };
 
 /// A RadianceRecord as the loops want it. front_limit_m = -tolerance * radius; over_limit_m is the limit of
-/// record_apart(). Of its footprint, whose axes are in its frame: 1 / length of each axis and of the shortest,
-/// and the longest axis / radius; all 0: a disc.
+/// record_apart(). Of its footprint, whose axes are in its frame: 1 / length of each axis and of the
+/// shortest, and the longest axis / radius; all 0: a disc.
 struct GlossSplat {
   static constexpr int kAxes = 8;
   float position[3], inverse_radius, normal[3], front_limit_m, over_limit_m;
-  float x[3], y[3];       ///< axes of its frame
-  float weight, shared;   ///< its own
+  float x[3], y[3];      ///< axes of its frame
+  float weight, shared;  ///< its own
   float inverse[kAxes], inverse_shortest, per_radius;
   float steepness_per_m;  ///< steps by more than 1/this are shortened to that; 0: no steps at all
   const float *light, *gradient_x, *gradient_y, *stderr_light;

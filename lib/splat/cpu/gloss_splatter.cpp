@@ -140,7 +140,8 @@ class GlossSplatter {
     c.bounds = record_bounds(c.records, accuracy_, camera_, g_.width, g_.height);
     c.frame.resize(tree->size()), c.splat.resize(tree->size());
     parallel_for(tree->size(), 64, [&](std::size_t i) {
-      if (!c.bounds[i].empty()) c.frame[i] = (*tree)[i].frame, c.splat[i] = pack((*tree)[i], c.records[i].footprint.get());
+      if (!c.bounds[i].empty())
+        c.frame[i] = (*tree)[i].frame, c.splat[i] = pack((*tree)[i], c.records[i].footprint.get());
     });
     classes_.push_back(std::move(c));
   }

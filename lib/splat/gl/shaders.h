@@ -20,8 +20,8 @@ extern const char* const one_record_vertex;
 /// The same as splat_fragment for a record with a footprint, which is a uniform block.
 extern const char* const footprint_fragment;
 /// Weight of a radiance record at a pixel, and the light that it sends through the pixel's lobe. To be put
-/// after #version, record_weight, a definition of COUNT, the number of coefficients, and one of FOOTPRINT where
-/// the record has a footprint.
+/// after #version, record_weight, a definition of COUNT, the number of coefficients, and one of FOOTPRINT
+/// where the record has a footprint.
 extern const char* const gloss_fragment;
 /// One triangle over the whole picture.
 extern const char* const picture_vertex;

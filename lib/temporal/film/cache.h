@@ -44,7 +44,8 @@ struct IrradianceChange {
 struct RadianceChange {
   std::vector<float> light, gradient_x, gradient_y;
   float radius_m = 0;
-  /// Of a record with a footprint: the change of the lengths of its axes (docs/methods.md#f8). None: they stay.
+  /// Of a record with a footprint: the change of the lengths of its axes (docs/methods.md#f8). None: they
+  /// stay.
   std::optional<AdaptiveFootprint::Lengths> footprint_m{};
 };
 

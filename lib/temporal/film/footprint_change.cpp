@@ -16,9 +16,9 @@ float length_at(float born_m, float change_m, float age, const Life& life) {
 
 /// An axis `age` frames after its birth.
 Axis at(const Axis& born, const Axis& change, float age, const Life& life) {
-  return {length_at(born.length_m, change.length_m, age, life),
-          born.slope + age * change.slope, born.bend + age * change.bend,
-          born.turn_slope + age * change.turn_slope, born.turn_bend + age * change.turn_bend};
+  return {length_at(born.length_m, change.length_m, age, life), born.slope + age * change.slope,
+          born.bend + age * change.bend, born.turn_slope + age * change.turn_slope,
+          born.turn_bend + age * change.turn_bend};
 }
 
 /// The radius belongs to the longest axis, and goes straight from end to end as if the longest axis did: the
