@@ -22,7 +22,9 @@ namespace phos::inline place {
 /// How radiance records are made. The defaults are the cheapest that leave an error of 2 to 3 % in glossy
 /// rooms (place_radiance_table): of fewer rays gradients are noise, and many bands change within short ways.
 struct RadianceOptions {
-  RadianceOptions() { records.estimate = Estimate::gather, records.rays = 4096, records.accuracy = 0.3; }
+  RadianceOptions() {
+    records.estimate = Estimate::gather, records.rays = 4096, records.accuracy = 0.3, records.rho = 0.1;
+  }
   RecordOptions records;
   RadianceGradient gradients = RadianceGradient::hybrid;
 };

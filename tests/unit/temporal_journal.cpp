@@ -24,9 +24,7 @@ TEST(EstimateJournal, KeepsRadianceWithAndWithoutFootprints) {
   const std::string path = test::scratch("estimates") + "/a.journal";
   Given given;
   for (RadianceRecord r : test::random_radiance(2, 3).records) {
-    if (!given.all.empty())
-      for (std::size_t k = 0; k < r.footprint_m.emplace().size(); ++k)
-        (*r.footprint_m)[k] = 0.1f + static_cast<float>(k);
+    if (!given.all.empty()) r.footprint_m = {1, 2, 3, 4, 5, 6, 7, 8};
     Made& made = given.all.emplace_back(Made{irradiance_of(r)});
     made.radiance = std::make_shared<RadianceRecord>(r);
     made.ahead = std::make_shared<Ahead>(Ahead{made.record, made.radiance, 0.1f});
