@@ -57,9 +57,9 @@ TEST(RadianceFootprint, SameBytesOnAnyThreads) {
   EXPECT_NE(*std::min_element(length.begin(), length.begin() + 8),
             *std::max_element(length.begin(), length.begin() + 8));
   EXPECT_EQ(parameter("a", "footprint")->as_string(), "adaptive");
-  const Run again = radiance("a", {"--footprint", "adaptive", "--reuse"});
+  const test::Run again = radiance("a", {"--footprint", "adaptive", "--reuse"});
   EXPECT_NE(again.err.find("up to date"), std::string::npos) << again.err;
-  const Run info = run_tool({"info", at("a"), "--verify"});
+  const test::Run info = run_tool({"info", at("a"), "--verify"});
   EXPECT_EQ(info.code, 0) << info.err;
   EXPECT_NE(run_tool({"info", at("a"), "--dump", "footprint_length"}).out.find("footprint_length.7"),
             std::string::npos);
@@ -97,7 +97,7 @@ TEST(RadianceFootprint, AreDrawnAlike) {
   const auto draw = [](const std::string& out, std::vector<std::string> more) {
     more.insert(more.begin(), {"splat", scene(), at("matt"), at("drawn"), at("c.brdf"), "--width", "60",
                                "--pixel-samples", "1", "--direct", "none", "-o", at(out)});
-    const Run run = run_tool(more);
+    const test::Run run = run_tool(more);
     EXPECT_EQ(run.code, 0) << run.err;
     return read_image(at(out)).rgb("glossy");
   };
