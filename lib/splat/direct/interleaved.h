@@ -1,6 +1,8 @@
 // Direct light of which neighbouring pixels share the shadow rays.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/lamp/luminaires.h"
@@ -14,6 +16,9 @@ struct RayShare {
   int rays = 1;    ///< of this pass, at least 1
   int pass = 0;    ///< of which this is the one, from 0: which part of the set it gets
   int passes = 1;  ///< samples of a pixel in all
+  /// Per pixel, how often the number of its rays is doubled; empty: never. The way in which pixels take
+  /// results of others goes by the rays before that: twice the rays then always have less noise.
+  std::span<const std::uint8_t> doublings{};
 };
 
 /// Interleaved sampling (Keller and Heidrich 2001): the pixels of each 4 x 4 block send different rays of one
