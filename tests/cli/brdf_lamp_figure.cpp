@@ -154,6 +154,7 @@ TEST_F(LampFigureCli, RefusesWhatItCannotDraw) {
   refused({"--figure-lamp", "1,2,3", "--width", "65536"}, 2, "too many");
   // Pixel 4, 4 of 9: the middle of the floor, where the lamp lies.
   refused({"--figure-lamp", "0,0,0", "--width", "9", "--pixel-samples", "1"}, 5, "--figure-lamp");
+  refused({"--figure-lamp-from", "0,1,0", "--figure-illuminance", "1e300", "--width", "4"}, 5, "too strong");
   expect_refused("brdf", {floor_, "--figure-lamp", "1,2,3", "-o", out_}, 2, "give --figure FILE.exr");
   expect_refused("brdf", {floor_, "--figure", folder_ + "/lit.png", "--figure-lamp", "1,2,3", "-o", out_}, 2,
                  "must end in .exr");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/counters.h"
 #include "core/error.h"
@@ -50,6 +51,11 @@ struct Arrival {
   Vec3 towards{0};
   float illuminance_lx = 0;
 };
+
+/// Infinite beyond the numbers of single precision.
+float single(double lux) {
+  return lux < static_cast<double>(std::numeric_limits<float>::max()) ? static_cast<float>(lux) : kInfinity;
+}
 
 /// Of each picture, pixels.
 struct Size {
@@ -138,11 +144,11 @@ class Drawer {
 
   /// Infinite where the lamp lies on the surface.
   Arrival arrival(const SurfacePoint& point) const {
-    if (lamp_.far) return {Vec3(lamp_.at), static_cast<float>(lamp_.strength)};
+    if (lamp_.far) return {Vec3(lamp_.at), single(lamp_.strength)};
     const DVec3 way = lamp_.at - (rays_.scene().origin_m + DVec3(point.position));
     const double length = glm::length(way);
     if (length <= static_cast<double>(point.error_m)) return {point.normal, kInfinity};
-    return {Vec3(way / length), static_cast<float>(lamp_.strength / (length * length))};
+    return {Vec3(way / length), single(lamp_.strength / (length * length))};
   }
 
   void pixel(std::size_t row, std::size_t column, std::vector<Rgb>& sheet,
@@ -173,6 +179,10 @@ class Drawer {
   void sample(std::size_t lit, const SurfacePoint& point, const Vec3& towards_eye, Rgb& exact_sum,
               std::vector<Rgb>& through_sum, std::vector<Difference>& differences) const {
     const Arrival light = arrival(point);
+    if (!std::isfinite(light.illuminance_lx)) {
+      exact_sum = Rgb(kInfinity);  // draw() refuses it
+      return;
+    }
     const Frame frame{point.tangent, glm::cross(point.normal, point.tangent), point.normal};
     const Vec3 wo = frame.to_local(towards_eye), wi = frame.to_local(light.towards);
     const bool dark = !(wo.z > 0) || wi.z <= 0 || glm::dot(point.geometric_normal, light.towards) <= 0;
