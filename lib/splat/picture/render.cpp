@@ -137,8 +137,7 @@ void declare_options(Options& options, RenderOptions& r) {
        {"none", DirectBy::none}},
       "method for direct light: traced: by shadow rays; interleaved: by shadow rays that 4 x 4 pixels of one "
       "diffuse surface share, also at edges, with more rays only where a lamp is partly hidden (a fraction "
-      "of the time; shadows blur over up to 4 pixels, less with more rays, not with 64 rays; for the sky and "
-      "other lamps of uneven light or many faces only faint shadows blur, up to 4096 rays); shadow-map: by "
+      "of the time; shadows that noise would hide blur over up to 4 pixels); shadow-map: by "
       "shadow maps (a fast preview of diffuse surfaces alone); none: no direct light");
   options.integer("light-samples", r.light_samples, "N",
                   "number of shadow rays from a pixel to each area light or environment, shared among the "
