@@ -12,7 +12,7 @@
 namespace phos {
 namespace {
 
-/// 2 m wide, 2.4 m high and 8 m long; the side walls shine in turn by lamps beside them.
+/// 2 m wide, 2.4 m high and 8 m long, with four lamps under the ceiling.
 Scene corridor() {
   Scene scene;
   const std::uint32_t walls = test::add_lambert(scene, "walls", 0.7f),
@@ -64,10 +64,10 @@ struct Ground {
       const RadianceEstimator estimator(rays, lights, {}, many.records, order, RadianceGradient::none, 99);
       const auto worker = estimator.make_worker();
       GlossCache exact(scene.bounds, 0.2, tables);
-      exact.insert(*estimator
-                        .make({view.point.position, view.point.smooth_normal, static_cast<std::uint64_t>(i)},
-                              *worker)
-                        .radiance);
+      exact.insert(
+          *estimator
+               .make({view.point.position, view.point.smooth_normal, static_cast<std::uint64_t>(i)}, *worker)
+               .radiance);
       GlossCache::Worker lookup;
       view.truth = static_cast<double>(luminance(exact.outgoing(view.point, view.wo, lookup)->radiance));
       views.push_back(view);

@@ -232,6 +232,38 @@ TEST(RadiancePlacement, FinalRadiiAndGradients) {
   EXPECT_NEAR(records[1].translation_gradient[0].x, e.translation_gradient[0].x, 1e-6f);
 }
 
+/// A footprint has looked in bounds: neighbours do not clamp it, and a limit shortens all its axes alike.
+TEST(RadiancePlacement, FootprintsKeepTheirShapeAndGradients) {
+  Bounds box;
+  box.include(Vec3(0)), box.include(Vec3(1));
+  RadiusRules rules(box, {0.1f, 100});
+  for (const float x : {0.f, 1.f}) {
+    auto full = std::make_shared<RadianceRecord>(test::radiance_record(
+        [](const Vec3&) { return Rgb(1); }, {x, 0, 0}, Frame{}, 3, x == 0 ? 10.f : 0.2f));
+    full->gradient_x.assign(27, 3.f);
+    full->footprint_m = {2, 1.5f, 1, 1, 1, 1, 1, 1.5f};
+    Made made{irradiance_of(*full)};
+    made.radiance = full;
+    rules.add(made, [](std::size_t, float) { ADD_FAILURE() << "clamped"; });
+  }
+  rules.limit(0, 4);
+  std::vector<IrradianceRecord> records;
+  std::vector<RadianceRecord> radiance;
+  rules.finish(records, &radiance);
+  ASSERT_EQ(radiance.size(), 2u);
+  EXPECT_EQ(radiance[0].radius_m, 4);
+  EXPECT_EQ(radiance[1].radius_m, 0.2f);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(radiance[i].radius_m, records[i].radius_m);
+    EXPECT_EQ(radiance[i].gradient_x, std::vector<float>(27, 3.f));
+    EXPECT_EQ(radiance[i].footprint_m->at(0), 2);
+  }
+  const IrradianceRecord limited = irradiance_of(radiance[0]);
+  EXPECT_NEAR(record_error(limited, {1, 0, 0}, {0, 0, 1}), 0.25, 1e-6) << "4 m along the longest axis";
+  EXPECT_NEAR(record_error(limited, {0, 1, 0}, {0, 0, 1}), 0.5, 1e-6)
+      << "2 m along an axis of half its length";
+}
+
 TEST(RadiancePlacement, OrdersThatNobodyReadsAreRefused) {
   Studio studio;
   const std::vector<int> orders = studio.tables.orders();
