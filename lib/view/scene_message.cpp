@@ -13,7 +13,6 @@
 #include "view/glint_fields.h"
 #include "view/limits.h"
 #include "view/message/writer.h"
-#include "view/scene_textures.h"
 #include "view/specular_fields.h"
 
 namespace phos::inline view {
@@ -99,10 +98,11 @@ Reflection reflection_of(const Scene& scene, std::uint32_t material) {
   return r;
 }
 
-void add_materials(const Scene& scene, std::size_t most_texels, MessageWriter& message) {
+/// Returns how many textures are reduced.
+std::size_t add_materials(const Scene& scene, const TextureLimits& most, MessageWriter& message) {
   Floats diffuse, gloss, emission, cutoff, colour_place, emission_place;
   Numbers flags, colour_texture, colour_set, emission_texture, emission_set;
-  SceneTextures textures(scene, most_texels);
+  SceneTextures textures(scene, most);
   for (std::uint32_t i = 0; i < scene.material.size(); ++i) {
     const Material& m = scene.material[i];
     const Reflection reflection = reflection_of(scene, i);
@@ -134,7 +134,7 @@ void add_materials(const Scene& scene, std::size_t most_texels, MessageWriter& m
   message.add("material", "emission_texture", emission_texture);
   message.add("material", "emission_set", emission_set);
   message.add("material", "emission_place", emission_place);
-  textures.add_to(message);
+  return textures.add_to(message);
 }
 
 /// Places of a lamp: fewer of each where there are many lamps.
@@ -233,11 +233,11 @@ void add_sky(const Scene& scene, MessageWriter& message) {
 
 }  // namespace
 
-std::string scene_message(const Scene& scene, int light_samples, std::size_t most_texels) {
+SceneMessage scene_message(const Scene& scene, int light_samples, const TextureLimits& most) {
   MessageWriter message(MessageKind::scene);
   add_geometry(scene, message);
   add_parts(scene, message);
-  add_materials(scene, most_texels, message);
+  const std::size_t reduced = add_materials(scene, most, message);
   add_specular(scene, message);
   add_glints(scene, message);
   add_lamps(scene, light_samples, message);
@@ -248,7 +248,7 @@ std::string scene_message(const Scene& scene, int light_samples, std::size_t mos
     throw Error(ExitCode::usage, "",
                 text("the scene takes ", bytes.size(), " bytes in a browser, and more than ",
                      written(kMostPageBytes), " do not fit there; leave out meshes with many triangles"));
-  return bytes;
+  return {std::move(bytes), reduced};
 }
 
 }  // namespace phos::inline view

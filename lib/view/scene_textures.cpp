@@ -22,14 +22,19 @@ struct Sent {
   int step = 1;
   int width() const { return (texture->width + step - 1) / step; }
   int height() const { return (texture->height + step - 1) / step; }
+  std::size_t side() const { return static_cast<std::size_t>(std::max(width(), height())); }
   std::size_t size() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
 };
 
-std::vector<Sent> fitted(const std::vector<const Texture*>& used, std::size_t most_texels) {
+std::vector<Sent> fitted(const std::vector<const Texture*>& used, const TextureLimits& most) {
   std::vector<Sent> all;
   std::size_t texels = 0;
-  for (const Texture* t : used) all.push_back({t}), texels += all.back().size();
-  while (texels > most_texels) {
+  for (const Texture* t : used) {
+    Sent& sent = all.emplace_back(Sent{t});
+    while (sent.side() > most.side) sent.step *= 2;
+    texels += sent.size();
+  }
+  while (texels > most.all) {
     const auto largest = std::max_element(all.begin(), all.end(),
                                           [](const Sent& a, const Sent& b) { return a.size() < b.size(); });
     if (largest->size() == 1) break;
@@ -74,10 +79,12 @@ std::uint32_t SceneTextures::row(const TextureUse& use) {
   return found->second;
 }
 
-void SceneTextures::add_to(MessageWriter& message) const {
+std::size_t SceneTextures::add_to(MessageWriter& message) const {
   Numbers width, height, wrap, nearest, srgb, first;
   std::vector<std::uint8_t> rgba;
-  for (const Sent& sent : fitted(used_, most_texels_)) {
+  std::size_t reduced = 0;
+  for (const Sent& sent : fitted(used_, most_)) {
+    reduced += sent.step > 1 ? 1 : 0;
     const Texture& texture = *sent.texture;
     const bool coded = texture.srgb || !texture.texels.empty();
     width.push_back(static_cast<std::uint32_t>(sent.width()));
@@ -96,6 +103,7 @@ void SceneTextures::add_to(MessageWriter& message) const {
   message.add("texture", "srgb", srgb);
   message.add("texture", "first_texel", first);
   message.add("texel", "rgba", rgba);
+  return reduced;
 }
 
 }  // namespace phos::inline view

@@ -64,11 +64,9 @@ struct Light {
   double lx, error_lx;
 };
 
-Light light_at(const Scene& scene, const Point& p, std::uint64_t seed) {
-  const RayScene rays(scene);
-  const Luminaires lights(scene);
+Light light_at(const RayScene& rays, const Luminaires& lights, const Point& p, std::uint64_t seed) {
   RandomStream random(seed, Stage::direct_light, 7);
-  const SurfacePoint at = receiver(scene, Vec3(p.position), Vec3(p.normal));
+  const SurfacePoint at = receiver(rays.scene(), Vec3(p.position), Vec3(p.normal));
   const DirectIrradiance e = direct_irradiance(rays, lights, at, 4096, random);
   return {static_cast<double>(e.irradiance.y), static_cast<double>(e.stderr_lx.y)};
 }
@@ -80,8 +78,10 @@ const Point kA{{2, 2.75, 0}, {0, 0, 1}}, kC{{2, 1.75, 0}, {0, 0, 1}}, kH{{2, 0, 
 /// With found portals: within four standard errors of the truth for every seed, these being at most `share`
 /// of it.
 void expect_seen(const Scene& scene, const Point& p, double truth_lx, double share, const std::string& what) {
+  const RayScene rays(scene);
+  const Luminaires lights(scene);
   for (const std::uint64_t seed : {0, 1, 2, 3, 4}) {
-    const Light found = light_at(scene, p, seed);
+    const Light found = light_at(rays, lights, p, seed);
     EXPECT_NEAR(found.lx, truth_lx, 4 * found.error_lx + 1e-3 * truth_lx) << what << " " << seed;
     EXPECT_LT(found.error_lx, share * truth_lx) << what << " " << seed;
   }

@@ -26,40 +26,44 @@ double holes(const std::vector<float>& indirect) {
 
 class GrowingBrowser : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!has_chromium())
-      GTEST_SKIP() << "chromium is not installed; pipelines/install.sh --tests installs it";
+  static void SetUpTestSuite() {
+    if (!has_chromium()) return;
     const std::string scene = data("cornell-measured.glb");
     folder_ = scratch("view-grows");
-    ASSERT_EQ(run_tool({"photons", scene, "--photons", "100000", "-o", folder_ + "/box.photons"}).code, 0);
-    ASSERT_EQ(run_tool({"irradiance", scene, folder_ + "/box.photons", "--place", "photons",
+    EXPECT_EQ(run_tool({"photons", scene, "--photons", "100000", "-o", folder_ + "/box.photons"}).code, 0);
+    EXPECT_EQ(run_tool({"irradiance", scene, folder_ + "/box.photons", "--place", "photons",
                         "--max-candidates", "8", "-o", folder_ + "/few.irradiance"})
                   .code,
               0);
-    view_ = std::make_unique<ViewProgram>(std::vector<std::string>{scene, folder_ + "/few.irradiance",
-                                                                   folder_ + "/box.photons", "--save",
-                                                                   folder_ + "/walked.irradiance"});
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
+  void SetUp() override {
+    if (!has_chromium())
+      GTEST_SKIP() << "chromium is not installed; pipelines/install.sh --tests installs it";
+    view_ = std::make_unique<ViewProgram>(
+        std::vector<std::string>{data("cornell-measured.glb"), folder_ + "/few.irradiance",
+                                 folder_ + "/box.photons", "--save", folder_ + "/walked.irradiance"});
     ASSERT_NE(view_->port(), 0u);
   }
   /// Indirect illuminance of the picture after so many frames.
-  std::vector<float> indirect(int frames, const std::string& name) const {
+  std::vector<float> indirect(int frames) const {
     const std::string side = std::to_string(kSide);
-    const Shown shown = open_page(
-        view_->url() + "?width=" + side + "&height=" + side + "&dump=2&grow=" + std::to_string(frames),
-        folder_ + "/" + name);
+    const Shown shown = open_page(view_->url() + "?width=" + side + "&height=" + side +
+                                  "&dump=2&grow=" + std::to_string(frames));
     EXPECT_EQ(shown.console, "");
     EXPECT_EQ(shown.page.find("cannot be shown"), std::string::npos);
     return values_of(shown);
   }
 
-  std::string folder_;
+  static std::string folder_;
   std::unique_ptr<ViewProgram> view_;
 };
+std::string GrowingBrowser::folder_;
 
 TEST_F(GrowingBrowser, HolesFillWithinTwentyFrames) {
-  const double before = holes(indirect(0, "before"));
-  const double after = holes(indirect(20, "after"));
-  const double later = holes(indirect(0, "later"));
+  const double before = holes(indirect(0));
+  const double after = holes(indirect(20));
+  const double later = holes(indirect(0));
   std::printf("[ FIGURES  ] holes before: %.4f, after 20 frames: %.4f, on a new page: %.4f\n", before, after,
               later);
   EXPECT_GT(before, 0.2);
@@ -76,8 +80,8 @@ TEST_F(GrowingBrowser, HolesFillWithinTwentyFrames) {
 }
 
 TEST_F(GrowingBrowser, TwoAtOnce) {
-  auto other = std::async(std::launch::async, [&] { return indirect(20, "two"); });
-  const std::vector<float> one = indirect(20, "one");
+  auto other = std::async(std::launch::async, [&] { return indirect(20); });
+  const std::vector<float> one = indirect(20);
   EXPECT_LT(holes(one), 0.002);
   EXPECT_LT(holes(other.get()), 0.002);
 }

@@ -23,27 +23,27 @@ class Lamps : public testing::Test {
     if (!has_chromium()) return;
     folder_ = scratch("view-lamps");
     groups_ = lamp_groups(folder_);
-  }
-  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
-  void SetUp() override {
-    if (!has_chromium())
-      GTEST_SKIP() << "chromium is not installed; pipelines/install.sh --tests installs it";
     std::vector<std::string> words = groups_.named();
     words.insert(words.end(), {"--compare", groups_.cache("all"), "--lamp-places", "4"});
     view_ = std::make_unique<ViewProgram>(words);
+  }
+  static void TearDownTestSuite() {
+    view_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  void SetUp() override {
+    if (!has_chromium())
+      GTEST_SKIP() << "chromium is not installed; pipelines/install.sh --tests installs it";
     ASSERT_NE(view_->port(), 0u);
   }
-  Shown open(const std::string& query, const std::string& name) const {
-    return open_page(view_->url() + query, folder_ + "/" + name);
-  }
-  /// The values of each query that follows "?width=..&height=..", by all browsers at once.
-  std::vector<std::vector<float>> dumps(const std::vector<std::string>& queries) const {
+  static Shown open(const std::string& query) { return open_page(view_->url() + query); }
+  /// The values of each query that follows "?width=..&height=..", by all pages at once.
+  static std::vector<std::vector<float>> dumps(const std::vector<std::string>& queries) {
     std::vector<std::future<std::vector<float>>> pages;
     for (std::size_t i = 0; i < queries.size(); ++i)
       pages.push_back(std::async(std::launch::async, [&, i] {
         const Shown shown =
-            open("?width=" + std::to_string(kWide) + "&height=" + std::to_string(kHigh) + "&" + queries[i],
-                 std::to_string(i));
+            open("?width=" + std::to_string(kWide) + "&height=" + std::to_string(kHigh) + "&" + queries[i]);
         EXPECT_EQ(shown.console, "") << queries[i];
         return values_of(shown);
       }));
@@ -58,10 +58,11 @@ class Lamps : public testing::Test {
 
   static std::string folder_;
   static LampGroups groups_;
-  std::unique_ptr<ViewProgram> view_;
+  static std::unique_ptr<ViewProgram> view_;
 };
 std::string Lamps::folder_;
 LampGroups Lamps::groups_;
+std::unique_ptr<ViewProgram> Lamps::view_;
 
 float greatest(const std::vector<float>& values) { return *std::max_element(values.begin(), values.end()); }
 
@@ -109,12 +110,12 @@ TEST_F(Lamps, IsoluxLinesStandWhereASteppingOfLuxIs) {
 }
 
 TEST_F(Lamps, UnknownGroupIsNamedWithTheLikest) {
-  const Shown shown = open("?weight=lefd:0.5", "unknown");
+  const Shown shown = open("?weight=lefd:0.5");
   EXPECT_NE(shown.page.find("there is no group \"lefd\"; did you mean \"left\"?"), std::string::npos);
 }
 
 TEST_F(Lamps, FramesAreTimed) {
-  const Shown shown = open("?bench=5&width=64&height=48", "bench");
+  const Shown shown = open("?bench=5&width=64&height=48");
   EXPECT_EQ(shown.console, "");
   const Json times = parse_json(words_of(shown, "bench"), "bench");
   ASSERT_NE(times.find("frames"), nullptr);

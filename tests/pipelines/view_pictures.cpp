@@ -66,8 +66,7 @@ class Pictures : public testing::Test {
     EXPECT_NE(view.port(), 0u);
     const Shown page =
         open_page(view.url() + "?width=" + std::to_string(width) + "&height=" + std::to_string(height) +
-                      "&dump=" + std::to_string(static_cast<int>(quantity)),
-                  file("browser"));
+                  "&dump=" + std::to_string(static_cast<int>(quantity)));
     EXPECT_EQ(page.console, "");
     return {width, height, values_of(page)};
   }

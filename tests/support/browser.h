@@ -1,43 +1,36 @@
 // Pages in a browser without a screen.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "support/run.h"
+#include "support/chromium.h"
 
 namespace phos::test {
 
 inline bool has_chromium() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
 
-struct Shown {
-  std::string page;     ///< its text at the end
-  std::string console;  ///< what it said
-};
+/// A promise, in a page, that is kept once a condition holds. It is looked at whenever the document changes.
+inline std::string once(const std::string& condition) {
+  return "new Promise((done) => { const look = () => { if (" + condition +
+         ") watch.disconnect(), done(); }; const watch = new MutationObserver(look);"
+         " watch.observe(document, {subtree: true, childList: true, characterData: true, attributes: true});"
+         " look(); })";
+}
 
-/// Opens an address in a Chromium of its own, with these words more on its command line.
-inline Shown open_page(const std::string& url, const std::string& folder, const std::string& words = "") {
-  const std::string command =
-      "timeout 180 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
-      "--disable-dev-shm-usage --enable-logging=stderr --virtual-time-budget=60000 --user-data-dir='" +
-      folder + "/profile' " + words + " --dump-dom '" + url + "' >'" + folder + "/page' 2>'" + folder +
-      "/log'";
-  std::filesystem::create_directories(folder);
-  EXPECT_EQ(std::system(command.c_str()), 0) << slurp(folder + "/log");
-  Shown shown{slurp(folder + "/page"), ""};
-  std::istringstream log(slurp(folder + "/log"));
-  for (std::string line; std::getline(log, line);) {
-    // Chromium's own advice on speed ("GPU stall due to ReadPixels") is none of the page's words.
-    const bool advice = line.find("GL Driver Message") != std::string::npos;
-    if (!advice && line.find("CONSOLE") != std::string::npos) shown.console += line + "\n";
-  }
-  return shown;
+/// Kept once values, or times, are there, or the page says why not.
+inline std::string answered() {
+  return once(
+      "document.querySelector('#dump, #bench') || "
+      "document.getElementById('state').textContent.includes('cannot be shown')");
+}
+
+/// Opens an address in the Chromium of this test program.
+inline Shown open_page(const std::string& url, const std::string& promise = answered()) {
+  static Chromium browser;
+  return browser.open(url, promise);
 }
 
 inline std::vector<float> from_base64(const std::string& text) {
@@ -65,7 +58,9 @@ inline std::string words_of(const Shown& shown, const std::string& id) {
   return shown.page.substr(from, shown.page.find('<', from) - from);
 }
 
-/// The values of a quantity that the page says.
-inline std::vector<float> values_of(const Shown& shown) { return from_base64(words_of(shown, "dump")); }
+/// The values of a quantity that the page says: of the first, or of another "dump" of its address.
+inline std::vector<float> values_of(const Shown& shown, int number = 0) {
+  return from_base64(words_of(shown, number ? "dump-" + std::to_string(number) : "dump"));
+}
 
 }  // namespace phos::test

@@ -177,18 +177,22 @@ class CalibratedScene {
   void measure(std::uint64_t seed, CalibrationTable& table) const {
     const KnownPoints seen = known_.points(rays_, seed, options_.points);
     const auto paths = static_cast<std::int64_t>(static_cast<double>(options_.paths) * known_.paths);
-    const Lit lit = light_up(known_.scene, paths, seed);
+    const PhotonMap photons = photons_of(rays_, paths, seed);
+    std::optional<IrradianceCache> indirect;  // by hulls, if made
     if (options_.photons) {
       for (const Estimate estimate : {Estimate::hull, Estimate::kernel}) {
         RecordOptions options = of_photons(known_.quantity);
         options.estimate = estimate;
-        const DensityEstimator maker(lit.photons, *lit.rays, options, seed);
-        blended(estimate == Estimate::hull ? "hull" : "kernel", maker, lit, options, seen, seed, table);
+        const DensityEstimator maker(photons, rays_, options, seed);
+        Placed made = placed(maker, photons, options, seed);
+        const bool hull = estimate == Estimate::hull;
+        blended(hull ? "hull" : "kernel", maker, made.cache, seen, table);
+        if (hull && known_.quantity == Quantity::indirect) indirect = std::move(made.cache);
       }
     }
-    if (options_.gathering) gather(lit, seen, seed, table);
-    if (options_.sensors) sensors(lit, seen, seed, table);
-    if (options_.radiance && known_.even) radiance(lit, seen, seed, table);
+    if (options_.gathering) gather(photons, seen, seed, table);
+    if (options_.sensors) sensors(photons, indirect, seen, seed, table);
+    if (options_.radiance && known_.even) radiance(photons, seen, seed, table);
   }
 
  private:
@@ -200,11 +204,10 @@ class CalibratedScene {
   }
 
   /// Records at points, and the light that a cache of these records gives between them.
-  void blended(const std::string& name, const Estimator& estimator, const Lit& lit,
-               const RecordOptions& options, const KnownPoints& seen, std::uint64_t seed,
-               CalibrationTable& table) const {
+  void blended(const std::string& name, const Estimator& estimator, const IrradianceCache& cache,
+               const KnownPoints& seen, CalibrationTable& table) const {
     const auto add = [&](const std::string& what, std::size_t i, const Rgb& lx, const Rgb& stated_lx) {
-      const double truth = seen.all[i] - (options.paths == Quantity::all ? 0 : seen.direct[i]);
+      const double truth = seen.all[i] - (cache.quantity == Quantity::all ? 0 : seen.direct[i]);
       table[name + what].add(double(luminance(lx)),
                              std::hypot(double(luminance(stated_lx)), seen.all_error[i]), truth);
     };
@@ -214,7 +217,6 @@ class CalibratedScene {
           estimator.make({seen.at[i].position, seen.at[i].normal, kPointItems + i}, *worker).record;
       add(" record", i, r.irradiance, r.stderr_lx);
     }
-    const IrradianceCache cache = placed(estimator, lit, options, seed);
     RecordTree tree(known_.scene.bounds, reading_accuracy(cache.accuracy));
     for (const IrradianceRecord& r : cache.records) tree.insert(r);
     for (std::size_t i = 0; i < seen.at.size(); ++i) {
@@ -223,15 +225,21 @@ class CalibratedScene {
     }
   }
 
-  IrradianceCache placed(const Estimator& estimator, const Lit& lit, const RecordOptions& options,
-                         std::uint64_t seed) const {
+  struct Placed {
     IrradianceCache cache;
-    cache.accuracy = options.accuracy;
-    cache.quantity = options.paths;
+    std::vector<RadianceRecord> radiance;  ///< of an estimator that makes such records
+  };
+  Placed placed(const Estimator& estimator, const PhotonMap& photons, const RecordOptions& options,
+                std::uint64_t seed) const {
+    Placed made;
+    made.cache.accuracy = options.accuracy;
+    made.cache.quantity = options.paths;
     Counters counters;
-    place_records(cache, estimator, *lit.rays, options, {},
-                  photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);
-    return cache;
+    made.radiance =
+        place_records(made.cache, estimator, rays_, options, {},
+                      photon_candidates(photons, Quantity::all, seed, options_.candidates), counters)
+            .radiance;
+    return made;
   }
 
   RecordOptions gathered(Quantity paths) const {
@@ -242,31 +250,34 @@ class CalibratedScene {
     return options;
   }
 
-  void gather(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+  void gather(const PhotonMap& photons, const KnownPoints& seen, std::uint64_t seed,
+              CalibrationTable& table) const {
     const RecordOptions options = gathered(known_.quantity);
-    const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
-    const GatherEstimator estimator(*lit.rays, lights_, coarse.source(), options, seed);
-    blended("gather", estimator, lit, options, seen, seed, table);
+    const CoarseLevel coarse(rays_, photons, options, seed);
+    const GatherEstimator estimator(rays_, lights_, coarse.source(), options, seed);
+    blended("gather", estimator, placed(estimator, photons, options, seed).cache, seen, table);
   }
 
-  void sensors(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+  void sensors(const PhotonMap& photons, const std::optional<IrradianceCache>& indirect,
+               const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
     const RecordOptions options = of_photons(Quantity::indirect);
-    const DensityEstimator maker(lit.photons, *lit.rays, options, seed);
+    const DensityEstimator maker(photons, rays_, options, seed);
     SensorCaches caches({}, nullptr);
-    caches.add(placed(maker, lit, options, seed), "cache");
+    caches.add(indirect ? *indirect : placed(maker, photons, options, seed).cache, "cache");
     Sensors sensors;
     sensors.points = seen.at;
     SensorOptions reading;
     reading.seed = seed;
     SensorReport report;
-    const auto readings = read_light(sensors, *lit.rays, lights_, caches, reading, report);
+    // Without indirect light there is nothing to read in the cache.
+    std::vector<Reading> readings;
+    if (known_.interreflected) readings = read_light(sensors, rays_, lights_, caches, reading, report);
     reading.direct_only = true;
-    const auto direct = read_light(sensors, *lit.rays, lights_, caches, reading, report);
+    const auto direct = read_light(sensors, rays_, lights_, caches, reading, report);
     for (std::size_t i = 0; i < seen.at.size(); ++i) {
       const auto add = [&](const char* what, const Reading& r, double truth, double error) {
         table[what].add(double(r.illuminance_lx), std::hypot(double(r.stderr_lx), error), truth);
       };
-      // Without indirect light there is nothing to read in the cache.
       if (known_.interreflected) add("sensor", readings[i], seen.all[i], seen.all_error[i]);
       add("sensor direct", direct[i], seen.direct[i], seen.direct_error[i]);
     }
@@ -274,30 +285,26 @@ class CalibratedScene {
 
   /// For even light L, the light that leaves by a lobe f is L times the integral of f, in harmonics
   /// f_00 L sqrt(2 pi).
-  void radiance(const Lit& lit, const KnownPoints& seen, std::uint64_t seed, CalibrationTable& table) const {
+  void radiance(const PhotonMap& photons, const KnownPoints& seen, std::uint64_t seed,
+                CalibrationTable& table) const {
     constexpr int kOrder = 5;
     const RecordOptions options = gathered(Quantity::indirect);
-    const CoarseLevel coarse(*lit.rays, lit.photons, options, seed);
-    const RadianceEstimator by_rays(*lit.rays, lights_, coarse.source(), options, kOrder,
+    const CoarseLevel coarse(rays_, photons, options, seed);
+    const RadianceEstimator by_rays(rays_, lights_, coarse.source(), options, kOrder,
                                     RadianceGradient::hybrid, seed);
     const RecordOptions by_hull = of_photons(Quantity::indirect);
-    const RadianceDensityEstimator by_photons(lit.photons, *lit.rays, by_hull, kOrder,
-                                              RadianceGradient::analytic, seed);
+    const RadianceDensityEstimator by_photons(photons, rays_, by_hull, kOrder, RadianceGradient::analytic,
+                                              seed);
     const double indirect = seen.all[0] - seen.direct[0];
     for (const Estimator* estimator :
          {static_cast<const Estimator*>(&by_rays), static_cast<const Estimator*>(&by_photons)}) {
       const bool rays = estimator == &by_rays;
       const std::string name = rays ? "radiance by rays" : "radiance by photons";
-      IrradianceCache cache;
-      cache.accuracy = options.accuracy;
-      Counters counters;
-      const PlacementReport report =
-          place_records(cache, *estimator, *lit.rays, rays ? options : by_hull, {},
-                        photon_candidates(lit.photons, Quantity::all, seed, options_.candidates), counters);
+      const Placed made = placed(*estimator, photons, rays ? options : by_hull, seed);
       RadianceCache as_read;
       as_read.accuracy = options.accuracy;
       RadianceTree tree(known_.scene.bounds, reading_accuracy(as_read), kOrder);
-      for (const RadianceRecord& r : report.radiance) tree.insert(r);
+      for (const RadianceRecord& r : made.radiance) tree.insert(r);
       RadianceTree::Worker memory;
       std::vector<float> lobe(3 * kOrder * kOrder, 0);
       for (std::size_t i = 0; i < seen.at.size(); ++i) {
@@ -309,7 +316,7 @@ class CalibratedScene {
         const double truth = indirect / std::numbers::pi * double(lobe[0]) * std::sqrt(2 * std::numbers::pi);
         table[name + " through a lobe"].add(double(found.radiance.y), double(found.stderr_cd.y), truth);
       }
-      blended(name, *estimator, lit, rays ? options : by_hull, seen, seed, table);
+      blended(name, *estimator, made.cache, seen, table);
     }
   }
   static Vec3 sample_cosine(std::uint64_t seed, std::size_t i) {

@@ -20,15 +20,20 @@ struct Lit {
   PhotonMap photons;
 };
 
-inline Lit light_up(const Scene& scene, std::int64_t paths, std::uint64_t seed = 1) {
-  auto own = std::make_unique<Scene>(scene);
-  auto rays = std::make_unique<RayScene>(*own);
+inline PhotonMap photons_of(const RayScene& rays, std::int64_t paths, std::uint64_t seed) {
   PhotonTotals totals;
   Counters counters;
   PhotonOptions options;
   options.paths = paths;
-  Photons photons = trace_photons(*rays, options, seed, totals, counters);
-  return {std::move(own), std::move(rays), PhotonMap::build(std::move(photons), totals)};
+  Photons photons = trace_photons(rays, options, seed, totals, counters);
+  return PhotonMap::build(std::move(photons), totals);
+}
+
+inline Lit light_up(const Scene& scene, std::int64_t paths, std::uint64_t seed = 1) {
+  auto own = std::make_unique<Scene>(scene);
+  auto rays = std::make_unique<RayScene>(*own);
+  PhotonMap photons = photons_of(*rays, paths, seed);
+  return {std::move(own), std::move(rays), std::move(photons)};
 }
 
 inline RecordOptions all_light(const Scene& scene) {

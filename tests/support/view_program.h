@@ -13,8 +13,8 @@ namespace phos::test {
 class ViewProgram {
  public:
   explicit ViewProgram(std::vector<std::string> inputs) : process_(arguments(std::move(inputs))) {
-    for (int tries = 0; tries < 600 && url().empty(); ++tries)
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    for (int tries = 0; tries < 6000 && url().empty(); ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   ~ViewProgram() {
     if (!ended_) process_.signal(SIGKILL), process_.wait();

@@ -15,47 +15,93 @@ namespace {
 
 using test::add_quad;
 
-/// Two quads with textures of 8 x 8 and 2 x 2 texels: left halves black, right halves white, linear.
-Scene textured() {
+/// Of linear light; codes are row by row.
+Texture linear_texture(int width, int height, const std::vector<Texture::Code>& codes) {
+  Texture texture;
+  texture.width = width, texture.height = height, texture.codes = codes;
+  return texture;
+}
+
+/// Left half black, right half white.
+Texture halves(int side) {
+  std::vector<Texture::Code> codes;
+  for (int i = 0; i < side * side; ++i) {
+    const std::uint8_t v = i % side < side / 2 ? 0 : 255;
+    codes.push_back({v, v, v, 255});
+  }
+  return linear_texture(side, side, codes);
+}
+
+/// A quad with each texture.
+Scene textured(const std::vector<Texture>& textures) {
   Scene scene;
-  for (const int side : {8, 2}) {
-    Texture texture;
-    texture.width = texture.height = side;
-    for (int i = 0; i < side * side; ++i) {
-      const std::uint8_t v = i % side < side / 2 ? 0 : 255;
-      texture.codes.push_back({v, v, v, 255});
-    }
+  for (const Texture& texture : textures) {
     Material m;
     m.base_colour.texture = static_cast<std::int32_t>(scene.texture.size());
     scene.texture.push_back(texture);
     scene.material.push_back(m);
-    test::add_quad(scene, 1, 1, static_cast<float>(side), true,
-                   static_cast<std::uint32_t>(scene.material.size() - 1));
+    add_quad(scene, 1, 1, static_cast<float>(scene.texture.size()), true,
+             static_cast<std::uint32_t>(scene.material.size() - 1));
   }
   finalize(scene);
   return scene;
 }
 
 TEST(ViewScene, TexturesAreSentAsTheyAreOrHalvedUntilTheyFit) {
-  const Scene scene = textured();
+  const Scene scene = textured({halves(8), halves(2)});
   struct Expected {
-    std::size_t most;
+    TextureLimits most;
     std::vector<std::uint32_t> width;
+    std::size_t reduced;
   };
-  for (const auto& [most, width] :
-       {Expected{1000, {8, 2}}, {68, {8, 2}}, {67, {4, 2}}, {8, {2, 2}}, {0, {1, 1}}}) {
-    const std::string bytes = scene_message(scene, 1, most);
-    const MessageReader read(bytes, MessageKind::scene);
-    EXPECT_EQ(read.numbers("texture", "width"), width) << most;
-    EXPECT_EQ(read.numbers("texture", "height"), width) << most;
+  for (const auto& [most, width, reduced] : {Expected{{}, {8, 2}, 0},
+                                             {{.all = 1000}, {8, 2}, 0},
+                                             {{.all = 68}, {8, 2}, 0},
+                                             {{.all = 67}, {4, 2}, 1},
+                                             {{.all = 8}, {2, 2}, 1},
+                                             {{.all = 0}, {1, 1}, 2},
+                                             {{.side = 8}, {8, 2}, 0},
+                                             {{.side = 7}, {4, 2}, 1},
+                                             {{.side = 1}, {1, 1}, 2},
+                                             {{.all = 8, .side = 4}, {2, 2}, 1}}) {
+    SCOPED_TRACE(testing::Message() << most.all << " texels, " << most.side << " on a side");
+    const SceneMessage message = scene_message(scene, 1, most);
+    EXPECT_EQ(message.reduced_textures, reduced);
+    const MessageReader read(message.bytes, MessageKind::scene);
+    EXPECT_EQ(read.numbers("texture", "width"), width);
+    EXPECT_EQ(read.numbers("texture", "height"), width);
     const auto first = read.numbers("texture", "first_texel");
     EXPECT_EQ(first[1], width[0] * width[0]);
     const std::string_view texels = read.bytes("texel", "rgba");
     ASSERT_EQ(texels.size(), 4 * (width[0] * width[0] + width[1] * width[1]));
     const auto value = [&](std::size_t texel) { return static_cast<unsigned char>(texels[4 * texel]); };
-    EXPECT_EQ(value(0), width[0] == 1 ? 128 : 0) << most;
-    EXPECT_EQ(value(width[0] - 1), width[0] == 1 ? 128 : 255) << most;
+    EXPECT_EQ(value(0), width[0] == 1 ? 128 : 0);
+    EXPECT_EQ(value(width[0] - 1), width[0] == 1 ? 128 : 255);
   }
+}
+
+TEST(ViewScene, ReducedTexturesHoldTheMeanLight) {
+  // 3 x 1 linear, one texel that stays, and 4 x 2 in sRGB, black and white: half of white is 188.
+  Texture one = linear_texture(1, 1, {{9, 8, 7, 6}}), chequered = linear_texture(4, 2, {});
+  one.srgb = chequered.srgb = true;
+  for (int i = 0; i < 8; ++i) {
+    const std::uint8_t v = (i + i / 4) % 2 ? 255 : 0;
+    chequered.codes.push_back({v, v, v, v});
+  }
+  const Scene scene = textured(
+      {linear_texture(3, 1, {{0, 30, 60, 255}, {90, 30, 60, 255}, {240, 30, 60, 0}}), one, chequered});
+  const SceneMessage message = scene_message(scene, 1, {.side = 2});
+  EXPECT_EQ(message.reduced_textures, 2u);
+  const MessageReader read(message.bytes, MessageKind::scene);
+  EXPECT_EQ(read.numbers("texture", "width"), (std::vector<std::uint32_t>{2, 1, 2}));
+  EXPECT_EQ(read.numbers("texture", "height"), (std::vector<std::uint32_t>{1, 1, 1}));
+  EXPECT_EQ(read.numbers("texture", "first_texel"), (std::vector<std::uint32_t>{0, 2, 3}));
+  const std::string_view bytes = read.bytes("texel", "rgba");
+  std::vector<int> codes;
+  for (const char c : bytes) codes.push_back(static_cast<unsigned char>(c));
+  // The third texel of the first stands alone in its block.
+  EXPECT_EQ(codes, (std::vector<int>{45, 30, 60,  255, 240, 30,  60,  0,   9,   8,
+                                     7,  6,  188, 188, 188, 128, 188, 188, 188, 128}));
 }
 
 /// A floor and a mirror in one instance list, and a pane: shares at normal incidence, and parts by plane.
@@ -71,7 +117,7 @@ TEST(ViewScene, MirrorsAndPanesTellTheirShares) {
   add_quad(scene, 1, 1, 1, true, 2);
   test::add_lamp(scene, 0.1f, 0.1f, 2, false, Rgb(100));
   finalize(scene);
-  const std::string bytes = scene_message(scene, 4);
+  const std::string bytes = scene_message(scene, 4).bytes;
   const MessageReader read(bytes, MessageKind::scene);
   const auto specular = read.numbers("material", "specular");
   EXPECT_EQ(specular[0], kNoRow);

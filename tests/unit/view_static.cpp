@@ -1,4 +1,4 @@
-// The page without a server: the precision that it keeps, its textures, and that it asks nobody for anything.
+// The page without a server: the precision that it keeps, and that it asks nobody for anything.
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
@@ -19,7 +19,6 @@
 #include "view/static/coding.h"
 #include "view/static/deflate.h"
 #include "view/static/packed_message.h"
-#include "view/static/smaller_textures.h"
 #include "view/static/static_page.h"
 
 namespace phos {
@@ -212,49 +211,6 @@ TEST(ViewStatic, DeflatedBytesComeBack) {
   EXPECT_LT(deflated(std::string(100000, 'a')).size(), 200u);
 }
 
-/// A scene message with these textures alone.
-std::string with_textures(const std::vector<std::array<std::uint32_t, 3>>& width_height_srgb,
-                          const std::vector<std::uint8_t>& rgba) {
-  MessageWriter message(MessageKind::scene);
-  std::vector<std::uint32_t> width, height, srgb, first;
-  std::uint32_t texels = 0;
-  for (const auto& [w, h, s] : width_height_srgb)
-    width.push_back(w), height.push_back(h), srgb.push_back(s), first.push_back(texels), texels += w * h;
-  const std::vector<std::uint32_t> zeros(width.size()), wraps(2 * width.size());
-  message.add("texture", "width", width), message.add("texture", "height", height),
-      message.add("texture", "wrap", wraps);
-  message.add("texture", "nearest", zeros), message.add("texture", "srgb", srgb),
-      message.add("texture", "first_texel", first);
-  message.add("texel", "rgba", rgba);
-  return message.message();
-}
-
-TEST(ViewStatic, TexturesOfFewTexelsStay) {
-  const std::string message = with_textures({{2, 1, 1}}, {1, 2, 3, 4, 5, 6, 7, 8});
-  const SmallerTextures same = with_smaller_textures(message, 2);
-  EXPECT_EQ(same.reduced, 0u);
-  EXPECT_EQ(same.message, message);
-}
-
-TEST(ViewStatic, ReducedTexturesHoldTheMeanLight) {
-  // 3 x 1 linear, one texel that stays, and 4 x 2 in sRGB, black and white: half of white is 188.
-  std::vector<std::uint8_t> rgba = {0, 30, 60, 255, 90, 30, 60, 255, 240, 30, 60, 0, 9, 8, 7, 6};
-  for (int i = 0; i < 8; ++i) rgba.insert(rgba.end(), 4, (i + i / 4) % 2 ? 255 : 0);
-  const SmallerTextures small =
-      with_smaller_textures(with_textures({{3, 1, 0}, {1, 1, 1}, {4, 2, 1}}, rgba), 2);
-  EXPECT_EQ(small.reduced, 2u);
-  const MessageReader read(small.message, MessageKind::scene);
-  EXPECT_EQ(read.numbers("texture", "width"), (std::vector<std::uint32_t>{2, 1, 2}));
-  EXPECT_EQ(read.numbers("texture", "height"), (std::vector<std::uint32_t>{1, 1, 1}));
-  EXPECT_EQ(read.numbers("texture", "first_texel"), (std::vector<std::uint32_t>{0, 2, 3}));
-  const std::string_view bytes = read.bytes("texel", "rgba");
-  std::vector<int> codes;
-  for (const char c : bytes) codes.push_back(static_cast<unsigned char>(c));
-  // (0 + 90 / 2) / 1.5 = 30, (90 / 2 + 240) / 1.5 = 190; alpha 255 and 85
-  EXPECT_EQ(codes, (std::vector<int>{30, 30, 60,  255, 190, 30,  60,  85,  9,   8,
-                                     7,  6,  188, 188, 188, 128, 188, 188, 188, 128}));
-}
-
 PageFiles some_files(std::string records = MessageWriter(MessageKind::records).message()) {
   Json about = Json::Object{};
   about["title"] = "</script>", about["notes"] = Json::Array{};
@@ -306,7 +262,7 @@ TEST(ViewStatic, SponzaIsSmall) {
     records.add(field.table, field.name, values);
   }
   Json about = Json::Object{};
-  const PageFiles files(scene_message(load_scene(model), 16), records.message(), about);
+  const PageFiles files(scene_message(load_scene(model), 16).bytes, records.message(), about);
   const std::size_t bytes = static_page(files, about).size();
   std::printf("[ FIGURES  ] Sponza, 40000 records: %.1f MB\n", static_cast<double>(bytes) / 1e6);
   EXPECT_LT(bytes, 25000000u);

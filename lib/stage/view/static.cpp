@@ -7,7 +7,6 @@
 #include "file/atomic_file.h"
 #include "file/write_text.h"
 #include "view/static/coding.h"
-#include "view/static/smaller_textures.h"
 #include "view/static/static_page.h"
 
 namespace phos::stage {
@@ -17,20 +16,6 @@ std::string two_digits(double value) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.2g", value);
   return digits;
-}
-
-/// The greatest errors of rounding, of places and of the light of records.
-std::string precision_note(const Scene& scene) {
-  double place_mm = 0, light_percent = 0;
-  for (const CodedField& field : coded_fields()) {
-    if (field.table == "vertex" && field.name == "position")
-      place_mm = 1000 * static_cast<double>(max_component(scene.bounds.size())) / 2 /
-                 (std::exp2(field.coding.bits) - 1);
-    if (field.table == "record" && field.name == "irradiance")
-      light_percent = 100 * std::exp2(-1. - field.coding.bits);
-  }
-  return text("the page holds rounded numbers: places to ", two_digits(place_mm),
-              " mm, the light of records to ", two_digits(light_percent), " %");
 }
 
 Json provenance_of(const Tool& tool, const Scene& scene) {
@@ -59,15 +44,17 @@ void require_static_options(Tool& tool, const ViewCommand& asked) {
   require_writable(asked.static_path);
 }
 
-std::string message_for_static_page(std::string scene_message, const ViewCommand& asked, const Scene& scene,
-                                    std::vector<std::string>& notes) {
-  notes.push_back(precision_note(scene));
-  const SmallerTextures small =
-      with_smaller_textures(scene_message, static_cast<unsigned>(asked.texture_size));
-  if (small.reduced > 0)
-    notes.push_back(text(small.reduced, small.reduced == 1 ? " texture is" : " textures are", " reduced to ",
-                         asked.texture_size, " texels on the longer side (--texture-size)"));
-  return small.message;
+std::string precision_note(const Scene& scene) {
+  double place_mm = 0, light_percent = 0;
+  for (const CodedField& field : coded_fields()) {
+    if (field.table == "vertex" && field.name == "position")
+      place_mm = 1000 * static_cast<double>(max_component(scene.bounds.size())) / 2 /
+                 (std::exp2(field.coding.bits) - 1);
+    if (field.table == "record" && field.name == "irradiance")
+      light_percent = 100 * std::exp2(-1. - field.coding.bits);
+  }
+  return text("the page holds rounded numbers: places to ", two_digits(place_mm),
+              " mm, the light of records to ", two_digits(light_percent), " %");
 }
 
 void write_static_page(Tool& tool, const ViewCommand& asked, const Scene& scene, const PageFiles& files) {

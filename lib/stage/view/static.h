@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "file/tool.h"
 #include "scene/scene.h"
@@ -15,9 +14,8 @@ namespace phos::stage {
 /// Error(bad_input) where nothing could be written at the path of --static.
 void require_static_options(Tool& tool, const ViewCommand& asked);
 
-/// The message of a scene as the page is to hold it. Adds the approximations of the page to `notes`.
-std::string message_for_static_page(std::string scene_message, const ViewCommand& asked, const Scene& scene,
-                                    std::vector<std::string>& notes);
+/// The greatest errors of rounding in the page, of places and of the light of records, for its notes.
+std::string precision_note(const Scene& scene);
 
 /// Writes the page, whole or not at all.
 void write_static_page(Tool& tool, const ViewCommand& asked, const Scene& scene, const PageFiles& files);

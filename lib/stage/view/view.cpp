@@ -191,11 +191,17 @@ void run(Tool& tool, ViewCommand& asked) {
   if (!is_static)
     growth =
         growth_of(tool, {scene_path, asked_sets[0].paths(), asked.growth.photons}, sets, asked.growth, notes);
-  std::string drawn = scene_message(lit.scene, static_cast<int>(asked.lamp_places));
-  if (is_static) drawn = message_for_static_page(std::move(drawn), asked, lit.scene, notes);
+  TextureLimits most;
+  if (is_static) most.side = static_cast<std::size_t>(asked.texture_size);
+  SceneMessage drawn = scene_message(lit.scene, static_cast<int>(asked.lamp_places), most);
+  if (is_static) notes.push_back(precision_note(lit.scene));
+  if (const std::size_t n = drawn.reduced_textures; n > 0)
+    notes.push_back(text(n, n == 1 ? " texture has" : " textures have",
+                         " fewer texels in the page than in the scene",
+                         is_static ? " (--texture-size)" : ""));
   Json facts = about(scene_path, notes, asked_sets, sets);
   if (growth) facts["growth"] = growth->facts();
-  PageFiles page(std::move(drawn), std::move(records[0]), facts);
+  PageFiles page(std::move(drawn.bytes), std::move(records[0]), facts);
   for (std::size_t i = 1; i < records.size(); ++i) page.add(path_of("records", i), std::move(records[i]));
   for (std::size_t i = 0; i < gloss.size(); ++i) page.add(path_of("gloss", i), std::move(gloss[i]));
   for (const std::string& note : notes) tool.say(note);

@@ -15,7 +15,7 @@ namespace phos::stage {
 
 /// Of --static, and of the caches that grow. Nothing compares it for these: their records depend on the walk
 /// too.
-inline constexpr int kViewAlgorithm = 1;
+inline constexpr int kViewAlgorithm = 2;
 
 struct ViewCommand {
   std::string scene_path;  ///< or one of the caches: the two may change places

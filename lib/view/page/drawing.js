@@ -25,8 +25,9 @@ export async function loadShaders(load) {
 }
 
 export class Drawing {
-  // `sets`: [{label, groups: [{name, lamps, records, gloss}]}] with messages of records.
-  constructor(canvas, shaders, scene, sets, palette) {
+  // `sets`: [{label, groups: [{name, lamps, records, gloss}]}] with messages of records. `side`: pixels on the longer side of the
+  // picture, which shadow maps are to be fine enough for.
+  constructor(canvas, shaders, scene, sets, palette, side) {
     const gl = this.gl = canvas.getContext('webgl2', {antialias: false, alpha: false, preserveDrawingBuffer: true});
     if (!gl) throw new Error('this browser has no WebGL 2');
     for (const name of ['EXT_color_buffer_float', 'EXT_float_blend'])
@@ -63,7 +64,7 @@ export class Drawing {
     const skyLamp = scene.scene.sky_lamp[0];
     this.skyLampNumber = skyLamp < scene.lamp.rows ? skyLamp + 1 : 0;
     this.materialMap = materialMap(gl, scene.material);
-    this.lamps = new Lamps(gl, scene, this.mesh, this.programs.shadow, this.programs.veil);
+    this.lamps = new Lamps(gl, scene, this.mesh, this.programs.shadow, this.programs.veil, side);
     this.paletteMap = makeTexture(gl, gl.RGBA8, 256, 1);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);

@@ -5,6 +5,7 @@ import {across, add, dot, length, matrixOfRows, normalized, row, scale, subtract
 
 const SPOT = 2, DIRECTIONAL = 3;  // PlaceShape
 const MAP_BYTES = 384 << 20;                // of all maps together
+const MAP_TEXELS_A_PIXEL = 4;               // of a side of a map, to those of the picture
 const SHARE_WIDTH = 361, SHARE_HEIGHT = 181;
 
 const looking = (forward, up) => {
@@ -27,8 +28,8 @@ function cubeAxes(forward) {
 }
 
 export class Lamps {
-  // `program` draws depths, `veilProgram` the light that panes let through.
-  constructor(gl, scene, mesh, program, veilProgram) {
+  // `program` draws depths, `veilProgram` the light that panes let through. `side`: pixels on the longer side of the picture.
+  constructor(gl, scene, mesh, program, veilProgram, side) {
     Object.assign(this, {gl, mesh, program, veilProgram});
     this.lo = row(scene.scene.bounds_lo, 0), this.hi = row(scene.scene.bounds_hi, 0);
     this.shares = Array.from({length: scene.distribution.rows}, (_, i) => this.#makeShare(scene.distribution, i));
@@ -37,7 +38,7 @@ export class Lamps {
     const faces = this.places.reduce((sum, place) => sum + place.axes.length, 0);
     this.size = 2048;
     const texel = mesh.panes.length ? 16 : 4;  // bytes
-    while (this.size > 128 && faces * this.size * this.size * texel > MAP_BYTES) this.size /= 2;
+    while (this.size > 128 && (faces * this.size * this.size * texel > MAP_BYTES || this.size > MAP_TEXELS_A_PIXEL * side)) this.size /= 2;
     this.drawn = 0;
   }
 

@@ -1,10 +1,10 @@
 // The page: loads the scene, draws when something has changed, and asks for the light under the cursor.
 //
 // The address may hold ?camera=N&width=W&height=H, a picture of that size without the panel. With &dump=Q (the
-// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump; &dump=isolux&step=LX
-// gives 1 where a line is. &weight=NAME:W dims a group of lamps (?weight=W: caches without names), &wipe=SHARE sets the
-// wipe, and ?bench=FRAMES measures frames, whose times become the text of #bench. &grow=FRAMES lets the cache grow before
-// the values are dumped, for so many frames.
+// number of a quantity) its values, 32-bit floats from the top in base64, become the text of #dump; a second dump=Q that
+// of #dump-1, and so on. &dump=isolux&step=LX gives 1 where a line is. &weight=NAME:W dims a group of lamps (?weight=W:
+// caches without names), &wipe=SHARE sets the wipe, and ?bench=FRAMES measures frames, whose times become the text of
+// #bench. &grow=FRAMES lets the cache grow before the values are dumped, for so many frames.
 import {bench} from './bench.js';
 import {Dimming} from './dimming.js';
 import {Distance} from './distance.js';
@@ -23,9 +23,16 @@ import {Wipe} from './wipe.js';
 
 const $ = (id) => document.getElementById(id);
 const UNITS = ['cd/m²', 'lx', 'lx', 'lx', 'cd/m²'];
-const PLACES_A_FRAME = 4;  // places of lamps whose shadow maps a frame draws
 const asked = new URLSearchParams(location.search);
-const WITHOUT_LAMPS = ['2', '4'].includes(asked.get('dump'));  // quantities of records alone
+const DUMPS = asked.getAll('dump');
+const WITHOUT_LAMPS = DUMPS.length > 0 && DUMPS.every((what) => ['2', '4'].includes(what));  // quantities of records alone
+const PLACES_A_FRAME = DUMPS.length ? Infinity : 4;  // places of lamps whose shadow maps a frame draws
+
+function pictureSize({clientWidth, clientHeight}) {
+  const width = Number(asked.get('width')) || Math.round(clientWidth * devicePixelRatio);
+  const height = Number(asked.get('height')) || Math.round(clientHeight * devicePixelRatio);
+  return [Math.max(width, 1), Math.max(height, 1)];
+}
 
 class View {
   constructor(drawing, scene, about, messages) {
@@ -218,9 +225,7 @@ class View {
     }
     if (!this.stale) return false;
     this.stale = false;
-    const width = Number(asked.get('width')) || Math.round(this.canvas.clientWidth * devicePixelRatio);
-    const height = Number(asked.get('height')) || Math.round(this.canvas.clientHeight * devicePixelRatio);
-    this.drawing.resize(Math.max(width, 1), Math.max(height, 1));
+    this.drawing.resize(...pictureSize(this.canvas));
     this.drawing.share = this.wipe.share;
     this.drawing.light(this.eye, this.reach);
     if (this.measures) this.automatic(); else this.show();
@@ -228,13 +233,13 @@ class View {
     return true;
   }
 
-  // Values of a quantity as text of the page, or lines.
-  dump(what) {
+  // Values of a quantity as text of the page, or lines; `number`: of dumps before.
+  dump(what, number) {
     const values = what === 'isolux' ? this.drawing.isoluxPixels(1, Number(asked.get('step'))) : this.drawing.pixels(Number(what));
     const bytes = new Uint8Array(values.buffer);
     let binary = '';
     for (const byte of bytes) binary += String.fromCharCode(byte);
-    this.print('dump', btoa(binary));
+    this.print(number ? `dump-${number}` : 'dump', btoa(binary));
   }
 
   bench(frames) {
@@ -267,15 +272,15 @@ try {
     label, groups: await Promise.all(groups.map(async (group) =>
       ({...group, records: await message(group.records, 'records'), gloss: await message(group.gloss, 'gloss')}))),
   })));
-  const drawing = new Drawing($('picture'), shaders, read, sets, colours);
+  const drawing = new Drawing($('picture'), shaders, read, sets, colours, Math.max(...pictureSize($('picture'))));
   const view = new View(drawing, read, {...about, palette: Array.from(colours)}, messages);
   $('state').textContent = '';
-  if (asked.has('dump')) {
+  if (DUMPS.length) {
     const draw = () => { while (view.frame(0)); };
     draw();
     if (asked.has('grow'))
       await view.growth.settle(Number(asked.get('grow')), view.accuracy, draw, () => load('/about.json', 'json'));
-    view.dump(asked.get('dump'));
+    DUMPS.forEach((what, number) => view.dump(what, number));
   } else {
     if (asked.has('bench')) {
       while (view.frame(0));

@@ -1,0 +1,32 @@
+# Run by ctest before its tests: one test of ctest for each suite of a GoogleTest program, KIND.SUITE. All cases of a suite run in one
+# process, so that they share what it sets up; tests/run.sh counts the cases. Takes `program`, `kind`, `cost` and `sources`, the folder
+# tests/. What the program lists is kept beside it until it is built anew.
+set(listed "${program}.suites")
+get_filename_component(folder "${program}" DIRECTORY)
+if(NOT EXISTS "${program}")
+  add_test("${kind}.${program}_IS_NOT_BUILT" "${program}")
+  return()
+endif()
+if(NOT EXISTS "${listed}" OR "${program}" IS_NEWER_THAN "${listed}")
+  execute_process(COMMAND "${program}" --gtest_list_tests OUTPUT_VARIABLE cases RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${program} --gtest_list_tests: ${code}")
+  endif()
+  string(REGEX MATCHALL "(^|\n)[^ \n]+\\.(  #[^\n]*)?\n" lines "${cases}")
+  set(suites "")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^\n|\\.(  #[^\n]*)?\n$" "" suite "${line}")
+    string(APPEND suites "${suite};")
+  endforeach()
+  file(WRITE "${listed}" "${suites}")
+endif()
+file(READ "${listed}" suites)
+foreach(suite IN LISTS suites)
+  if(suite STREQUAL "")
+    continue()
+  endif()
+  add_test("${kind}.${suite}" "${program}" "--gtest_filter=${suite}.*")
+  set_tests_properties("${kind}.${suite}" PROPERTIES LABELS ${kind} TIMEOUT 1800 COST ${cost}
+    WORKING_DIRECTORY "${folder}" ENVIRONMENT "TSAN_OPTIONS=suppressions=${sources}/tsan.supp"
+    ENVIRONMENT_MODIFICATION "LSAN_OPTIONS=set:suppressions=${sources}/lsan.supp:print_suppressions=0")
+endforeach()
