@@ -57,6 +57,7 @@ need_programs
 source "$here/reproduce/rows.sh"
 source "$here/reproduce/measure.sh"
 source "$here/reproduce/scenes.sh"
+source "$here/reproduce/ward.sh"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 common=(--seed "$seed" --threads "$threads" --quiet)
@@ -84,7 +85,7 @@ page() {
 
 failed=0
 for name in "${wanted[@]}"; do
-  key="$size, seed $seed, $(phos-splat --version), $(cat "$here"/reproduce/{"$name",rows,measure,scenes,films,zones}.sh "$here"/scenes/*.py | cksum | cut -d' ' -f1)"
+  key="$size, seed $seed, $(phos-splat --version), $(cat "$here"/reproduce/{"$name",rows,measure,scenes,films,zones,ward}.sh "$here"/scenes/*.py | cksum | cut -d' ' -f1)"
   if [[ -z $again && -f $folder/$name.csv && $(tail -1 "$folder/$name.csv") == *"\"$key\""* ]]; then
     echo "$name: is there" >&2
     continue

@@ -203,7 +203,7 @@ void Options::choice_of_names(const std::string& name, const std::vector<std::st
     if (found == names.end()) {
       std::string all;
       for (const std::string& other : names) append_item(all, other);
-      reject_option(n, phos::text("\"", s, "\" is not one of: ", all));
+      reject_option(n, phos::text("\"", s, "\" is not one of: ", all, did_you_mean(s, names)));
     }
     set(static_cast<std::size_t>(found - names.begin()));
   });

@@ -13,6 +13,9 @@ namespace phos::inline estimate {
 
 namespace {
 
+/// Rays to each lamp for which the images of all lamps in mirrors are sampled once.
+constexpr int kRaysOfImageSample = 16;
+
 /// Below this share of the eye's light a specular branch is dropped, and counted.
 constexpr float kLeastThroughput = 1e-4f;
 /// A glossy surface seen by way of others sends on one ray, after this many reflections or refractions with
@@ -157,11 +160,16 @@ DirectLight Shading::mirrored(const SurfacePoint& point, const Bsdf& bsdf, const
   DirectLight sum;
   if (images_.empty()) return sum;
   std::vector<ImageSampler::Sample> images;
-  const int n = std::max(samples.count, 1);
-  images_.sample_all(point, samples.first / n, samples.total / n, sequence, images);
-  for (const ImageSampler::Sample& image : images) {
-    sum.illuminance += image.lux;
-    sum.radiance += image_share(bsdf, wo, image, gloss_by_rays) * image.lux;
+  const int n = std::max(samples.count, 1), times = std::max(n / kRaysOfImageSample, 1);
+  const RandomStream start = sequence;
+  for (int t = 0; t < times; ++t) {
+    sequence = start;
+    images_.sample_all(point, samples.first / n * times + t, samples.total / n * times, sequence, images);
+    for (const ImageSampler::Sample& image : images) {
+      const Rgb lux = image.lux / static_cast<float>(times);
+      sum.illuminance += lux;
+      sum.radiance += image_share(bsdf, wo, image, gloss_by_rays) * lux;
+    }
   }
   return sum;
 }

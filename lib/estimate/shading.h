@@ -95,7 +95,7 @@ class Shading {
                      int gloss_rays, RandomStream& sequence, bool environment = true) const;
 
   /// Light of the images that lamps have in flat mirrors, as direct(): one sample of each (ImageSampler
-  /// leaves weak ones to chance), of the environment its sun's alone. With `gloss_by_rays`, the glossy lobes'
+  /// leaves weak ones to chance) for every 16 of `samples`, of the environment its sun's alone. With `gloss_by_rays`, the glossy lobes'
   /// share of area lights and sun is left to gloss(), whose rays find them in mirrors; radiance records do
   /// not hold it.
   DirectLight mirrored(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, bool gloss_by_rays,

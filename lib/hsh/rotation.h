@@ -31,6 +31,21 @@ enum class HshRotation : unsigned char {
   even_fill,      ///< mirrored at the horizon
 };
 
+/// A way of rotating HSH, by the name that options have for it.
+struct HshRotationRow {
+  HshRotation method;
+  const char *name, *does;
+};
+inline constexpr HshRotationRow kHshRotations[] = {
+    {HshRotation::via_sh, "via-sh", "by way of SH of twice the order"},
+    {HshRotation::digon, "digon",
+     "the part that leaves the hemisphere is cut off, the rest rotated as SH, by the mapped angle"},
+    {HshRotation::zero_fill, "zero-fill", "by matrices, with no light from below the old horizon"},
+    {HshRotation::constant_fill, "constant-fill",
+     "by matrices, with the light of the horizon below it, as records are rotated"},
+    {HshRotation::even_fill, "even-fill", "by matrices, with the light mirrored at the horizon"},
+};
+
 /// Rotates HSH of one order: whatever the method, two turns about z and a matrix between them. Matrices are
 /// made by whole degrees when first needed, once per order and method for the whole program, and
 /// interpolated; beyond `max_beta` the matrix of that very angle is made anew (slow). Const, usable from any

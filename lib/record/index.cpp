@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "core/error.h"
+#include "record/in_sight.h"
 #include "record/tree.h"
 #include "scene/rays.h"
 
@@ -82,9 +83,9 @@ void RecordLookup::check_stored() const {
   for (const bool one : listed) require(one, "it lacks a record");
 }
 
-/// visit(record number, weight) for each record valid at p until it returns false.
+/// visit(record number, weight) for each record valid at p, but for the leak test, until it returns false.
 template <class Visit>
-void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit) const {
+void RecordLookup::visit_unseen(const Vec3& p, const Vec3& n, const Visit& visit) const {
   DVec3 lo = lo_;
   double side = side_m_;
   const DVec3 point(p);
@@ -99,8 +100,7 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
       if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
       if (!(w > kLeastWeight)) continue;
       if (record_apart(r, p, n)) continue;
-      if (leak_test_ && !record_in_sight(*leak_test_, r, p, n)) continue;
-      if (!visit(r, w * r.weight)) return;
+      if (!visit(i, r, w * r.weight)) return;
     }
     side /= 2;
     const unsigned o = octant_of(point, lo + side);
@@ -113,23 +113,34 @@ void RecordLookup::visit_valid(const Vec3& p, const Vec3& n, const Visit& visit)
 
 bool RecordLookup::covered(const Vec3& p, const Vec3& n) const {
   bool found = false;
-  visit_valid(p, n, [&](const IrradianceRecord&, float) {
-    found = true;
-    return false;
+  visit_unseen(p, n, [&](std::uint32_t, const IrradianceRecord& r, float) {
+    found = !leak_test_ || record_in_sight(*leak_test_, r, p, n);
+    return !found;
   });
   return found;
 }
 
-void RecordLookup::add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
-  visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
-    if (height_over(r, p) <= most_height) sum.add(r, w, p, n);
+void RecordLookup::add_few(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
+  std::vector<Candidate> candidates;
+  visit_unseen(p, n, [&](std::uint32_t i, const IrradianceRecord& r, float w) {
+    if (!(height_over(r, p) <= most_height)) return true;
+    if (leak_test_)
+      candidates.push_back({w, i});
+    else
+      sum.add(r, w, p, n);
+    return true;
+  });
+  serve_in_sight(candidates, [&](const Candidate& c) {
+    const IrradianceRecord r = records_[c.record];
+    if (!record_in_sight(*leak_test_, r, p, n)) return false;
+    sum.add(r, c.weight, p, n);
     return true;
   });
 }
 
 Interpolated RecordLookup::interpolate(const Vec3& p, const Vec3& n) const {
   Interpolated sum;
-  add(p, n, sum);
+  add_few(p, n, sum);
   sum.finish();
   return sum;
 }

@@ -57,11 +57,11 @@ class RecordLookup {
   bool covered(const Vec3& p, const Vec3& n) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
   /// As RecordTree's.
-  void add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
+  void add_few(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
 
  private:
   template <class Visit>
-  void visit_valid(const Vec3& p, const Vec3& n, const Visit& visit) const;
+  void visit_unseen(const Vec3& p, const Vec3& n, const Visit& visit) const;
   void use_stored();
   void check_stored() const;
   RecordColumns records_;

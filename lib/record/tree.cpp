@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "record/in_sight.h"
 #include "record/index.h"
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
@@ -93,29 +94,63 @@ struct RecordTree::Impl {
     for (std::uint32_t i = 0; i < records.size(); ++i) hang(i);
   }
 
-  /// Weight at p, n of a record; 0: it is not valid there.
-  float weight_of(const Entry& e, const Vec3& p, const Vec3& n) const {
+  /// Weight at p, n of a record; 0: it is not valid there, whatever the leak test says.
+  float unseen_weight_of(const Entry& e, const Vec3& p, const Vec3& n) const {
     float w = weight_at(e.position, e.normal, e.radius_m, accuracy, p, n);
     if (!(w > kLeastWeight)) return 0;
     if (std::fabs(glm::dot(p - e.position, e.normal)) > off_plane * e.radius_m) return 0;
     const IrradianceRecord& r = records[e.record];
     if (r.footprint) w = weight_within(*r.footprint, r, accuracy, p, n);
-    if (!(w > kLeastWeight) || record_apart(r, p, n)) return 0;
-    if (leak_test && !record_in_sight(*leak_test, r, p, n)) return 0;
-    return w;
+    return w > kLeastWeight && !record_apart(r, p, n) ? w : 0;
+  }
+  bool in_sight(std::uint32_t record, const Vec3& p, const Vec3& n) const {
+    return !leak_test || record_in_sight(*leak_test, records[record], p, n);
+  }
+  /// The same with the leak test.
+  float weight_of(const Entry& e, const Vec3& p, const Vec3& n) const {
+    const float w = unseen_weight_of(e, p, n);
+    return w > 0 && in_sight(e.record, p, n) ? w : 0;
   }
 
   /// visit(record, weight) for each record valid at p until it returns false.
   template <class Visit>
   void visit_valid(const Vec3& p, const Vec3& n, const Visit& visit) const {
+    visit_unseen(p, n, [&](std::uint32_t record, float w) {
+      return !in_sight(record, p, n) || visit(records[record], w);
+    });
+  }
+
+  /// use(record, weight) for the records that serve p: those valid there and no farther from it across their
+  /// planes than `most_height`; with a leak test, at most kMostInSight of them.
+  template <class Use>
+  void each_serving(const Vec3& p, const Vec3& n, float most_height, const Use& use) const {
+    std::vector<Candidate> candidates;
+    visit_unseen(p, n, [&](std::uint32_t record, float w) {
+      if (!(height_over(records[record], p) <= most_height)) return true;
+      if (leak_test)
+        candidates.push_back({w, record});
+      else
+        use(records[record], w);
+      return true;
+    });
+    serve_in_sight(candidates, [&](const Candidate& c) {
+      if (!in_sight(c.record, p, n)) return false;
+      use(records[c.record], c.weight);
+      return true;
+    });
+  }
+
+  /// visit(record, weight) for each record valid at p, but for the leak test, until it returns false.
+  template <class Visit>
+  void visit_unseen(const Vec3& p, const Vec3& n, const Visit& visit) const {
     std::uint32_t cell = 0;
     DVec3 cell_lo = lo;
     double side = side_m;
     const DVec3 point(p);
     while (cell != kNone) {
       for (const Entry& e : cells[cell].entries) {
-        const float w = weight_of(e, p, n);
-        if (w > 0 && !visit(records[e.record], w * records[e.record].weight)) return;
+        const float w = unseen_weight_of(e, p, n);
+        if (w > 0 && !visit(e.record, w * records[e.record].weight)) return;
       }
       side /= 2;
       const unsigned o = octant_of(point, cell_lo + side);
@@ -223,11 +258,15 @@ RecordIndex RecordTree::index() const {
   return index;
 }
 
-void RecordTree::add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
+void RecordTree::add(const Vec3& p, const Vec3& n, Interpolated& sum) const {
   impl_->visit_valid(p, n, [&](const IrradianceRecord& r, float w) {
-    if (height_over(r, p) <= most_height) sum.add(r, w, p, n);
+    sum.add(r, w, p, n);
     return true;
   });
+}
+
+void RecordTree::add_few(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const {
+  impl_->each_serving(p, n, most_height, [&](const IrradianceRecord& r, float w) { sum.add(r, w, p, n); });
 }
 
 Rgb RecordTree::irradiance(const Vec3& p, const Vec3& n, float& weight) const {

@@ -42,9 +42,12 @@ class RecordTree {
   /// The records valid at p, n, replacing the records in `found`; pointers last until the next insert().
   void valid(const Vec3& p, const Vec3& n, std::vector<const IrradianceRecord*>& found) const;
   Interpolated interpolate(const Vec3& p, const Vec3& n) const;
+  /// Adds the records valid at p, n; finish() is the caller's.
+  void add(const Vec3& p, const Vec3& n, Interpolated& sum) const;
   /// Adds the records valid at p, n that are no farther from it across their planes than `most_height`
-  /// (height_over()); finish() is the caller's.
-  void add(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height = kInfinity) const;
+  /// (height_over()); with a leak test, no more than the heaviest kMostInSight (record/in_sight.h) of them.
+  /// finish() is the caller's.
+  void add_few(const Vec3& p, const Vec3& n, Interpolated& sum, float most_height) const;
   /// A tree of the same records. Each reaches `factor` times as far, in every direction (all_around) or along
   /// its tangent plane only (along_plane): then a place may be no farther off that plane than in this tree.
   enum class Widen { all_around, along_plane };

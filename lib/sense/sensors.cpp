@@ -229,8 +229,8 @@ void SensorCaches::require_light(bool direct, const std::shared_ptr<const Causti
 
 Interpolated SensorCaches::interpolate(const Vec3& p, const Vec3& n) const {
   Interpolated sum;
-  for (const RecordLookup& lookup : lookups_) lookup.add(p, n, sum, most_height(lookup.accuracy()));
-  for (const InMemory& cache : trees_) cache.tree.add(p, n, sum, most_height(cache.accuracy));
+  for (const RecordLookup& lookup : lookups_) lookup.add_few(p, n, sum, most_height(lookup.accuracy()));
+  for (const InMemory& cache : trees_) cache.tree.add_few(p, n, sum, most_height(cache.accuracy));
   sum.finish();
   return sum;
 }

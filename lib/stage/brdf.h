@@ -4,6 +4,7 @@
 #include <string>
 
 #include "file/tool.h"
+#include "radiance/brdf/lamp_figure_options.h"
 #include "radiance/brdf/table.h"
 #include "scene/load.h"
 
@@ -16,6 +17,7 @@ struct BrdfCommand {
   std::string scene_path, bases;  ///< files
   SceneOptions scene;
   BrdfTableOptions brdf;
+  LampFigureOptions figure;
 };
 
 /// The body of the program: `asked` holds the values that the options of `tool` are declared to set.

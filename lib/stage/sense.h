@@ -14,7 +14,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kSenseAlgorithm = 16;
+inline constexpr int kSenseAlgorithm = 17;
 
 struct SenseCommand {
   std::vector<std::string> inputs;  ///< scene and caches

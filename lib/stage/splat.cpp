@@ -111,11 +111,11 @@ void run(Tool& tool, SplatCommand& asked) {
     return gloss_of_picture(rays, caches, render, asked.allow_mismatch, tool.counters());
   }();
   if (gloss.projected) tool.say("lobes were projected here; phos-brdf stores them, and has options for them");
-  report_noise(
-      tool, render,
-      choose_rays(rays, caches.irradiance, render, caches.brdf, gloss.cache ? &*gloss.cache : nullptr));
-  Rendering rendering = render_scene(rays, caches.irradiance, render, caches.brdf,
-                                     gloss.cache ? &*gloss.cache : nullptr, caches.lives);
+  const GlossCache* recorded = gloss.cache ? &*gloss.cache : nullptr;
+  const NoiseTarget noise = choose_rays(rays, caches.irradiance, render, caches.brdf, recorded);
+  report_noise(tool, render, noise);
+  Rendering rendering =
+      render_scene(rays, caches.irradiance, render, caches.brdf, recorded, caches.lives, noise.doublings);
   require_finite(rendering.image);
   if (!stated) rendering.image = without_errors(rendering.image);
   if (!scene.animation.empty()) rendering.image.attributes[kFramesPerSecond] = shortest(scene.frames_per_s);

@@ -14,7 +14,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kSplatAlgorithm = 19;
+inline constexpr int kSplatAlgorithm = 20;
 
 struct SplatCommand {
   std::string scene_path;           ///< or one of the caches: the two may change places

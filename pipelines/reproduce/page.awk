@@ -8,9 +8,15 @@ function fields(line,    n, i) {
   for (i = 1; i <= n; ++i) gsub(/""/, "\"", field[i])
   return n
 }
-function shown(name,    path, command, file) {
+# Every picture, with the line of FILE.caption where there is one.
+function shown(name,    path, command, file, caption) {
   command = "ls '" folder "/" name "' 2>/dev/null | grep -E '\\.(svg|png)$'"
-  while ((command | getline file) > 0) figures = figures "<figure><img src=\"" name "/" file "\"><figcaption>" text(file) "</figcaption></figure>\n"
+  while ((command | getline file) > 0) {
+    path = folder "/" name "/" file ".caption"
+    if ((getline caption < path) > 0) caption = ": " text(caption); else caption = ""
+    close(path)
+    figures = figures "<figure><img src=\"" name "/" file "\"><figcaption>" text(file) caption "</figcaption></figure>\n"
+  }
   close(command)
 }
 {
@@ -37,7 +43,7 @@ END {
   print "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>phos and its papers</title>"
   print "<style>body{font:15px sans-serif;max-width:75em;margin:2em auto;padding:0 1em}td,th{padding:.2em .8em;border-bottom:1px solid #ccc;" \
     "text-align:left;vertical-align:top}.worse td:nth-child(5){color:#b00}.better td:nth-child(5){color:#070}.skipped{color:#777}" \
-    "figure{display:inline-block;margin:.5em}img{max-width:30em}</style>"
+    "figure{display:inline-block;vertical-align:top;max-width:30em;margin:.5em}img{max-width:100%}</style>"
   print "<h1>phos and its papers</h1>\n<p>Each table's figures as the paper prints them, and as " text(version) " computes them on this machine. " \
     "<i>agrees</i>: within a quarter of the paper's figure, or as it claims; <i>better</i>, <i>worse</i>: beyond; <i>-</i>: not judged, such as seconds " \
     "on machines of 2004 to 2011. Errors are root mean square over the mean, the noise of the references taken out. Times at equal error: seconds " \

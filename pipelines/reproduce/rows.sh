@@ -23,3 +23,5 @@ verdict() {
 claimed() { row "$1" - "$2" "$3" "$(awk "BEGIN { print ($4) ? \"agrees\" : \"worse\" }")" "$5"; }
 # skipped QUANTITY WHY: a row that cannot be computed here.
 skipped() { row "$1" - - - skipped "$2"; }
+# captioned FIGURE TEXT: words that the page shows under a picture of this table.
+captioned() { printf '%s\n' "$2" >"$work/$1.caption"; }

@@ -6,6 +6,7 @@ kite    a kite that flies in a room (the flying kite): 300 frames
 room    furniture, some of it glossy; a lamp that swings and a ball that rolls (the Japanese interior): 300 frames
 villa   rooms with 11 luminaires of 760 shining triangles and windows (the villa Arpel); give --sky overcast too
 teapot  Newell's teapot of 1975; OUTPUT.obj gives its triangles alone
+teapots two of them side by side, of a Phong lobe cos^5 and of Ward's anisotropic lobe 0.2 / 0.5
 
 Prints the number of triangles.
 """
@@ -13,7 +14,7 @@ Prints the number of triangles.
 import importlib
 import sys
 
-NAMES = ("hall", "nave", "kite", "room", "villa", "teapot")
+NAMES = ("hall", "nave", "kite", "room", "villa", "teapot", "teapots")
 
 
 def main(words):
@@ -25,11 +26,11 @@ def main(words):
         sys.stderr.write(f"make.py: {name}: no such scene; give one of {', '.join(NAMES)}\n")
         return 2
     try:
-        module = importlib.import_module(name)
+        module = importlib.import_module("teapot" if name == "teapots" else name)
         if name == "teapot" and output.endswith(".obj"):
             print(module.obj(output))
             return 0
-        scene = module.build()
+        scene = module.pair() if name == "teapots" else module.build()
         scene.write(output)
         print(scene.triangles)
     except OSError as error:

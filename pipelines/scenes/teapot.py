@@ -88,3 +88,15 @@ def build():
     scene.add("teapot", mesh)
     scene.camera("front", (2.5, 5, 9), (0.2, 1.5, 0), 33)
     return scene
+
+
+def pair():
+    scene = Scene()
+    scene.paint("Phong cos^5", 0, ks=1, exponent=5)
+    scene.paint("Ward 0.2 / 0.5", 0, ks=1, ax=0.2, ay=0.5)
+    for name, x in (("Phong cos^5", -3.6), ("Ward 0.2 / 0.5", 3.6)):
+        mesh = Mesh()
+        teapot(mesh, name, 12)
+        scene.add(name, mesh, translation=(x, 0, 0))
+    scene.camera("front", (0.2, 7, 15), (0.2, 1.4, 0), 20, aspect=2.6)
+    return scene

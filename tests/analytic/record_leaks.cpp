@@ -2,7 +2,10 @@
 // does not take flat or gently curved surfaces for walls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/random.h"
+#include "record/in_sight.h"
 #include "record/irradiance_cache.h"
 #include "record/tree.h"
 #include "scene/rays.h"
@@ -76,6 +79,39 @@ TEST(Leaks, TheSameAtEverySize) {
     EXPECT_FALSE(record_in_sight(rays, lit, behind, up));
     EXPECT_TRUE(record_in_sight(rays, lit, beside, up));
   }
+}
+
+/// Records of which a place takes the heaviest, as it does in dense grids, and farther ones where a wall
+/// hides those.
+TEST(Leaks, OfManyRecordsTheHeaviestInSightServe) {
+  const AnalyticScene s = thin_walls(1000, 0.01f);
+  const RayScene rays(s.scene);
+  const Vec3 up(0, 0, 1), place(0);
+  RecordTree tree(s.scene.bounds, 0.3, &rays);
+  RandomStream random(3, Stage::test, 0);
+  std::vector<std::pair<float, float>> light_of;  // weight, light
+  for (int i = 0; i < 3000; ++i) {
+    const IrradianceRecord r =
+        record_at(Vec3(random_in(random, 0.5f), 0), up, 100 * static_cast<double>(random.uniform()), 3);
+    light_of.emplace_back(record_weight(record_error(r, place, up), 0.3f), r.irradiance.y);
+    tree.insert(r);
+  }
+  std::sort(light_of.rbegin(), light_of.rend());
+  double weight = 0, light = 0;
+  for (std::size_t i = 0; i < kMostInSight; ++i)
+    weight += double(light_of[i].first), light += double(light_of[i].first * light_of[i].second);
+  const auto light_at = [&](const Vec3& p) {
+    Interpolated sum;
+    tree.add_few(p, up, sum, kInfinity);
+    sum.finish();
+    return sum;
+  };
+  EXPECT_NEAR(double(light_at(place).irradiance.y), light / weight, 1e-3 * light / weight);
+  // Behind the wall all of these are hidden, and one farther off is not.
+  const Vec3 behind(0, 0, -0.01f);
+  EXPECT_EQ(light_at(behind).weight, 0);
+  tree.insert(record_at({0.6f, 0, -0.01f}, up, 7, 3));
+  EXPECT_NEAR(double(light_at(behind).irradiance.y), 7, 1e-5);
 }
 
 /// Share of the pairs of points that could serve each other but for the ray.

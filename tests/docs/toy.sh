@@ -42,6 +42,7 @@ case $name in
   phos-splat)
     most --width 48; most --light-samples 16; most --gloss-samples 4; most --pixel-samples 1; most --edge-samples 4; least --noise 0.3
     given --height || add --width 48 ;;
+  phos-brdf) if given --figure; then most --width 48; add --width 48; fi ;;
   phos-sense) most --samples 16; most --rays 64; most --light-samples 16; least --error 0.1; least --grid 0.05; word --exact || given --light-samples || add --error 0.1 ;;
   phos-reference)
     most --samples 4; most --width 48; most --gather-rays 4; least --error 0.2

@@ -69,6 +69,25 @@ TEST_F(Reproduce, EveryTableAtToySize) {
   // 0.936.
   const CsvTable bases = table(path("out/hsh-bases.csv"));
   EXPECT_EQ(ours(bases, "Phong cos^5 times cosine, 25 functions: HSH and SH").substr(0, 5), "0.998");
+  // Ward's lobe of 1992 without the cosine: 0.905, 1.325, 1.742, 2.159 1/sr (an independent program).
+  double nearer = 0;
+  std::istringstream energies(
+      ours(bases, "integral of the square of Ward's lobe of 1992, above the cosines 0.01, 1e-4, 1e-6, 1e-8"));
+  for (const double energy : {0.905, 1.325, 1.742, 2.159}) {
+    std::string number;
+    ASSERT_TRUE(std::getline(energies, number, ','));
+    EXPECT_NEAR(std::stod(number), energy, 0.004);
+    EXPECT_NEAR(std::stod(number) - nearer, nearer > 0 ? 0.4175 : energy, 0.006);
+    nearer = std::stod(number);
+  }
+  // The page says so where the lobe is drawn.
+  for (const char* picture : {"hsh-bases/ward-none.svg", "hsh-teapot/lamp-none.png"}) {
+    const std::size_t at = page.find("<img src=\"" + std::string(picture) + "\">");
+    ASSERT_NE(at, std::string::npos) << picture;
+    const std::string caption = page.substr(at, page.find("</figcaption>", at) - at);
+    EXPECT_NE(caption.find("its integral diverges as a logarithm"), std::string::npos) << caption;
+    EXPECT_NE(caption.find("0.905, 1.325, 1.742, 2.159 1/sr"), std::string::npos) << caption;
+  }
   EXPECT_GT(std::stod(ours(table(path("out/views.csv")), "records of the centre view")), 50);
   // Half of a disc is beyond a border; the hull is not.
   const CsvTable border = table(path("out/thesis-6.9.csv"));
@@ -100,7 +119,7 @@ TEST_F(Reproduce, WrongWordsAreRefused) {
 
 TEST_F(Reproduce, ScenesAreWhole) {
   if (!has_python()) GTEST_SKIP() << "no python3";
-  for (const char* name : {"hall", "nave", "kite", "room", "villa"}) {
+  for (const char* name : {"hall", "nave", "kite", "room", "villa", "teapots"}) {
     const std::string file = std::string(name) + ".glb";
     const test::Run made = make(name, file);
     ASSERT_EQ(made.code, 0) << made.err;

@@ -130,6 +130,15 @@ TEST(Options, FilesOfOptionsThatCannotBeRead) {
   std::filesystem::remove(large);
 }
 
+TEST(Options, SayWhichChoiceMayBeMeant) {
+  const std::string near = Everything().error({"in", "--shape", "disk"});
+  EXPECT_NE(near.find("\"disk\" is not one of: hull, disc; did you mean \"disc\"?"), std::string::npos)
+      << near;
+  const std::string far = Everything().error({"in", "--shape", "triangle"});
+  EXPECT_NE(far.find("\"triangle\" is not one of: hull, disc"), std::string::npos) << far;
+  EXPECT_EQ(far.find("did you mean"), std::string::npos) << far;
+}
+
 TEST(Options, AreDescribedForPrograms) {
   Everything e;
   testing::internal::CaptureStdout();

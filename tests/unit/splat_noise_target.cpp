@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "support/scenes.h"
 
 namespace phos::test {
@@ -33,7 +36,13 @@ NoiseTarget target_of(const RayScene& rays, double noise, RenderOptions& render)
 
 }  // namespace
 
-/// Four times the rays for half of the noise; and the picture has about the noise that was asked for.
+double rays_of(const Doublings& doublings, const RenderOptions& render) {
+  double sum = 0;
+  for (const std::uint8_t d : doublings.direct) sum += std::exp2(d);
+  return static_cast<double>(render.light_samples) * sum / static_cast<double>(doublings.direct.size());
+}
+
+/// As many rays as the noise of each part takes; and every part has about the noise that was asked for.
 TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
   const Scene scene = half_hidden();
   const RayScene rays(scene);
@@ -42,33 +51,41 @@ TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
   EXPECT_TRUE(found.enough);
   EXPECT_GT(found.direct, 0.005);
   EXPECT_EQ(found.gloss, 0);
-  target_of(rays, 0.02, fine);
-  ASSERT_GT(fine.light_samples, 64);
-  EXPECT_NEAR(static_cast<double>(fine.light_samples), 64 * found.direct * found.direct / (0.02 * 0.02 / 2),
-              1);
-  EXPECT_LT(coarse.light_samples, fine.light_samples);
+  EXPECT_TRUE(found.doublings.gloss.empty());
+  const NoiseTarget finer = target_of(rays, 0.02, fine);
+  ASSERT_FALSE(finer.doublings.direct.empty());
+  // Doubled until it is enough, so up to twice as many; and nowhere fewer than in the small pictures.
+  const double enough = 64 * found.direct * found.direct / (0.02 * 0.02 / 2);
+  EXPECT_GT(rays_of(finer.doublings, fine), std::max(64., enough));
+  EXPECT_LT(rays_of(finer.doublings, fine), 64 + 2 * enough);
   EXPECT_EQ(coarse.light_samples, 64);
+  EXPECT_EQ(fine.light_samples, 64);
   EXPECT_EQ(fine.gloss_samples, 64);
 
   RenderOptions impossible;
-  EXPECT_FALSE(target_of(rays, 1e-4, impossible).enough);
-  EXPECT_EQ(impossible.light_samples, 4096);
+  const NoiseTarget beyond = target_of(rays, 1e-4, impossible);
+  EXPECT_FALSE(beyond.enough);
+  EXPECT_EQ(64 << *std::max_element(beyond.doublings.direct.begin(), beyond.doublings.direct.end()), 4096);
 
   IrradianceCache cache;
   cache.accuracy = 0.2;
-  double squares = 0, n = 0;
   std::vector<Rgb> picture[2];
   for (std::uint64_t seed : {0, 1}) {
     fine.seed = seed;
-    picture[seed] = render_scene(rays, cache, fine).image.rgb("direct");
+    picture[seed] = render_scene(rays, cache, fine, {}, nullptr, {}, finer.doublings).image.rgb("direct");
   }
+  // Squares of the noise over the light, of strips 8 pixels wide.
+  std::vector<double> squares(8, 0), n(8, 0);
   for (std::size_t i = 0; i < picture[0].size(); ++i) {
     const float mean = (luminance(picture[0][i]) + luminance(picture[1][i])) / 2;
     if (!(mean > 0)) continue;
     const auto change = static_cast<double>((luminance(picture[0][i]) - luminance(picture[1][i])) / mean);
-    squares += change * change / 2, n += 1;
+    squares[i % 64 / 8] += change * change / 2, n[i % 64 / 8] += 1;
   }
-  EXPECT_LT(std::sqrt(squares / n), 0.02);
+  for (std::size_t strip = 0; strip < 8; ++strip) {
+    ASSERT_GT(n[strip], 100) << strip;
+    EXPECT_LT(std::sqrt(squares[strip] / n[strip]), 0.02) << strip;
+  }
 }
 
 TEST(NoiseTarget, LeavesTheNumbersWhereNoneIsAsked) {

@@ -12,7 +12,7 @@ constexpr std::size_t kBlock = 64;
 
 /// Integrals of the lobe times each harmonic, RGB side by side: products are summed in kLanes partial sums,
 /// which vectorises and keeps the order of the sums.
-std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float>& basis) {
+std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float>& basis, BasisKind kind) {
   constexpr std::size_t kLanes = 8;
   const auto count = static_cast<std::size_t>(basis.count());
   std::vector<float> harmonics(count * kBlock), out(3 * count);
@@ -27,8 +27,7 @@ std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float
       // What fills a block up weighs nothing.
       std::fill(block[c].begin() + static_cast<std::ptrdiff_t>(n), block[c].end(), c == 2 ? 1.f : 0.f);
     }
-    basis.evaluate_batch(BasisKind::hsh, kBlock, block[0].data(), block[1].data(), block[2].data(),
-                         harmonics.data());
+    basis.evaluate_batch(kind, kBlock, block[0].data(), block[1].data(), block[2].data(), harmonics.data());
     for (std::size_t i = 0; i < count; ++i) {
       const float* h = &harmonics[i * kBlock];
       for (std::size_t c = 0; c < 3; ++c) {
@@ -49,10 +48,15 @@ std::vector<float> integrate(const LobePoints& points, const HarmonicBasis<float
 }  // namespace
 
 LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts,
-                            const HarmonicBasis<float>& basis) {
+                            const HarmonicBasis<float>& basis, BasisKind kind) {
   const LobePoints points = lobe_points(f, scouts, basis.order());
-  return {integrate(points, basis), points.magnitude, points.energy,   points.albedo,
-          points.resolved,          points.rejected,  points.evaluated};
+  return {integrate(points, basis, kind),
+          points.magnitude,
+          points.energy,
+          points.albedo,
+          points.resolved,
+          points.rejected,
+          points.evaluated};
 }
 
 int LobeProjection::lowest_order(double tolerance, float& error) const {

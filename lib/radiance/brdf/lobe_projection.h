@@ -20,8 +20,9 @@ struct LobeProjection {
   int lowest_order(double tolerance, float& error) const;
 };
 
-/// c_i = integral of f cos H_i, all orders of the basis; `f` and `scouts` as for lobe_points.
+/// c_i = integral of f cos H_i over the hemisphere, or of f cos Y_i (`kind`), all orders of the basis; `f`
+/// and `scouts` as for lobe_points.
 LobeProjection project_lobe(const std::function<Rgb(const Vec3& wi)>& f, std::span<const Vec3> scouts,
-                            const HarmonicBasis<float>& basis);
+                            const HarmonicBasis<float>& basis, BasisKind kind = BasisKind::hsh);
 
 }  // namespace phos::inline radiance

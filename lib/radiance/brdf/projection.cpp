@@ -24,6 +24,8 @@ constexpr double kFound = 0.7;
 constexpr float kMostAlbedo = 1.001f;
 /// Values of f are the same if they differ by less of the lobe's greatest: a narrow lobe's rounding.
 constexpr float kSame = 0.02f;
+/// What a function without the cosine, which the quadrature puts in, is divided by at least.
+constexpr float kLeastDivisor = 1e-6f;
 
 Vec3 mirrored(const Vec3& w) { return {-w.x, -w.y, w.z}; }
 
@@ -73,7 +75,7 @@ struct Projected {
 };
 
 Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& basis,
-                  const BrdfTableOptions& options) {
+                  const BrdfTableOptions& options, const LobeFunction& function) {
   // Samples of the lobe find it, and show whether the whole lobe was found.
   std::vector<Vec3> scouts{mirrored(wo)};
   double expected = 0;
@@ -84,12 +86,16 @@ Projected project(const Bsdf& bsdf, const Vec3& wo, const HarmonicBasis<float>& 
     const Rgb w = glm::abs(sample.weight);
     expected += static_cast<double>(w.x + w.y + w.z) / kScouts;
   }
-  LobeProjection lobe =
-      project_lobe([&](const Vec3& wi) { return bsdf.evaluate_gloss(wo, wi); }, scouts, basis);
+  const auto f = [&](const Vec3& wi) {
+    const Rgb value = function.whole ? bsdf.evaluate(wo, wi) : bsdf.evaluate_gloss(wo, wi);
+    return function.cosine ? value : value / std::max(wi.z, kLeastDivisor);
+  };
+  LobeProjection lobe = project_lobe(f, scouts, basis, function.basis);
   Projected p;
-  p.resolved = lobe.resolved && lobe.magnitude >= kFound * expected, p.rejected = lobe.rejected;
-  p.evaluated = lobe.evaluated;
-  p.albedo = max_component(lobe.albedo + bsdf.diffuse_reflectance());
+  p.resolved = lobe.resolved && (function.whole || lobe.magnitude >= kFound * expected);
+  p.rejected = lobe.rejected, p.evaluated = lobe.evaluated;
+  if (function.cosine)
+    p.albedo = max_component(lobe.albedo + (function.whole ? Rgb(0) : bsdf.diffuse_reflectance()));
   p.order = lobe.lowest_order(options.error, p.error);
   if (p.order == 0 && options.too_sharp == TooSharp::cut) p.order = basis.order();
   if (!p.resolved) p.order = 0;
@@ -131,7 +137,7 @@ std::string note_of(const Material& material) {
 }  // namespace
 
 BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTableOptions& options,
-                       Counters& counters) {
+                       Counters& counters, const LobeFunction& function) {
   require(options.max_order >= 1 && options.max_order <= 30, "--max-order",
           text(options.max_order, " is not from 1 to 30"));
   require(options.resolution >= 2 && options.resolution <= 1024, "--resolution",
@@ -158,7 +164,8 @@ BrdfTable project_brdf(const Scene& scene, std::uint32_t material, const BrdfTab
   const HarmonicBasis<float> basis(static_cast<int>(options.max_order));
   std::vector<Projected> projected(entries);
   parallel_for(entries, 1, [&](std::size_t e) {
-    if (source(e) == e && table.used(e)) projected[e] = project(bsdf, table.direction(e), basis, options);
+    if (source(e) == e && table.used(e))
+      projected[e] = project(bsdf, table.direction(e), basis, options, function);
   });
 
   for (const Projected& p : projected) table.order = std::max(table.order, p.order);

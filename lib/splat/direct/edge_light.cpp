@@ -60,7 +60,7 @@ void EdgeLight::send(const EdgeSamples& samples, std::size_t begin, std::size_t 
       const LampVisibility& found = s.sight[lamp];
       if (begin > 0 && lamps_.form[lamp].closed() && !(found.seen > 0 && found.seen < found.sent)) continue;
       const std::uint32_t* shift = &s.shift[lamp * kShifts];
-      const int count = lamps_.lights[lamp].extended() ? rays_each_ : 1;
+      const int count = lamps_.lights[lamp].extended() ? rays_each_ << samples.doublings : 1;
       for (int r = 0; r < count; ++r) {
         const int k = static_cast<int>(place) * count + r;
         lamp_rays.aim(lamp, p, golden_point(k, shift[2]), sobol_point(k, shift[0], shift[1]), s.sight[lamp],

@@ -16,6 +16,7 @@ struct EdgeSamples {
   std::span<const Ray> ray;  ///< of all samples of the pixel
   std::span<const Hit> hit;
   std::span<const std::uint32_t> sample;  ///< those that show the surface, in order; at least one
+  int doublings = 0;                      ///< of the rays of each
 };
 
 /// They share their shadow rays: of a lamp with a closed form (LampForm) the share that they see, of

@@ -32,12 +32,16 @@ constexpr Enough kNoisyEnough = {128, 4096};
 constexpr int kPerTest = 16;
 /// Of one pass, that alone tell the variance of their mean.
 constexpr int kTelling = 16;
-/// Standard errors at which nearer pixels are believed against all pixels about: a shadow's edge.
-constexpr float kDoubt = 2;
 /// Median of the square of a normal number.
 constexpr double kMedianOfSquare = 0.455;
-/// Variances of its noise beyond which a mean of nearer pixels counts.
-constexpr double kDoubtMeans = 6;
+/// Variances of its noise beyond which a mean of nearer pixels counts: of a normal number; and, over the
+/// number of rays that arrive or of those that do not, whichever are fewer, how many more: of few, chance
+/// often makes twice as many.
+constexpr double kDoubtMeans = 4, kDoubtFew = 4;
+/// Relative noise of a pixel's own rays at which they suffice.
+constexpr double kSure = 0.01;
+/// So many tell how much less noise strata leave. Of fewer, most pixels have none.
+constexpr double kEnoughTelling = 16;
 /// Rays of one pass that it takes for that. A single one would be believed where it differs from most of
 /// those about it, and not where it agrees: half shadows would come out too dark or too bright.
 constexpr float kTold = 6;
@@ -121,18 +125,38 @@ class Interleaved {
       if (share_.rays > tests)
         send(lamp, first + tests, share_.rays - tests,
              [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
-      if (form.closed())
+      send_doubled(lamp, [&](std::size_t i) { return about_[i] == kMixed || !form.closed(); });
+      if (form.closed()) {
+        share_gain_ = gain_of_shares();
         for_each([&](std::size_t i) { add_share(lamp, i); });
-      else
+      } else
         add_means(reach(lamp));
     }
     return std::move(shared_);
   }
 
  private:
+  /// Of this pass.
+  int rays_of(std::size_t i) const {
+    return share_.doublings.empty() ? share_.rays : share_.rays << share_.doublings[i];
+  }
+
+  /// The further rays of pixels whose rays are doubled: of all passes, behind those of the pixels that are
+  /// not.
+  template <class Wanted>
+  void send_doubled(std::size_t lamp, const Wanted& wanted) {
+    if (share_.doublings.empty()) return;
+    const int most = *std::max_element(share_.doublings.begin(), share_.doublings.end());
+    for (int d = 1; d <= most; ++d) {
+      const int more = share_.rays * ((1 << d) - 1);
+      send(lamp, share_.rays * share_.passes + share_.pass * more, more,
+           [&](std::size_t i) { return share_.doublings[i] == d && wanted(i); });
+    }
+  }
+
   std::size_t reach(std::size_t lamp) const {
     const std::int64_t rays = std::int64_t{share_.rays} * share_.passes;
-    const Enough enough = lamps_.even[lamp] ? kEnough : kNoisyEnough;
+    const Enough enough = lamps_.form[lamp].closed() ? kEnough : kNoisyEnough;
     if (rays >= enough.own && (lamps_.form[lamp].closed() || share_.rays >= kTelling)) return kOwn;
     return rays >= enough.next ? kNext : kAll;
   }
@@ -237,21 +261,11 @@ class Interleaved {
       return;
     }
     const std::array<PooledVisibility, kReaches> found = found_about(i);
-    std::size_t reach = this->reach(lamp);
-    if (reach == kOwn) {
+    const std::size_t reach = this->reach(lamp);
+    if (reach == kOwn && rays_of(i) < kTelling)
       add_own_share(form, i, found);
-      return;
-    }
-    while (reach < kAll && !(found[reach].sent > 0)) ++reach;
-    if (!(found[reach].seen > 0)) return;
-    const float share = found[reach].share();
-    if (reach > kOwn && found[reach - 1].rays >= kTold && found[reach - 1].sent > 0) {
-      const PooledVisibility& nearer = found[reach - 1];
-      const float change = nearer.share() - share;
-      if (change * change > kDoubt * kDoubt * nearer.variance_of(share)) --reach;
-    }
-    shared_[i].add_share(form.luminance() * unoccluded(form, i), found[reach].share(),
-                         found[reach].variance_of(share));
+    else
+      add_drawn_share(form, i, found, reach);
   }
 
   /// By the pixel's own rays. A few of them, of one pass, see the lamp's parts in proportions that are not
@@ -263,8 +277,98 @@ class Interleaved {
     const float whole = unoccluded(form, i);
     if (!(found[kAll].sent > 0) || !(whole > 0)) return;
     const float about = found[kAll].share();
-    const float share = about + (found[kOwn].seen - about * found[kOwn].sent) / (found[kOwn].rays * whole);
-    shared_[i].add_share(form.luminance() * whole, share, about * (1 - about) / found[kOwn].rays);
+    shared_[i].add_share(form.luminance() * whole, own_share(found, about, whole),
+                         about * (1 - about) / found[kOwn].rays);
+  }
+
+  static float own_share(const std::array<PooledVisibility, kReaches>& found, float about, float whole) {
+    return about + (found[kOwn].seen - about * found[kOwn].sent) / (found[kOwn].rays * whole);
+  }
+
+  /// By the share about the pixel, drawn towards nearer shares where these differ by more than noise. Of a
+  /// lamp that nearly all rays miss, or nearly none, as where it shines through bars, chance makes one pixel
+  /// twice as bright as the next.
+  void add_drawn_share(const LampForm& form, std::size_t i,
+                       const std::array<PooledVisibility, kReaches>& found, std::size_t reach) {
+    const float whole = unoccluded(form, i);
+    if (!(found[kAll].sent > 0) || !(whole > 0)) return;
+    const float about = found[kAll].share();
+    const auto telling = [&](std::size_t r) {
+      return telling_of(found[r].rays, found[kAll].seen, found[kAll].sent);
+    };
+    const auto noise = [&](std::size_t r) {
+      return left_by_strata(telling(r)) * static_cast<double>(about * (1 - about) / found[r].independent());
+    };
+    if (reach == kOwn && noise(kOwn) < kSure * kSure * static_cast<double>(about * about))
+      return add_own_share(form, i, found);
+    const bool few = !(found[kNext].sent > 0) || telling(kNext) < kEnoughTelling / 2;
+    const std::size_t widest = reach == kAll || few ? kAll : kNext;
+    double share = static_cast<double>(found[widest].share()),
+           variance = static_cast<double>(found[widest].variance_of(about));
+    for (std::size_t r = widest; r-- > kOwn;) {
+      if (!(found[r].sent > 0) || found[r].rays < kTold) continue;
+      const double nearer =
+          static_cast<double>(r == kOwn ? own_share(found, about, whole) : found[r].share());
+      const double k = drawn((nearer - share) * (nearer - share), noise(r), telling(r));
+      share += k * (nearer - share);
+      variance = (1 - k) * (1 - k) * variance + k * k * noise(r);
+    }
+    shared_[i].add_share(form.luminance() * whole, static_cast<float>(share), static_cast<float>(variance));
+  }
+
+  /// Of the variance of a share that independent rays would have: all, where few arrive.
+  double left_by_strata(double telling) const { return telling < kEnoughTelling ? 1 : share_gain_; }
+
+  /// Of the variance of pixels' own shares, over the variance by independent rays; at most 1: as usual,
+  /// whatever the edges of shadows are. Pixels a block apart send their rays to the same part of the lamp;
+  /// three of them in a row tell noise from light that changes evenly.
+  double gain_of_shares() const {
+    const std::size_t height = pixels_ / width_;
+    std::vector<float> ratio = parallel_reduce(
+        height, 1, std::vector<float>(),
+        [&](std::size_t y, std::size_t) {
+          std::vector<float> row;
+          for (std::size_t x = 0; x < width_; ++x) {
+            const std::size_t i = y * width_ + x;
+            if (x + 2 * kBlock < width_) add_ratio(i, kBlock, row);
+            if (y + 2 * kBlock < height) add_ratio(i, kBlock * width_, row);
+          }
+          return row;
+        },
+        [](std::vector<float>& all, const std::vector<float>& row) {
+          all.insert(all.end(), row.begin(), row.end());
+        });
+    return usual_gain(ratio);
+  }
+
+  /// Of the pixels i, i + step and i + 2 step, if they show one surface.
+  void add_ratio(std::size_t i, std::size_t step, std::vector<float>& ratio) const {
+    const std::size_t j = i + step, k = j + step;
+    for (const std::size_t p : {i, j, k})
+      if (!g_.covered(p) || about_[p] != kMixed || !(sight_[p].sent > 0)) return;
+    const SeenSurface own = SeenSurface::of(g_, j);
+    if (!same_surface(own, g_, i) || !same_surface(own, g_, k)) return;
+    const LampVisibility &a = sight_[i], &b = sight_[j], &c = sight_[k];
+    const float seen = a.seen + b.seen + c.seen, sent = a.sent + b.sent + c.sent;
+    const auto fewest = static_cast<float>(std::min({a.rays, b.rays, c.rays}));
+    if (telling_of(fewest, seen, sent) < kEnoughTelling) return;
+    const float differ = a.seen / a.sent - 2 * b.seen / b.sent + c.seen / c.sent, share = seen / sent;
+    const auto each = [](const LampVisibility& v) { return 1 / static_cast<float>(v.rays); };
+    ratio.push_back(differ * differ / (share * (1 - share) * (each(a) + 4 * each(b) + each(c))));
+  }
+  /// By the median of squares over their independent variances.
+  static double usual_gain(std::vector<float>& ratio) {
+    if (ratio.empty()) return 1;
+    const auto middle = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
+    std::nth_element(ratio.begin(), middle, ratio.end());
+    return std::min(1.0, static_cast<double>(*middle) / kMedianOfSquare);
+  }
+
+  /// By how much a mean is drawn towards another, 0 to 1, whose square of difference and variance are these
+  /// (James and Stein 1961): so that noise is believed nowhere. `telling`: telling_of() the other.
+  static double drawn(double difference2, double variance, double telling) {
+    const double doubt2 = (1 + kDoubtFew / telling) * kDoubtMeans * variance;
+    return difference2 > doubt2 ? 1 - doubt2 / difference2 : 0;
   }
 
   /// The light of a lamp without one, at all pixels.
@@ -274,14 +378,13 @@ class Interleaved {
     const Gain gain = gain_of_strata(mean);
     for_each([&](std::size_t i) {
       mean[i].variance *= gain.overall;
-      if (reach > kOwn && share_.rays >= kTelling) draw_nearer(found_about(i), reach, gain.usual, mean[i]);
+      if (reach > kOwn && rays_of(i) >= kTelling) draw_nearer(found_about(i), reach, gain.usual, mean[i]);
       shared_[i].illuminance += mean[i].illuminance, shared_[i].variance += mean[i].variance;
     });
   }
 
   /// Draws the mean within reach towards the means of nearer pixels where these differ by more than noise: at
-  /// the edge of a shadow. By a share that grows from 0 with the difference (James and Stein 1961), so that
-  /// noise is believed nowhere.
+  /// the edge of a shadow.
   static void draw_nearer(const std::array<PooledVisibility, kReaches>& found, std::size_t reach, double gain,
                           SharedLight& mean) {
     const PooledVisibility& all = found[reach];
@@ -289,13 +392,18 @@ class Interleaved {
     const DVec3 spread = glm::max(all.light2 / static_cast<double>(all.rays) - whole * whole, DVec3(0));
     for (std::size_t r = reach; r-- > kOwn;) {
       const DVec3 differs = DVec3(found[r].light / found[r].rays - mean.illuminance);
-      const DVec3 noise = spread * (gain / static_cast<double>(found[r].independent()));
-      const double d2 = glm::dot(differs, differs), n2 = glm::dot(noise, DVec3(1));
-      if (!(d2 > kDoubtMeans * n2)) continue;
-      const double k = 1 - kDoubtMeans * n2 / d2;
+      const double telling = telling_of(found[r].rays, all.seen, all.sent);
+      const DVec3 noise =
+          spread * ((telling < kEnoughTelling ? 1 : gain) / static_cast<double>(found[r].independent()));
+      const double k = drawn(glm::dot(differs, differs), glm::dot(noise, DVec3(1)), telling);
       mean.illuminance += Rgb(k * differs);
       mean.variance = (1 - k) * (1 - k) * mean.variance + k * k * noise;
     }
+  }
+
+  /// Of rays, those that arrive or those that do not, whichever are fewer, where `seen` of `sent` arrives.
+  static double telling_of(float rays, float seen, float sent) {
+    return sent > 0 ? static_cast<double>(rays * std::min(seen, sent - seen) / sent) : 0;
   }
 
   struct Gain {
@@ -327,7 +435,11 @@ class Interleaved {
               const double in_strata = glm::dot(differ, differ) / 2,
                            independent = (spread_of_mean(i, mean[i]) + spread_of_mean(j, mean[j])) / 2;
               row.in_strata += in_strata, row.independent += independent;
-              if (independent > 0) row.ratio.push_back(static_cast<float>(in_strata / independent));
+              const auto telling = [&](std::size_t k) {
+                return telling_of(static_cast<float>(sight_[k].rays), sight_[k].seen, sight_[k].sent);
+              };
+              if (independent > 0 && std::min(telling(i), telling(j)) >= kEnoughTelling)
+                row.ratio.push_back(static_cast<float>(in_strata / independent));
             };
             if (x + kBlock < width_) pair(i + kBlock);
             if (y + kBlock < height) pair(i + kBlock * width_);
@@ -340,10 +452,7 @@ class Interleaved {
         });
     Gain gain;
     if (sum.in_strata < sum.independent) gain.overall = sum.in_strata / sum.independent;
-    if (sum.ratio.empty()) return gain;
-    const auto middle = sum.ratio.begin() + static_cast<std::ptrdiff_t>(sum.ratio.size() / 2);
-    std::nth_element(sum.ratio.begin(), middle, sum.ratio.end());
-    gain.usual = std::min(1.0, static_cast<double>(*middle) / kMedianOfSquare);
+    gain.usual = usual_gain(sum.ratio);
     return gain;
   }
   DVec3 own_mean(std::size_t i) const {
@@ -391,6 +500,7 @@ class Interleaved {
   std::vector<Brought> brought_;             // empty for a lamp with a closed form
   std::vector<std::uint8_t> found_, about_;  // states of a pixel, and of a pixel with its neighbours
   std::vector<SharedLight> shared_;
+  double share_gain_ = 1;  // gain_of_shares()
 };
 
 }  // namespace

@@ -17,12 +17,13 @@ bool same_all_over(const Scene& scene, const Material& material) {
 }  // namespace
 
 EdgeShader::EdgeShader(const RayScene& rays, const Luminaires& lights, const PixelRays& pixel_rays,
-                       const PixelShader& shader, const RenderOptions& options, bool cached_direct,
-                       const SeenPicture& picture)
+                       const PixelShader& shader, const RenderOptions& options, const Doublings& doublings,
+                       bool cached_direct, const SeenPicture& picture)
     : rays_(rays),
       pixel_rays_(pixel_rays),
       shader_(shader),
       options_(options),
+      doublings_(doublings),
       picture_(picture),
       cached_direct_(cached_direct),
       edge_light_(rays, lights, shader.lamp_rays_of_each(true), options.seed) {
@@ -91,7 +92,8 @@ void EdgeShader::find_light(const Samples& samples, Sorted& sorted) const {
     if (!diffuse_[static_cast<std::size_t>(surface.seen.material)]) continue;
     surface.direct = &surface.light;
     if (cached_direct_) continue;
-    surface.light = edge_light_.light({samples.pixel, k, samples.ray, samples.hit, surface.sample},
+    surface.light = edge_light_.light({samples.pixel, k, samples.ray, samples.hit, surface.sample,
+                                       Doublings::of(doublings_.direct, samples.pixel)},
                                       about ? &picture_.shared[*about] : nullptr, scratch);
   }
 }

@@ -28,8 +28,8 @@ class EdgeShader {
  public:
   /// `cached_direct`: the cache holds direct light too.
   EdgeShader(const RayScene& rays, const Luminaires& lights, const PixelRays& pixel_rays,
-             const PixelShader& shader, const RenderOptions& options, bool cached_direct,
-             const SeenPicture& picture);
+             const PixelShader& shader, const RenderOptions& options, const Doublings& doublings,
+             bool cached_direct, const SeenPicture& picture);
 
   /// Adds options.edge_samples samples of the pixel. `lamps`: the light of the lamps at each of seen();
   /// empty: it is found by rays.
@@ -76,6 +76,7 @@ class EdgeShader {
   const PixelRays& pixel_rays_;
   const PixelShader& shader_;
   const RenderOptions& options_;
+  const Doublings& doublings_;
   const SeenPicture& picture_;
   bool cached_direct_;
   EdgeLight edge_light_;

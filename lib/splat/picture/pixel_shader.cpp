@@ -15,10 +15,12 @@ void ShadingResult::join(const ShadingResult& other) {
 }
 
 PixelShader::PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
-                         bool cached_direct, const EnvironmentHarmonics* environment)
+                         const Doublings& doublings, bool cached_direct,
+                         const EnvironmentHarmonics* environment)
     : rays_(rays),
       shading_(shading),
       options_(options),
+      doublings_(doublings),
       cached_direct_(cached_direct),
       shows_lux_(LayerSet(options.layers).has(Layer::illuminance)),
       environment_(environment) {}
@@ -173,10 +175,18 @@ bool PixelShader::single_rays(bool at_edge) const {
 }
 
 /// This sample's part of the rays for the whole pixel.
-SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixel) const {
-  const int n = rays_of_each(sample.at_edge, of_pixel);
+SampleRange PixelShader::range(const SampleOfPixel& sample, std::int64_t of_pixel, int doublings) const {
+  const int n = rays_of_each(sample.at_edge, of_pixel) << doublings;
   const std::int64_t group = sample.at_edge ? options_.edge_samples : options_.pixel_samples;
   return {sample.index * n, n, static_cast<int>(group) * n};
+}
+
+SampleRange PixelShader::lamp_range(const SampleOfPixel& sample) const {
+  return range(sample, options_.light_samples, Doublings::of(doublings_.direct, sample.pixel));
+}
+
+SampleRange PixelShader::gloss_range(const SampleOfPixel& sample) const {
+  return range(sample, options_.gloss_samples, Doublings::of(doublings_.gloss, sample.pixel));
 }
 
 bool PixelShader::from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
@@ -218,8 +228,8 @@ void PixelShader::from_lights(const SampleOfPixel& sample, const SurfacePoint& p
     return;
   }
   const DirectLight direct =
-      shading_.direct(point, bsdf, wo, range(sample, options_.light_samples),
-                      gloss_by_rays ? range(sample, options_.gloss_samples).count : 0, sequence, environment);
+      shading_.direct(point, bsdf, wo, lamp_range(sample), gloss_by_rays ? gloss_range(sample).count : 0,
+                      sequence, environment);
   light.direct += direct.radiance;
   light.noisy += direct.radiance;
   light.variance += direct.variance;
@@ -233,7 +243,7 @@ void PixelShader::lux_from_lights(const SampleOfPixel& sample, const SurfacePoin
   // Own random numbers: other layers are the same without this one.
   RandomStream own(options_.seed, Stage::direct_light, sample.pixel);
   if (sample.at_edge) own.start_bounce(1);
-  const SampleRange rays = range(sample, options_.light_samples);
+  const SampleRange rays = lamp_range(sample);
   light.illuminance_lx += luminance(shading_.mirrored(point, bsdf, wo, false, rays, own).illuminance);
   light.illuminance_lx += luminance(
       shared ? shared->illuminance : shading_.direct(point, bsdf, wo, rays, 0, own, environment).illuminance);
@@ -244,7 +254,7 @@ void PixelShader::from_other_side(const SampleOfPixel& sample, const SurfacePoin
                                   const Vec3& wo, RandomStream& sequence, PixelSample& light,
                                   ShadingResult& result) const {
   const Shading::Through through =
-      shading_.through(point, bsdf, wo, range(sample, options_.light_samples), sequence, result.log);
+      shading_.through(point, bsdf, wo, lamp_range(sample), sequence, result.log);
   ++result.looked_up;
   result.missed += through.missed;
   light.indirect += through.indirect;
@@ -259,7 +269,7 @@ void PixelShader::from_mirrors(const SampleOfPixel& sample, const SurfacePoint& 
                                const Vec3& wo, bool gloss_by_rays, RandomStream& sequence,
                                PixelSample& light) const {
   const DirectLight mirrored =
-      shading_.mirrored(point, bsdf, wo, gloss_by_rays, range(sample, options_.light_samples), sequence);
+      shading_.mirrored(point, bsdf, wo, gloss_by_rays, lamp_range(sample), sequence);
   light.direct += mirrored.radiance;
   light.noisy += mirrored.radiance;
   if (!cached_direct_) light.illuminance_lx += luminance(mirrored.illuminance);
@@ -270,10 +280,10 @@ void PixelShader::from_gloss(const SampleOfPixel& sample, const SurfacePoint& po
                              PixelSample& light, ShadingLog& log) const {
   // Shadow maps light diffuse surfaces only: the lamps in glossy surfaces are left to these rays.
   const int light_samples = options_.direct == DirectBy::traced || options_.direct == DirectBy::interleaved
-                                ? range(sample, options_.light_samples).count
+                                ? lamp_range(sample).count
                                 : 0;
-  const GlossLight gloss = shading_.gloss(point, bsdf, wo, range(sample, options_.gloss_samples),
-                                          light_samples, 0, sequence, random, log, environment);
+  const GlossLight gloss = shading_.gloss(point, bsdf, wo, gloss_range(sample), light_samples, 0, sequence,
+                                          random, log, environment);
   light.glossy += gloss.radiance;
   light.noisy += gloss.radiance;
   light.variance += gloss.variance;

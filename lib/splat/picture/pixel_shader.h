@@ -6,6 +6,7 @@
 #include "estimate/shading.h"
 #include "splat/direct/environment_harmonics.h"
 #include "splat/direct/interleaved.h"
+#include "splat/picture/doublings.h"
 #include "splat/picture/layers.h"
 #include "splat/picture/mapped_lamps.h"
 #include "splat/picture/render.h"
@@ -32,7 +33,8 @@ struct ShadingResult {
 class PixelShader {
  public:
   /// `environment`: null where the environment is traced.
-  PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options, bool cached_direct,
+  PixelShader(const RayScene& rays, const Shading& shading, const RenderOptions& options,
+              const Doublings& doublings, bool cached_direct,
               const EnvironmentHarmonics* environment = nullptr);
 
   /// Light of the records at a sample, already found (splatted). weight 0: none has been found yet.
@@ -70,7 +72,9 @@ class PixelShader {
   void from_caustics(const SampleOfPixel& sample, const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo,
                      bool gloss, PixelSample& light, ShadingLog& log) const;
   int rays_of_each(bool at_edge, std::int64_t of_pixel) const;
-  SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel) const;
+  SampleRange range(const SampleOfPixel& sample, std::int64_t of_pixel, int doublings) const;
+  SampleRange lamp_range(const SampleOfPixel& sample) const;
+  SampleRange gloss_range(const SampleOfPixel& sample) const;
   /// Is the environment's light had without rays?
   bool from_environment(const SurfacePoint& point, const Bsdf& bsdf, const Vec3& wo, PixelSample& light,
                         ShadingLog& log) const;
@@ -89,6 +93,7 @@ class PixelShader {
   const RayScene& rays_;
   const Shading& shading_;
   const RenderOptions& options_;
+  const Doublings& doublings_;
   bool cached_direct_;
   bool shows_lux_;  // the layer of illuminance is asked for
   const EnvironmentHarmonics* environment_;

@@ -137,8 +137,7 @@ void declare_options(Options& options, RenderOptions& r) {
        {"none", DirectBy::none}},
       "method for direct light: traced: by shadow rays; interleaved: by shadow rays that 4 x 4 pixels of one "
       "diffuse surface share, also at edges, with more rays only where a lamp is partly hidden (a fraction "
-      "of the time; shadows blur over up to 4 pixels, less with more rays, not with 64 rays; for the sky and "
-      "other lamps of uneven light or many faces only faint shadows blur, up to 4096 rays); shadow-map: by "
+      "of the time; shadows that noise would hide blur over up to 4 pixels); shadow-map: by "
       "shadow maps (a fast preview of diffuse surfaces alone); none: no direct light");
   options.integer("light-samples", r.light_samples, "N",
                   "number of shadow rays from a pixel to each area light or environment, shared among the "
@@ -147,9 +146,10 @@ void declare_options(Options& options, RenderOptions& r) {
                   {1, 65536});
   options.number(
       "noise", r.noise, "FRACTION",
-      "root mean square noise of direct light and gloss to reach, as a share of the pixel's light, or of a "
-      "tenth of the picture's mean where that is more (0.02: 2 %). Two small pictures tell how many "
-      "--light-samples and --gloss-samples reach it: 64 (fewer to each of many lamps) to 4096",
+      "noise of direct light and gloss to reach in each part of the picture, as a share of the pixel's "
+      "light, "
+      "or of a twentieth of the picture's mean where that is more (0.02: 2 %). Two small pictures tell how "
+      "many --light-samples and --gloss-samples reach it where: 64 (fewer to each of many lamps) to 4096",
       {1e-4, 1}, Recorded::if_given);
   options.choice<EnvironmentBy>(
       "environment-mode", r.environment,
@@ -206,11 +206,13 @@ namespace {
 class Painter {
  public:
   Painter(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-          std::span<const BrdfTable> brdfs, const GlossCache* gloss, Rendering& result)
+          std::span<const BrdfTable> brdfs, const GlossCache* gloss, const Doublings& doublings,
+          Rendering& result)
       : rays_(rays),
         cache_(cache),
         gloss_(gloss),
         options_(options),
+        doublings_(doublings),
         result_(result),
         camera_(find_camera(rays.scene(), options.camera)),
         width_(static_cast<int>(options.width)),
@@ -222,7 +224,7 @@ class Painter {
         caustics_(caustic_light()),
         shading_(rays, lights_, records_, shading_options(), gloss, caustics_.get()),
         environment_(harmonics(brdfs)),
-        shader_(rays, shading_, options, cached_direct(), environment_.get()),
+        shader_(rays, shading_, options, doublings, cached_direct(), environment_.get()),
         layers_(width_, height_, LayerSet(options.layers), samples_ + static_cast<int>(options.edge_samples),
                 spread_from()),
         count_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
@@ -361,7 +363,8 @@ class Painter {
       if (cached_direct()) return std::vector<SharedLight>(count_.size());
       const Stopwatch watch(result_.seconds, "interleaved direct light");
       return interleaved_light(rays_, lights_, gbuffer, pixel_rays_, subpixel_offset(s, samples_),
-                               {shader_.lamp_rays_of_each(false), s, samples_}, options_.seed);
+                               {shader_.lamp_rays_of_each(false), s, samples_, doublings_.direct},
+                               options_.seed);
     }
     std::vector<SharedLight> shared;
     if (!by_maps) return shared;
@@ -402,7 +405,7 @@ class Painter {
 
   void shade_edges() {
     const Stopwatch watch(result_.seconds, "edges");
-    const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, cached_direct(), pass_);
+    const EdgeShader edge(rays_, lights_, pixel_rays_, shader_, options_, doublings_, cached_direct(), pass_);
     const auto each = static_cast<std::size_t>(options_.edge_samples);
     std::vector<LampsAt> lamps;
     if (by_maps()) {
@@ -448,6 +451,7 @@ class Painter {
   const IrradianceCache& cache_;
   const GlossCache* gloss_;
   const RenderOptions& options_;
+  const Doublings& doublings_;
   Rendering& result_;
   const Camera& camera_;
   int width_, height_, samples_;
@@ -472,9 +476,10 @@ class Painter {
 }  // namespace
 
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& options,
-                       std::span<const BrdfTable> brdfs, const GlossCache* gloss, const RecordLives& lives) {
+                       std::span<const BrdfTable> brdfs, const GlossCache* gloss, const RecordLives& lives,
+                       const Doublings& doublings) {
   Rendering result;
-  Painter(rays, cache, options, brdfs, gloss, result).make();
+  Painter(rays, cache, options, brdfs, gloss, doublings, result).make();
   if (options.overlay == Overlay::records) {
     result.drawn = draw_records(result.image, cache.records, *options.accuracy, rays,
                                 find_camera(rays.scene(), options.camera), options.overlay_colour, lives);

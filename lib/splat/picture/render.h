@@ -17,6 +17,7 @@
 #include "record/irradiance_cache.h"
 #include "scene/rays.h"
 #include "splat/direct/environment_harmonics.h"
+#include "splat/picture/doublings.h"
 #include "splat/picture/overlay.h"
 
 namespace phos::inline splat {
@@ -80,14 +81,14 @@ struct Rendering {
   std::string renderer;           ///< of the splatter
 };
 
-/// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu. `brdfs`: of this
-/// scene's glossy materials, for an environment by harmonics; materials that it lacks are projected. `gloss`,
-/// made for gloss_accuracy: the records that glossy surfaces read (null: all gloss is traced). `lives`: of
-/// the cache's records, for OverlayColour::life. Throws Error(usage) for harmonics of a scene without
-/// environment.
+/// `render` must be resolved. Same bytes for any number of threads with SplatBy::cpu. `doublings`: of the
+/// rays of its pixels. `brdfs`: of this scene's glossy materials, for an environment by harmonics; materials
+/// that it lacks are projected. `gloss`, made for gloss_accuracy: the records that glossy surfaces read
+/// (null: all gloss is traced). `lives`: of the cache's records, for OverlayColour::life. Throws Error(usage)
+/// for harmonics of a scene without environment.
 Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const RenderOptions& render,
                        std::span<const BrdfTable> brdfs = {}, const GlossCache* gloss = nullptr,
-                       const RecordLives& lives = {});
+                       const RecordLives& lives = {}, const Doublings& doublings = {});
 
 /// CSV: x,y,z (m, of the world), nx,ny,nz. What phos-irradiance --at reads. Atomic.
 void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m = DVec3(0));

@@ -1,5 +1,6 @@
 #include "splat/picture/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "splat/limits.h"
@@ -78,11 +79,22 @@ void report_noise(Tool& tool, const RenderOptions& render, const NoiseTarget& ta
   if (!render.noise) return;
   tool.stat("pilot noise, direct", target.direct);
   tool.stat("pilot noise, gloss", target.gloss);
-  tool.say(text(render.light_samples, " shadow rays a pixel and light and ", render.gloss_samples,
+  const auto sent = [&](const std::vector<std::uint8_t>& doublings, std::int64_t rays, const char* name) {
+    if (doublings.empty()) return text(rays);
+    double sum = 0;
+    for (const std::uint8_t d : doublings) sum += std::exp2(d);
+    const std::int64_t most = rays << *std::max_element(doublings.begin(), doublings.end());
+    const auto mean = std::llround(static_cast<double>(rays) * sum / static_cast<double>(doublings.size()));
+    tool.stat(name, mean);
+    return text(rays, " to ", most, " (on average ", mean, ")");
+  };
+  tool.say(text(sent(target.doublings.direct, render.light_samples, "mean light samples"),
+                " shadow rays a pixel and light and ",
+                sent(target.doublings.gloss, render.gloss_samples, "mean gloss samples"),
                 " rays of gloss are sent"));
   if (!target.enough)
-    tool.warn(
-        text("the noise asked for takes more than ", kMostNoiseRays.most, " rays a pixel; so many are sent"));
+    tool.warn(text("the noise asked for takes more than ", kMostNoiseRays.most,
+                   " rays in parts of the picture; so many are sent"));
 }
 
 }  // namespace phos::inline splat

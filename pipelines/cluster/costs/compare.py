@@ -42,7 +42,8 @@ def _predicted(costs, name, job, row):
     words, stage, ending = job["command"], name.split("/")[0], os.path.splitext(name)[1]
     value = lambda option, default: words[words.index(option) + 1] if option in words else default
     part = 1 / int(value("--shard", value("--part", "1/1")).split("/")[1])
-    cost = lambda key, items, grown=None: (key, at_cost(costs[key]["seconds"], items if grown is None else grown), at_cost(costs[key]["memory"], items))
+    cost = lambda key, items, grown=None, among=0: (key, at_cost(costs[key]["seconds"], items if grown is None else grown, among),
+                                                    at_cost(costs[key]["memory"], items))
     if stage == "photons":
         paths = float(value("--photons", 1000000))
         key, seconds, memory = cost("photons", paths * part)
@@ -61,9 +62,11 @@ def _predicted(costs, name, job, row):
     if stage == "irradiance" and "surface" in words:
         return cost("source", paths_of(row["bytes_read"]))
     if stage == "merge":
-        return cost("merge_sensors", (int(row["bytes_written"]) - costs["merge_sensors"]["bytes"]["fixed"]) / costs["merge_sensors"]["bytes"]["each"])
+        sensors = (int(row["bytes_written"]) - costs["merge_sensors"]["bytes"]["fixed"]) / costs["merge_sensors"]["bytes"]["each"]
+        return cost("merge_sensors", sensors, among=sensors)
     if stage == "sense":
-        return cost("read", _rows(value("--points", os.devnull)) * part)
+        sensors = _rows(value("--points", os.devnull))
+        return cost("read", sensors * part, among=sensors)
     return None, 0, 0
 
 

@@ -11,10 +11,11 @@ RAYS = 256  # of a sensor, while measuring
 
 
 def measure(scene, out, paths):
-    """Writes the costs (JSON): per stage, seconds of the processor, bytes of memory and bytes of the file, each at 0 items and for each further item."""
+    """Writes the costs (JSON): per stage, seconds of the processor, bytes of memory and bytes of the file, each at 0 items and for each further item;
+    where each item meets all others, as records of sensors that lie close together do, also for each pair of an item and another."""
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(out))) as folder:
         photons, maps = _photons(scene, folder, (paths // 4, paths))
-        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, (100, 900))}
+        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, (100, 2500, 10000))}
     with open(out, "w", encoding="utf-8") as file:
         json.dump(costs, file, indent=1)
         file.write("\n")
@@ -29,6 +30,14 @@ def line(few, many, at_few, at_many):
     """Cost at 0 and for each item, neither below 0, through two measured points."""
     each = max((many - few) / (at_many - at_few), 0)
     return {"fixed": max(few - each * at_few, 0), "each": each}
+
+
+def curve(counts, costs):
+    """Cost at 0, for each item, and for each pair of items, none below 0, through three measured points: the more sensors
+    a grid of one area has, the more others each meets."""
+    (a, b, c), (at_a, at_b, at_c) = counts, costs
+    pair = max(((at_c - at_b) / (c - b) - (at_b - at_a) / (b - a)) / (c - a), 0)
+    return {**line(at_a - pair * a * a, at_c - pair * c * c, a, c), "pair": pair}
 
 
 def spent(*words):
@@ -101,11 +110,12 @@ def _sensors(scene, folder, counts):
         made.append(tuple((a + b) / 2 for a, b in zip(*half)) + (sum(map(os.path.getsize, parts)) / 2,))
         merged.append((*spent("phos-merge", *parts, "-o", records), os.path.getsize(records)))
         read.append(spent("phos-sense", scene, records, "--points", points, "-o", os.path.join(folder, "read.csv")))
-    few, many = counts
-    fit = lambda runs, i, scale: line(runs[0][i], runs[1][i], few * scale, many * scale)
+    few, many = counts[0], counts[-1]
+    fit = lambda runs, i, scale: line(runs[0][i], runs[-1][i], few * scale, many * scale)
+    seconds = lambda runs: curve(counts, [run[0] for run in runs])
     return {"sensors": {"seconds": fit(made, 0, RAYS / 2), "memory": fit(made, 1, 0.5), "bytes": fit(made, 2, 0.5)},
-            "merge_sensors": {"seconds": fit(merged, 0, 1), "memory": fit(merged, 1, 1), "bytes": fit(merged, 2, 1)},
-            "read": {"seconds": fit(read, 0, 1), "memory": fit(read, 1, 1)}}
+            "merge_sensors": {"seconds": seconds(merged), "memory": fit(merged, 1, 1), "bytes": fit(merged, 2, 1)},
+            "read": {"seconds": seconds(read), "memory": fit(read, 1, 1)}}
 
 
 def _bounds(scene):

@@ -11,8 +11,9 @@ MOVED_ON_DISK = 2 * 48 + 3 * (16 + 9)
 SHARDS_READ, MAP_MOVED = 3.3, 4  # shards are checked, numbered and read; columns are written, hashed, read and written
 
 
-def at_cost(cost, items):
-    return cost["fixed"] + cost["each"] * items
+def at_cost(cost, items, among=0):
+    """Of `items`, each of which meets `among` others."""
+    return cost["fixed"] + (cost["each"] + cost.get("pair", 0) * among) * items
 
 
 def merges_on_disk(stored, memory_bytes):
@@ -95,5 +96,5 @@ def _add_sensors(run, photons, sensors, rays, parts):
             at_cost(source["memory"], photons))
     run.add("sensors", [(at_cost(s["seconds"], share * rays) / site.cores, source_bytes + part)] * parts, at_cost(s["memory"], share))
     if parts > 1:
-        run.add("merge_sensors", [(at_cost(ms["seconds"], sensors), part * parts + whole)], at_cost(ms["memory"], sensors))
-    run.add("read", [(at_cost(r["seconds"], share) / site.cores, whole)] * parts, at_cost(r["memory"], sensors))
+        run.add("merge_sensors", [(at_cost(ms["seconds"], sensors, sensors), part * parts + whole)], at_cost(ms["memory"], sensors))
+    run.add("read", [(at_cost(r["seconds"], share, sensors) / site.cores, whole)] * parts, at_cost(r["memory"], sensors))

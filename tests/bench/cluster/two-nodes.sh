@@ -18,7 +18,7 @@ site_start "$scratch/site"
 cd "$scratch"
 awk -v n="$sensors" 'BEGIN {
   print "x,y,z,nx,ny,nz"; s = int(sqrt(n))
-  for (i = 0; i < s; ++i) for (j = 0; j < s; ++j) printf "%.6f,0.3,%.6f,0,1,0\n", 0.05 + 0.45 * i / s, 0.05 + 0.45 * j / s
+  for (i = 0; i < s; ++i) for (j = 0; j < s; ++j) printf "%.6f,0.45,%.6f,0,1,0\n", 0.05 + 0.45 * i / s, 0.05 + 0.45 * j / s
 }' >points.csv
 cat >grid.yaml <<END
 scenes: {box: $project/data/cornell-measured.glb}
