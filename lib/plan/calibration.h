@@ -104,9 +104,9 @@ inline constexpr double kFilmLight = 0.15;
 /// kTimeDoubt, and by kErrorDoubt of the mean square.
 inline constexpr double kLeastGlossGain = 0.75;
 /// Records have adaptive zones where that is predicted to take less than this part of the time of circular
-/// zones (where seconds are asked for: to leave less than this part of the error). They differ by
-/// the records and their drawing alone, whose seconds are in doubt by kRunTimeDoubt in each.
-inline constexpr double kLeastFootprintGain = 0.85;
+/// zones (where seconds are asked for: to leave less than this part of the error). As of gloss. In a Cornell
+/// box, for 2 %, 0.78 of the time was predicted and 0.76 taken, but the error was a little greater.
+inline constexpr double kLeastFootprintGain = 0.75;
 /// Relative change of light that the records of a film may miss, over the error asked for; kMostFilmChange at
 /// most.
 inline constexpr double kFilmChange = 1;
