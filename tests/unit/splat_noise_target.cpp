@@ -54,10 +54,10 @@ TEST(NoiseTarget, SendsAsManyRaysAsTheNoiseTakes) {
   EXPECT_TRUE(found.doublings.gloss.empty());
   const NoiseTarget finer = target_of(rays, 0.02, fine);
   ASSERT_FALSE(finer.doublings.direct.empty());
-  // Doubled until it is enough, so up to twice as many; and nowhere fewer than in the small pictures.
+  // The nearest power of two; and nowhere fewer than in the small pictures.
   const double enough = 64 * found.direct * found.direct / (0.02 * 0.02 / 2);
-  EXPECT_GT(rays_of(finer.doublings, fine), std::max(64., enough));
-  EXPECT_LT(rays_of(finer.doublings, fine), 64 + 2 * enough);
+  EXPECT_GT(rays_of(finer.doublings, fine), std::max(64., enough / std::sqrt(2.)));
+  EXPECT_LT(rays_of(finer.doublings, fine), 64 + std::sqrt(2.) * enough);
   EXPECT_EQ(coarse.light_samples, 64);
   EXPECT_EQ(fine.light_samples, 64);
   EXPECT_EQ(fine.gloss_samples, 64);

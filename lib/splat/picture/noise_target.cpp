@@ -14,7 +14,7 @@ constexpr std::int64_t kPilotRays = 64;   // to one lamp; to each of many fewer
 constexpr std::int64_t kMost = kMostNoiseRays.most;
 constexpr int kAbout = 2;  // pixels of the pilot each way that tell the noise of a place
 /// Light of a pixel, of the mean, below which noise shows no more.
-constexpr double kLeastLight = 0.05;
+constexpr double kLeastLight = 0.1;
 /// Share of the pixels that may need more rays than are ever sent, before that is told.
 constexpr double kFew = 0.02;
 /// Random numbers of the two pilots, other than the picture's own.
@@ -88,7 +88,7 @@ class Chosen {
     const int most = std::max(0, static_cast<int>(std::floor(std::log2(static_cast<double>(kMost / sent)))));
     std::size_t beyond = 0;
     for (const double s : mean_about(squares, width_, height_)) {
-      const double wanted = s > square ? std::ceil(std::log2(s / square)) : 0;
+      const double wanted = s > square ? std::round(std::log2(s / square)) : 0;
       beyond += wanted > most;
       doublings_.push_back(static_cast<std::uint8_t>(std::min<double>(wanted, most)));
     }

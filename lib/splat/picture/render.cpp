@@ -148,7 +148,7 @@ void declare_options(Options& options, RenderOptions& r) {
       "noise", r.noise, "FRACTION",
       "noise of direct light and gloss to reach in each part of the picture, as a share of the pixel's "
       "light, "
-      "or of a twentieth of the picture's mean where that is more (0.02: 2 %). Two small pictures tell how "
+      "or of a tenth of the picture's mean where that is more (0.02: 2 %). Two small pictures tell how "
       "many --light-samples and --gloss-samples reach it where: 64 (fewer to each of many lamps) to 4096",
       {1e-4, 1}, Recorded::if_given);
   options.choice<EnvironmentBy>(
