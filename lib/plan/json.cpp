@@ -16,6 +16,7 @@ Json json_of(const Prediction& p, const PlanTask& task) {
   Json& settings = out["settings"];
   for (const Knob knob : {Knob::photons, Knob::accuracy}) settings[name_of(knob)] = p.knobs[at(knob)];
   if (task.cached_gloss) settings["gloss"] = "cached";
+  if (task.adaptive_zones()) settings["footprint"] = "adaptive";
   if (!task.by_photons) settings[name_of(Knob::rays)] = p.knobs[at(Knob::rays)];
   if (task.image) {
     for (const Knob knob : {Knob::pixel_samples, Knob::edge_samples, Knob::light_rays})

@@ -49,13 +49,13 @@ void declare_options(Options& options, PlanOptions& p) {
       text("light straight from the lamps: cached: in the records; traced: by shadow rays; auto: tries both "
            "for a picture with ",
            calibration::kManyLamps,
-           " lamps of an extent or more (the environment is one), takes twice the pilot, and keeps the "
+           " lamps of an extent or more (the environment is one), runs the pilot twice, and keeps the "
            "records where they promise a third of the time or of the error"));
   options.choice<PlanGloss>(
       "gloss", p.gloss,
       {{"auto", PlanGloss::automatic}, {"cached", PlanGloss::cached}, {"traced", PlanGloss::traced}},
       text("gloss that harmonics hold: cached: by radiance records; traced: by rays; auto: tries both for a "
-           "picture, takes twice the pilot, and keeps the records where they promise ",
+           "picture, runs the pilot twice, and keeps the records where they promise ",
            percent(calibration::kLeastGlossGain), " of the time or of the error, or less"));
   options.choice<PlanRecords>(
       "estimate", p.records,
@@ -63,6 +63,17 @@ void declare_options(Options& options, PlanOptions& p) {
       "method for the records: gather: rays that read a coarse cache; hull: the photons about a record; "
       "auto: hull where lamps light surfaces by mirrors, curved glass or sharp gloss so that rays would miss "
       "that light, else gather");
+  options.choice<PlanFootprint>(
+      "footprint", p.footprint,
+      {{"auto", PlanFootprint::automatic},
+       {"circle", PlanFootprint::circle},
+       {"adaptive", PlanFootprint::adaptive}},
+      text("zones of the records of a picture: circle: discs; adaptive: eight axes; auto: tries both, if "
+           "records are gathered and take enough of the time or leave enough of the error, runs the pilot "
+           "twice, and keeps adaptive zones where they promise ",
+           percent(calibration::kLeastFootprintGain),
+           " of the time or of the error, or less. Records that hold direct light have adaptive zones in "
+           "any case"));
   options.number("pilot-seconds", p.pilot_s, "S",
                  "time of the pilot, about: half of this time goes into references, whose noise limits the "
                  "errors that the pilot can measure. Without --run, a pilot that takes more than three times "
@@ -166,6 +177,12 @@ PlanTask task_of(const Options& options, const PlanOptions& p, const std::string
     throw Error(ExitCode::usage, "--gloss",
                 text("cached does not go with ", task.lux ? "sensors, which see no gloss" : "--direct cached",
                      "; leave one of them out"));
+  if (p.footprint == PlanFootprint::adaptive && (task.lux || p.records == PlanRecords::hull))
+    throw Error(ExitCode::usage, "--footprint",
+                text("adaptive ",
+                     task.lux ? "is for pictures: each sensor has a record of its own"
+                              : "does not go with --estimate hull: adaptive zones need gathered rays",
+                     "; leave it out"));
   for (const char* name : {"camera", "width", "height"})
     if (!task.image && options.given(name))
       throw Error(ExitCode::usage, text("--", name),

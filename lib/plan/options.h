@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/options.h"
-#include "plan/direct.h"
 #include "plan/estimate.h"
-#include "plan/gloss.h"
+#include "plan/way/footprint.h"
+#include "plan/way/gloss.h"
 #include "scene/load.h"
 #include "sense/grid.h"
 
@@ -23,6 +23,7 @@ struct PlanOptions {
   PlanDirect direct = PlanDirect::automatic;
   PlanGloss gloss = PlanGloss::automatic;
   PlanRecords records = PlanRecords::automatic;
+  PlanFootprint footprint = PlanFootprint::automatic;
   double pilot_s = 10, reference_s = 0;
   std::int64_t rounds = 5;
   bool script = false, json = false, run = false;

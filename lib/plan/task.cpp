@@ -87,9 +87,9 @@ Command view_records_command(const PlanTask& task, const Knobs& knobs, const std
   add(words, {"--place", "view"});
   add(words, view(task));
   add(words, estimated(task, knobs));
-  if (task.cached_direct)
-    add(words, {"--direct", "cached", "--footprint", "adaptive"});
-  else if (task.typical_m > 0)
+  if (task.cached_direct) add(words, {"--direct", "cached"});
+  if (task.adaptive_zones()) add(words, {"--footprint", "adaptive"});
+  if (!task.cached_direct && task.typical_m > 0)
     add(words,
         {"--min-radius", shortest(static_cast<float>(calibration::kLeastRadius * knobs[at(Knob::accuracy)]) *
                                   task.typical_m)});
@@ -126,7 +126,7 @@ Command drawn(const PlanTask& task, const Knobs& knobs, const std::string& scene
   add(words, {"--pixel-samples", std::to_string(samples)});
   if (more > 0) add(words, {"--edge-samples", std::to_string(more)});
   add(words, light);
-  if (task.cached_direct) add(words, {"--splat", "cpu"});  // the faster one for footprints
+  if (task.adaptive_zones()) add(words, {"--splat", "cpu"});  // the faster one for footprints
   return {"phos-splat", words, out};
 }
 
@@ -177,7 +177,7 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
                                    const std::string& folder, std::uint64_t seed) {
   const auto file = [&](const char* name) { return folder + "/" + name; };
   std::vector<PlanStage> stages;
-  const auto stage = [&](const char* name, const char* what, Command command) {
+  const auto stage = [&](const char* name, const std::string& what, Command command) {
     stages.push_back({name, what, seeded(std::move(command), seed)});
   };
   const std::string photons = file(kPlanPhotons), records = file(kPlanRecords);
@@ -194,16 +194,20 @@ std::vector<PlanStage> plan_stages(const PlanTask& task, const Knobs& knobs, con
     stage("gloss records", "light from every direction, on the gloss that the camera sees",
           gloss_records_command(task, knobs, scene, photons, gloss));
   }
+  const char* zones = task.adaptive ? "; the zones of the records are adaptive" : "";
   if (task.image)
-    stage("records",
-          task.frames ? "indirect light where the camera looks, in records that live through the frames"
-          : task.cached_direct
-              ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
-                "photons"
-          : task.by_photons
-              ? "indirect light where the camera looks, of the photons there"
-              : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
-          view_records_command(task, knobs, scene, photons, records, gloss));
+    stage(
+        "records",
+        text(
+            task.frames ? "indirect light where the camera looks, in records that live through the frames"
+            : task.cached_direct
+                ? "light where the camera looks: from the lamps, and by rays that read a coarse cache of the "
+                  "photons"
+            : task.by_photons
+                ? "indirect light where the camera looks, of the photons there"
+                : "indirect light where the camera looks, by rays that read a coarse cache of the photons",
+            zones),
+        view_records_command(task, knobs, scene, photons, records, gloss));
   if (task.lux)
     stage(task.image ? "sensor records" : "records", "indirect light where the sensors are",
           sensor_records_command(task, knobs, scene, photons, points, task.image ? records : "", records));

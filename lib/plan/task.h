@@ -26,6 +26,7 @@ struct PlanTask {
   bool gloss = false;             ///< something glossy is traced: --gloss-samples counts
   bool specular = false;          ///< mirrors or smooth glass are
   bool by_photons = false;        ///< records are made of photons alone (hull), not by gathered rays
+  bool adaptive = false;          ///< the picture's records have adaptive zones (docs/methods.md#e)
   bool cached_direct = false;     ///< the picture's records hold light straight from the lamps too
   bool cached_gloss = false;      ///< radiance records show the gloss that harmonics hold
   std::optional<FrameRange> frames{};  ///< of a film; none: one picture
@@ -33,6 +34,8 @@ struct PlanTask {
 
   /// Do the records hold light that references do not call indirect?
   bool records_hold_more() const { return cached_direct || cached_gloss; }
+  /// Have the picture's records adaptive zones? Zones that hold direct light have them in any case.
+  bool adaptive_zones() const { return adaptive || cached_direct; }
 };
 
 /// The files of gloss by records; empty names: gloss is traced.

@@ -80,6 +80,7 @@ PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanO
     PlannedWay way{task, {}, usual_plan(task, goal, plan.usual_error, lamps.lamps, why)};
     way.task.cached_direct = plan.direct == PlanDirect::cached;
     way.task.cached_gloss = plan.gloss == PlanGloss::cached && !needs.held_gloss.empty();
+    way.task.adaptive = adaptive_untried(task, plan.footprint, needs);
     if (!needs.held_gloss.empty())
       (way.task.cached_gloss ? needs.wanted : needs.unwanted)
           .push_back(
@@ -90,12 +91,14 @@ PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanO
   if (!(plan.pilot_s > 0)) return usual("no pilot was run: the settings are those usual for the error");
   try {
     Needs told = needs;  // of a pilot that ends
-    const auto direct = [&](const PlanTask& with) {
-      if (with.cached_gloss || with.frames)
-        return plan_direct(with, goal, PlanDirect::traced, lamps, pilot, told);
-      return plan_direct(with, goal, plan.direct, lamps, pilot, told);
+    const auto ways = [&](const PlanTask& of_zones, Needs& why) {
+      const auto direct = [&](const PlanTask& with) {
+        const bool traced = with.cached_gloss || with.frames;
+        return plan_direct(with, goal, traced ? PlanDirect::traced : plan.direct, lamps, pilot, why);
+      };
+      return plan_gloss(of_zones, goal, plan.gloss, direct, why);
     };
-    PlannedWay way = plan_gloss(task, goal, plan.gloss, direct, told);
+    PlannedWay way = plan_footprint(task, goal, plan.footprint, ways, pilot, told);
     needs = std::move(told);
     return way;
   } catch (const PilotTooLong& late) {

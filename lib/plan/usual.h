@@ -15,8 +15,8 @@ Knobs usual_knobs(const PlanTask& task, double error, std::size_t lamps);
 Plan usual_plan(const PlanTask& task, const PlanGoal& goal, double usual_error, std::size_t lamps,
                 const std::string& why);
 
-/// The plan of plan_gloss() and plan_direct(). Where plan.pilot_s is 0, or the pilot throws PilotTooLong:
-/// usual_plan().
+/// The plan of plan_footprint(), plan_gloss() and plan_direct(). Where plan.pilot_s is 0, or the pilot throws
+/// PilotTooLong: usual_plan().
 PlannedWay plan_or_usual(const PlanTask& task, const PlanGoal& goal, const PlanOptions& plan,
                          const LampCount& lamps, const std::function<Pilot(const PlanTask&)>& pilot,
                          Needs& needs);

@@ -6,12 +6,12 @@
 #include "file/write_text.h"
 #include "place/typical_distance.h"
 #include "plan/calibration.h"
-#include "plan/direct.h"
 #include "plan/film.h"
 #include "plan/json.h"
 #include "plan/run.h"
 #include "plan/text.h"
 #include "plan/usual.h"
+#include "plan/way/direct.h"
 #include "radiance/gloss_report.h"
 #include "scene/picture.h"
 
@@ -64,7 +64,8 @@ void run(Tool& tool, const PlanCommand& asked) {
     tool.say(text("pilot: took ", duration(pilot.seconds),
                   way.cached_direct  ? ", with --direct cached"
                   : way.cached_gloss ? ", with --gloss cached"
-                                     : ""));
+                                     : "",
+                  way.adaptive ? ", with --footprint adaptive" : ""));
     return pilot;
   };
   if (plan.pilot_s > 0) tool.say(text("pilot: small runs, for about ", duration(piloted.seconds)));

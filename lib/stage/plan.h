@@ -10,7 +10,7 @@
 namespace phos::stage {
 
 /// Raised whenever the same command would give other numbers.
-inline constexpr int kPlanAlgorithm = 3;
+inline constexpr int kPlanAlgorithm = 4;
 
 struct PlanCommand {
   std::string scene_path;

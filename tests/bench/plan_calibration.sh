@@ -4,8 +4,8 @@
 # A line for each constant, as the header has it: the mean over scenes, then the header's value and each scene's. A constant that the runs
 # do not tell keeps the header's value, and its line says so. FOLDER/calibration.h is the header with the new values; FOLDER keeps
 # references, measurements.csv, and points.txt, from which powers are told. --quick: toy sizes, to try the script; its values are rough.
-# --only: measurements by name: noise_read, zone_blur, full_zones, shadows, gloss, sensors, places, times, plans. Threads: 1, as times of
-# loaded machines differ least so. Scenes are named below; those of ../shared/scenes are left out where they are not there. Hours, and with
+# --only: measurements by name: noise_read, adaptive_read, zone_blur, full_zones, shadows, gloss, sensors, places, times, plans. Threads:
+# 1, as times of loaded machines differ least so. Scenes are named below; those of ../shared/scenes are left out where they are not there. Hours, and with
 # --quick under a minute of one core. Programs from PATH or build/release/bin.
 set -euo pipefail
 [[ $# -ge 1 && $1 != -* ]] || { sed -n '2,10s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
@@ -14,7 +14,7 @@ root=$(cd "$here/../.." && pwd) header=$here/../../lib/plan/calibration.h
 folder=$1 size=full words=()
 shift
 for word in "$@"; do if [[ $word == --quick ]]; then size=quick; else words+=("$word"); fi; done
-only="noise_read zone_blur full_zones shadows gloss sensors places times plans" threads=1
+only="noise_read adaptive_read zone_blur full_zones shadows gloss sensors places times plans" threads=1
 take_all_options "only threads" "${words[@]}"
 need_file "$header"
 mkdir -p "$folder"
@@ -105,19 +105,21 @@ prepare() {
   typical=$(stat_of typical_distance_m "$base.irradiance.json")
 }
 
-# Two sets of records of the same photons differ by the noise of rays alone.
-noise_read() {
+# Two sets of records of the same photons differ by the noise of rays alone: read_noise CONSTANT SCENE FOOTPRINT.
+read_noise() {
   local a seed read rows=()
   for a in 0.56 0.4 0.28 0.2; do
     for seed in 1 2; do
-      records "$1" "$base.photons" "$a" $seed "$base-read$seed.irradiance" "$width" --estimate gather --rays "$few"
-      indirect "$1" "$base-read$seed.irradiance" "$base-read$seed.exr" "$width"
+      records "$2" "$base.photons" "$a" $seed "$base-read$seed.irradiance" "$width" --estimate gather --rays "$few" --footprint "$3"
+      indirect "$2" "$base-read$seed.irradiance" "$base-read$seed.exr" "$width"
     done
     read=$(awk -v a="$a" 'BEGIN { m = a > 0.5 ? a : 0.5; r = 2.5 * a < m ? 2.5 * a : m; print (r / a) ^ 2 }')
     rows+=("$read $(noise2 "$base-read1.exr" "$base-read2.exr" indirect)")
   done
-  found kNoiseRead "$1" "$(power "${rows[@]}")" "${rows[@]}"
+  found "$1" "$2" "$(power "${rows[@]}")" "${rows[@]}"
 }
+noise_read() { read_noise kNoiseRead "$1" circle; }
+adaptive_read() { read_noise kAdaptiveNoiseRead "$1" adaptive; }
 zone_blur() {
   local n seed bias rows=() times=()
   reference_pair "$base-reference" "$1" --width "$width" --samples "$reference" --adaptive --threads "$threads"
@@ -248,6 +250,7 @@ each() {
   done
 }
 each noise_read "${rooms[@]}"
+each adaptive_read "${rooms[@]}"
 each zone_blur "${rooms[@]}"
 each full_zones "${rooms[@]}"
 each shadows "${shaded[@]}"

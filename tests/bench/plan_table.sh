@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # What phos-plan promises and what comes out, scene by scene and error by error:
 #   tests/bench/plan_table.sh FOLDER [--errors "20% 10% 5% 2%"] [--width W] [--samples N] [--threads N] SCENE...
-# A line each: error asked for; first round of --run: settings, predicted error (its least and greatest), error that phos-plan
-# measured, predicted and real seconds of the pipeline; last round: how many there were, error and seconds (of what earlier rounds
-# had not made); and the error of the last picture against two references of N paths a pixel (384), which are made once and kept
-# in FOLDER. Programs from PATH or build/release/bin.
+# A line each: error asked for; first round of --run: settings ("adaptive": zones of the records), predicted error, error that
+# phos-plan measured, predicted and real seconds of the pipeline; last round: how many there were, error and seconds (of what earlier
+# rounds had not made); and the error of the last picture against two references of N paths a pixel (384), which are made once and
+# kept in FOLDER. Programs from PATH or build/release/bin.
 set -euo pipefail
 [[ $# -ge 2 ]] || { sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 folder=$1
@@ -46,6 +46,7 @@ for scene in "${scenes[@]}"; do
     settings+=" s$(value pixel_samples 1 "$plan") e$(value edge_samples 1 "$plan") l$(value light_rays 1 "$plan") g$(value gloss_rays 1 "$plan")"
     phos-compare "$run/image.exr" "$folder/ref_${name}_1.exr" --second-reference "$folder/ref_${name}_2.exr" --ignore-emission \
       --json >"$run/compare.json"
+    settings+=$(sed -n '/^ *"footprint": "adaptive"/{s/.*/ adaptive/p;q}' "$plan")
     true_error=$(sed -n 's/.*"relative_converged_rmse": *\([-+0-9.e]*\).*/\1/p' "$run/compare.json" | head -1)
     row "$name" "$error" "$settings" "$(percent "$(value predicted_error 1 "$plan")")" "$(percent "$(value error 1 "$plan")")" \
       "$(short "$(value predicted_s 1 "$plan")")" "$(short "$(value seconds 1 "$plan")")" "$n" \

@@ -58,6 +58,12 @@ TEST(PlanTool, RefusesBadCommandLines) {
       "plan",
       {kBox, "--error", "5%", "--quantity", "lux", "--grid", "0.1", "--workplane", "0.1", "--width", "9"}, 2,
       "--width");
+  expect_refused("plan",
+                 {kBox, "--error", "5%", "--quantity", "lux", "--grid", "0.1", "--workplane", "0.1",
+                  "--footprint", "adaptive"},
+                 2, "each sensor has a record of its own");
+  expect_refused("plan", {kBox, "--error", "5%", "--estimate", "hull", "--footprint", "adaptive"}, 2,
+                 "--estimate hull");
   expect_refused("plan", {kBox, "--error", "5%", "--camera", "nobody"}, 2, "nobody");
   expect_refused("plan", {"nowhere.glb", "--error", "5%"}, 3, "nowhere.glb");
 }
@@ -181,6 +187,26 @@ TEST(PlanTool, ItsScriptShowsGlossByRecords) {
     EXPECT_NE(both.out.find("by rays"), std::string::npos) << both.out;
   }
   expect_refused("plan", {scene, "--error", "30%", "--gloss", "cached", "--direct", "cached"}, 2, "--gloss");
+}
+
+TEST(PlanTool, ItsScriptMakesAdaptiveRecords) {
+  const auto plan = run_tool(plan_of({"--error", "30%", "--footprint", "adaptive"}));
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  for (const char* part : {"adaptive records: they are asked for", "--footprint adaptive", "--splat cpu",
+                           "records are adaptive"})
+    EXPECT_NE(plan.out.find(part), std::string::npos) << part << plan.out;
+  const std::string folder = made_by(plan.out, "plan-adaptive");
+  EXPECT_GT(
+      Container::open(folder + "/light.irradiance", FileKind::irradiance).vectors("footprint_axis").size(),
+      0u);
+  const Image image = read_image(folder + "/image.exr");
+  float light = 0;
+  for (const float v : image.channel("indirect.G")) light = std::max(light, v);
+  EXPECT_GT(light, 0);
+  // One way or the other, and the reason.
+  const auto both = run_tool(plan_of({"--error", "10%"}));
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_NE(both.out.find("adaptive records: "), std::string::npos) << both.out;
 }
 
 TEST(PlanTool, ItsScriptMakesAFilm) {

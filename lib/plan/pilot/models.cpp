@@ -17,7 +17,9 @@ Posynomial sum_of(std::vector<Monomial> terms) { return Posynomial(std::move(ter
 /// What the coarse cache blurs near edges and contacts: a strip as wide as its zones.
 const Monomial kZoneBlur{"blur of photons' zones", {{K::photons, calibration::kZoneBlurPhotons}}};
 const Monomial kInterpolation{"interpolation between records", {{K::accuracy, 2}}};
-const std::pair<Knob, double> kBlended{K::read, calibration::kNoiseRead};
+std::pair<Knob, double> blended(const PlanTask& task) {
+  return {K::read, task.adaptive_zones() ? calibration::kAdaptiveNoiseRead : calibration::kNoiseRead};
+}
 const Monomial kPhotonNoise{"noise of photons", {{K::photons, -1}}};
 /// Of records of photons alone: a zone that has as many as it may hold has no more where there are more.
 const Monomial kZoneNoise{"noise of full zones", {{K::photons, calibration::kFullZonePhotons}}};
@@ -70,11 +72,11 @@ PlanModel image_error_model(const PlanTask& task, double detail) {
     gloss = {{"noise of gloss rays", {{K::gloss_rays, -1}}},
              {"noise of edges in gloss", {{K::gloss_rays, -1.5}}},
              {"noise of lamps in gloss", {{K::light_rays, -1}, {K::gloss_rays, -1}}},
-             {"noise of records seen in gloss", {kBlended, {K::rays, -1}}}};
+             {"noise of records seen in gloss", {blended(task), {K::rays, -1}}}};
   }
   if (task.specular) gloss.push_back({"noise of mirrors and glass", {{K::pixel_samples, -1}}});
-  std::vector<Monomial> indirect = {{"noise of gathered rays", {kBlended, {K::rays, -1}}},
-                                    {"noise of gathered rays, fast part", {kBlended, {K::rays, -1.5}}},
+  std::vector<Monomial> indirect = {{"noise of gathered rays", {blended(task), {K::rays, -1}}},
+                                    {"noise of gathered rays, fast part", {blended(task), {K::rays, -1.5}}},
                                     kPhotonNoise};
   if (task.by_photons) indirect = {kPhotonNoise, kZoneNoise};
   const Monomial edges{"edges within pixels", {{K::edge_samples, -1}, {K::pixels, -0.5}}},

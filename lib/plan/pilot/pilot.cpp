@@ -61,8 +61,8 @@ void fit(PlanModel& model, const std::string& part, const std::vector<Observatio
   model.find(part)->fit(rows, seed);
 }
 
-/// The pair of references that the rest is judged by: a first cheap one tells how noisy a better one has to
-/// be.
+/// Makes the pair of references that the rest is judged by: a first cheap one tells how noisy a better one
+/// has to be. Returns its doubts.
 ReferenceDoubts choose_references(PilotRuns& runs, bool lux, double target, double seconds,
                                   ReferenceCost& cost) {
   double samples = lux ? kReferencePaths : kReferenceSamples;
@@ -138,10 +138,13 @@ Pilot run_pilot(const PlanTask& task, const PilotOptions& options) {
   const int kinds = (task.image ? 1 : 0) + (task.lux ? 1 : 0);
   for (const bool lux : {false, true}) {
     if (!(lux ? task.lux : task.image)) continue;
-    const ReferenceDoubts doubts =
-        choose_references(runs, lux, options.error / 2, kReferenceShare * options.seconds / kinds,
-                          lux ? pilot.lux_reference : pilot.image_reference);
-    for (const std::string& line : doubts.lines()) pilot.doubts.push_back(line);
+    JudgingPair& pair = options.references->of(lux);
+    if (!pair.chosen)
+      pair.doubts = choose_references(runs, lux, options.error / 2, kReferenceShare * options.seconds / kinds,
+                                      pair.cost);
+    pair.chosen = true;
+    (lux ? pilot.lux_reference : pilot.image_reference) = pair.cost;
+    for (const std::string& line : pair.doubts.lines()) pilot.doubts.push_back(line);
   }
   if (task.lux) pilot.sensors = runs.sensors();
 

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "plan/model.h"
 #include "plan/pilot/models.h"
+#include "plan/pilot/references.h"
 #include "plan/task.h"
 
 namespace phos::inline plan {
@@ -34,6 +36,8 @@ struct PilotOptions {
       0.02;  ///< that will be asked for; the references should show half of this error, time permitting
   std::uint64_t seed = 0;
   std::vector<std::string> common;  ///< words for every program: "--threads", "2"
+  /// The pilots of these options share them: the first one makes them.
+  std::shared_ptr<PilotReferences> references = std::make_shared<PilotReferences>();
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< of each run, when it is done
 };
 

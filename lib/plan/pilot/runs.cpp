@@ -38,7 +38,11 @@ std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
 }  // namespace
 
 PilotRuns::PilotRuns(const PlanTask& task, const PilotOptions& options)
-    : task_(task), small_(task), options_(options), runner_(quiet(options.common)) {
+    : task_(task),
+      small_(task),
+      options_(options),
+      runner_(quiet(options.common)),
+      judges_(options.references) {
   const double pixels = static_cast<double>(task.width) * static_cast<double>(task.height);
   const double scale = std::min(1.0, std::sqrt(kPilotPixels / std::max(pixels, 1.0)));
   small_.width = std::max<std::int64_t>(1, std::llround(scale * static_cast<double>(task.width)));
@@ -117,13 +121,15 @@ ReferenceRun PilotRuns::references(bool lux, double samples) {
     out.seconds += 0.5 * run.wall_s;
     stats[i] = run.stats;
     if (lux)
-      lux_reference_[i] = lux_of(path, "illuminance_lx");
+      judges_->illuminance_lx[i] = lux_of(path, "illuminance_lx");
     else
-      reference_[i] = read_image(path);
+      judges_->picture[i] = read_image(path);
   }
-  const std::vector<double> a = lux ? lux_reference_[0] : tiled_values(reference_[0], "", reference_[0]),
-                            b = lux ? lux_reference_[1] : tiled_values(reference_[1], "", reference_[0]);
-  double& mean = lux ? lux_mean_ : image_mean_;
+  const auto values = [&](std::size_t i) {
+    return lux ? judges_->illuminance_lx[i] : tiled_values(judges_->picture[i], "", judges_->picture[0]);
+  };
+  const std::vector<double> a = values(0), b = values(1);
+  double& mean = judges_->of(lux).mean;
   mean = mean_magnitude(a, b);
   if (!(mean > 0))
     throw Error(
@@ -182,12 +188,12 @@ SeparatedLayers PilotRuns::pictures(const Knobs& knobs, bool direct) {
     made[i] = read_image(command.output);
   }
   const auto layer = [&](const Image& image, const char* name) {
-    return tiled_values(image, name, reference_[0]);
+    return tiled_values(image, name, judges_->picture[0]);
   };
   const auto judged = [&](auto&& values) {
-    return separate(values(made[0]), values(made[1]), values(reference_[0]), values(reference_[1]),
-                    kTileValues)
-        .over(image_mean_);
+    return separate(values(made[0]), values(made[1]), values(judges_->picture[0]),
+                    values(judges_->picture[1]), kTileValues)
+        .over(judges_->image.mean);
   };
   SeparatedLayers out;
   out.indirect = judged([&](const Image& image) { return layer(image, "indirect"); });
@@ -246,11 +252,12 @@ SeparatedLayers PilotRuns::lux_tables(const Knobs& knobs) {
   }
   // The reference does not tell direct from indirect light: bias is of both, and put down to the latter.
   SeparatedLayers out;
-  const std::vector<double>*p = &lux_reference_[0], *q = &lux_reference_[1];
-  out.whole = separate(all[0], all[1], *p, *q, 1).over(lux_mean_);
+  const std::vector<double>*p = &judges_->illuminance_lx[0], *q = &judges_->illuminance_lx[1];
+  out.whole = separate(all[0], all[1], *p, *q, 1).over(judges_->lux.mean);
   out.indirect = out.whole;
-  out.indirect.noise2 = separate(indirect[0], indirect[1], *p, *q, 1).over(lux_mean_).noise2;
-  out.direct = separate(less(all[0], indirect[0]), less(all[1], indirect[1]), *p, *q, 1).over(lux_mean_);
+  out.indirect.noise2 = separate(indirect[0], indirect[1], *p, *q, 1).over(judges_->lux.mean).noise2;
+  out.direct =
+      separate(less(all[0], indirect[0]), less(all[1], indirect[1]), *p, *q, 1).over(judges_->lux.mean);
   return out;
 }
 

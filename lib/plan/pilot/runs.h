@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,7 @@ class PilotRuns {
   /// Pixels of the whole picture over the pilot's.
   double growth() const { return pixels_of(task_) / pixels_of(small_); }
   /// Of the references' pictures.
-  double detail() const { return detail_power(reference_[0], reference_[1]); }
+  double detail() const { return detail_power(judges_->picture[0], judges_->picture[1]); }
 
  private:
   static double pixels_of(const PlanTask& task) { return static_cast<double>(task.width * task.height); }
@@ -87,9 +88,7 @@ class PilotRuns {
   std::map<std::string, std::vector<Observation>> times_;
   std::map<double, bool> traced_;  ///< photons that are there
   Knobs made_{};                   ///< of the caches
-  Image reference_[2];
-  std::vector<double> lux_reference_[2];
-  double image_mean_ = 0, lux_mean_ = 0;
+  std::shared_ptr<PilotReferences> judges_;
   std::size_t sensors_ = 0;
 };
 

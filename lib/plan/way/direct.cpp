@@ -1,7 +1,8 @@
-#include "plan/direct.h"
+#include "plan/way/direct.h"
 
 #include "core/error.h"
 #include "plan/calibration.h"
+#include "plan/way/gain.h"
 
 namespace phos::inline plan {
 namespace {
@@ -14,15 +15,6 @@ PlannedWay way_of(PlanTask task, bool cached, const PlanGoal& goal,
   PlannedWay way{task, pilot(task), {}};
   way.plan = make_plan(way.task, way.pilot, goal);
   return way;
-}
-
-std::string figures(const Prediction& p) {
-  return text(percent(p.error()), " in ", duration(p.seconds.value));
-}
-
-bool pays(const Prediction& cached, const Prediction& traced, const PlanGoal& goal) {
-  return goal.error ? cached.seconds.value < calibration::kLeastGain * traced.seconds.value
-                    : cached.error() < calibration::kLeastGain * traced.error();
 }
 
 }  // namespace
@@ -64,7 +56,7 @@ PlannedWay plan_direct(const PlanTask& task, const PlanGoal& goal, PlanDirect wh
                                              : ": it does not reach the goal")});
     return *std::move(ways[cached]);
   }
-  const bool cached = pays(ways[1]->plan.chosen, ways[0]->plan.chosen, goal);
+  const bool cached = pays(ways[1]->plan.chosen, ways[0]->plan.chosen, goal, calibration::kLeastGain);
   (cached ? needs.wanted : needs.unwanted)
       .push_back(
           {kWhat, text(many, ": ", figures(ways[1]->plan.chosen), ", with shadow rays ",

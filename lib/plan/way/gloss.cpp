@@ -1,23 +1,15 @@
-#include "plan/gloss.h"
+#include "plan/way/gloss.h"
 
 #include <optional>
 
 #include "core/error.h"
 #include "plan/calibration.h"
+#include "plan/way/gain.h"
 
 namespace phos::inline plan {
 namespace {
 
 constexpr const char* kWhat = "radiance records";
-
-std::string figures(const Prediction& p) {
-  return text(percent(p.error()), " in ", duration(p.seconds.value));
-}
-
-bool pays(const Prediction& cached, const Prediction& traced, const PlanGoal& goal) {
-  return goal.error ? cached.seconds.value < calibration::kLeastGlossGain * traced.seconds.value
-                    : cached.error() < calibration::kLeastGlossGain * traced.error();
-}
 
 }  // namespace
 
@@ -69,7 +61,7 @@ PlannedWay plan_gloss(const PlanTask& task, const PlanGoal& goal, PlanGloss whic
     return cached ? *std::move(cached) : *std::move(traced);
   }
   const Prediction &records = cached->plan.chosen, &rays = traced->plan.chosen;
-  const bool better = pays(records, rays, goal);
+  const bool better = pays(records, rays, goal, calibration::kLeastGlossGain);
   say(better, text(": ", figures(records), ", by rays ", figures(rays),
                    better ? "" : "; too little gain to trust the pilot"));
   return better ? *std::move(cached) : *std::move(traced);

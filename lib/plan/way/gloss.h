@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "plan/direct.h"
+#include "plan/way/direct.h"
 
 namespace phos::inline plan {
 
