@@ -17,6 +17,7 @@
 #include "splat/gl/choice.h"
 #include "splat/picture/gloss.h"
 #include "splat/picture/memory.h"
+#include "splat/picture/misses.h"
 #include "splat/picture/noise_target.h"
 #include "splat/picture/report.h"
 #include "stage/inputs.h"

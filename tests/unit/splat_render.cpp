@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "place/read_points.h"
+#include "splat/picture/misses.h"
 #include "splat/picture/render.h"
 #include "support/splat_scenes.h"
 

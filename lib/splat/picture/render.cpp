@@ -6,10 +6,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/origin.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "file/atomic_file.h"
 #include "hsh/limits.h"
 #include "record/tree.h"
 #include "scene/limits.h"
@@ -22,6 +20,7 @@
 #include "splat/picture/edge_shader.h"
 #include "splat/picture/edges.h"
 #include "splat/picture/mapped_lamps.h"
+#include "splat/picture/misses.h"
 #include "splat/picture/overlay_legend.h"
 #include "splat/picture/pixel_shader.h"
 
@@ -65,20 +64,6 @@ SplatBuffer look_up(const RecordTree& records, const GBuffer& g) {
         Vec4(sum.sums.weight2, sum.sums.shared, static_cast<float>(sum.sums.value2 * per_unit2), 0);
   });
   return buffer;
-}
-
-/// Puts misses in a pseudo-random order, so that the first few already cover the picture, and keeps at most
-/// `most`.
-void spread(std::vector<Miss>& misses, std::uint64_t seed, std::size_t most) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order(misses.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = {RandomStream(seed, Stage::camera, i).bits(), static_cast<std::uint32_t>(i)};
-  std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), most));
-  std::vector<Miss> kept;
-  kept.reserve(order.size());
-  for (const auto& [key, i] : order) kept.push_back(misses[i]);
-  misses = std::move(kept);
 }
 
 }  // namespace
@@ -443,7 +428,7 @@ class Painter {
     result_.misses = std::move(total_.log.misses), result_.gloss_misses = std::move(total_.log.gloss_misses);
     result_.gloss.looked_up = total_.gloss_looked_up, result_.gloss.missed = total_.gloss_missed;
     for (std::vector<Miss>* misses : {&result_.misses, &result_.gloss_misses})
-      spread(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
+      spread_misses(*misses, options_.seed, static_cast<std::size_t>(options_.max_misses));
     result_.image = layers_.image(count_);
   }
 
@@ -486,17 +471,6 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
     draw_legend(result.image, result.drawn, options.overlay_colour);
   }
   return result;
-}
-
-void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m) {
-  std::string csv = "x,y,z,nx,ny,nz\n";
-  for (const Miss& m : misses) {
-    for (int c = 0; c < 3; ++c) csv += world_text(origin_m[c], m.position[c]) + ",";
-    for (int c = 0; c < 3; ++c) csv += shortest(m.normal[c]) + (c < 2 ? "," : "\n");
-  }
-  AtomicFile file(path);
-  file.write(csv);
-  file.commit();
 }
 
 }  // namespace phos::inline splat

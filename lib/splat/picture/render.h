@@ -90,7 +90,4 @@ Rendering render_scene(const RayScene& rays, const IrradianceCache& cache, const
                        std::span<const BrdfTable> brdfs = {}, const GlossCache* gloss = nullptr,
                        const RecordLives& lives = {}, const Doublings& doublings = {});
 
-/// CSV: x,y,z (m, of the world), nx,ny,nz. What phos-irradiance --at reads. Atomic.
-void write_misses(const std::string& path, const std::vector<Miss>& misses, const DVec3& origin_m = DVec3(0));
-
 }  // namespace phos::inline splat
