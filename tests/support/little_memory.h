@@ -39,7 +39,9 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   const pid_t pid = fork();
   if (pid == 0) {
 #if !PHOS_ADDRESS_SANITIZER
-    ::malloc_trim(0);  // memory that was freed before is no room
+    // Memory that earlier tests of the process have freed is no room.
+    ::malloc_trim(0);
+    ::mallopt(M_MMAP_THRESHOLD, 4096);
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;

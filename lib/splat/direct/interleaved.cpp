@@ -6,7 +6,6 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "core/sampling.h"
 #include "scene/lamp/form.h"
 #include "splat/direct/lamp_points.h"
 #include "splat/direct/same_surface.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
-#include <numeric>
 
 #include "core/error.h"
 #include "core/parallel.h"
