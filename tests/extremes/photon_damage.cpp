@@ -207,7 +207,7 @@ TEST(Tree, IsSavedWholeOrThereIsNoMemory) {
   set_threads(1);  // others bring memory of their own
   const std::vector<Vec3> points = some_points(100000);
   const KdTree tree = KdTree::build(points);
-  test::expect_whole_or_no_memory<Bytes>(tree.save(), [&] { return tree.save(); });
+  test::expect_whole_or_no_memory<Bytes>(tree.save(), [&] { return tree.save(); }, 16);
 }
 
 /// The map of a file in which one number of a column is another, checksums and all.

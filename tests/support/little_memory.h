@@ -9,9 +9,11 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <new>
+#include <string>
 
 // The address sanitizer needs an address space without end.
 #if defined(__SANITIZE_ADDRESS__)
@@ -27,6 +29,20 @@
 
 namespace phos::test {
 
+/// Takes what earlier tests of the process have freed: it is no room.
+inline void take_freed_memory() {
+  for (std::size_t size = std::size_t{64} << 20; size >= 256; size /= 2) {
+    for (;;) {
+      const std::size_t before = ::mallinfo2().fordblks;
+      void* const taken = std::malloc(size);
+      if (taken && ::mallinfo2().fordblks < before) continue;  // kept until the process ends
+      std::free(taken);                                        // of new memory
+      break;
+    }
+  }
+  ::malloc_trim(0);
+}
+
 /// The result of `body` in a child process that may take so much more memory than it has: its exit code, or
 /// 128 plus the signal that ended it, and the memory that it took, kB.
 struct Child {
@@ -39,14 +55,15 @@ inline Child in_little_memory([[maybe_unused]] std::uint64_t bytes, const std::f
   const pid_t pid = fork();
   if (pid == 0) {
 #if !PHOS_ADDRESS_SANITIZER
-    // Memory that earlier tests of the process have freed is no room.
-    ::malloc_trim(0);
-    ::mallopt(M_MMAP_THRESHOLD, 4096);
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
+    take_freed_memory();
+    // Data, not addresses: threads that have ended leave addresses to malloc.
+    std::uint64_t data_kb = 0;
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.rfind("VmData:", 0) == 0) data_kb = std::stoull(line.substr(7));
+    const std::uint64_t most = data_kb * 1024 + bytes;
     const rlimit limit{most, most};
-    setrlimit(RLIMIT_AS, &limit);
+    setrlimit(RLIMIT_DATA, &limit);
 #endif
     int code = 1;
     try {
