@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Foretells time, memory and bytes moved of a run on many machines, by simulation from measured costs of the stages.
-  cost.py measure SCENE FILE [--paths N]      measures the stages on one core of this machine, and writes their costs to FILE (JSON)
+  cost.py measure SCENE FILE [--paths N] [--points CSV]
+                                              measures the stages on one core of this machine, and writes their costs to FILE (JSON)
   cost.py predict FILE [--photons N,N,...] [--nodes N,N,...] [--sensors N] [--rays N] [--cores N] [--memory GB] [--node-MBps M] [--disk-MBps M]
                   [--start S] [--shards N]    prints a table (CSV): one row for each number of photons and of nodes
   cost.py compare FILE FOLDER                 prints what a finished run in FOLDER (pipelines/cluster.sh) took, stage by stage, beside the prediction
 measure   needs about two minutes for the default --paths 2000000. Seconds are of the processor, so that other work on the machine does not count.
+          --points: sensors (x,y,z,nx,ny,nz), up to 25,000 of which are measured; their cost depends on the place (default: a grid at half the
+          height of the scene).
 predict   shards of photons, their merge, the cache that the rays of sensors read, records of sensors in parts, their merge, and the reading of the
           sensors in parts. Shards and parts: one for each node, or --shards. --photons: paths. --start: seconds that the queue takes to start a job (2).
           --node-MBps (1000) and --disk-MBps (5000): how fast one node, and all nodes together, move bytes to and from the shared disk. --cores (1): of a
@@ -92,10 +95,12 @@ def start():
         print(__doc__.strip(), file=sys.stdout if words else sys.stderr)
         return 0 if words else 2
     if words[0] == "measure" and len(words) >= 3:
-        paths = int(options(words[3:], ["paths"]).get("paths", 2000000))
+        points = words[words.index("--points") + 1] if "--points" in words[3:-1] else None
+        others = [word for i, word in enumerate(words) if points is None or words[i - 1] != "--points" and word != "--points"]
+        paths = int(options(others[3:], ["paths", "points"]).get("paths", 2000000))
         if not os.path.isfile(words[1]):
             raise Problem(f"{words[1]}: no such file", 3)
-        measure(words[1], words[2], paths)
+        measure(words[1], words[2], paths, points)
         print(f"costs: {words[2]}")
     elif words[0] == "predict" and len(words) >= 2:
         print_predictions(words[1], **options(words[2:], ["photons", "nodes", "sensors", "rays", "cores", "memory", "node_MBps", "disk_MBps", "start", "shards"]))

@@ -63,7 +63,7 @@ def _predicted(costs, name, job, row):
         return cost("source", paths_of(row["bytes_read"]))
     if stage == "merge":
         sensors = (int(row["bytes_written"]) - costs["merge_sensors"]["bytes"]["fixed"]) / costs["merge_sensors"]["bytes"]["each"]
-        return cost("merge_sensors", sensors, among=sensors)
+        return cost("merge_sensors", sensors)
     if stage == "sense":
         sensors = _rows(value("--points", os.devnull))
         return cost("read", sensors * part, among=sensors)

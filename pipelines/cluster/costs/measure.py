@@ -1,4 +1,5 @@
 """Measures what the stages cost on one core of this machine."""
+import csv
 import json
 import math
 import os
@@ -8,14 +9,16 @@ import tempfile
 from problem import Problem
 
 RAYS = 256  # of a sensor, while measuring
+MOST_SENSORS = 25000  # that are measured
+COLUMNS = ("x", "y", "z", "nx", "ny", "nz")
 
 
-def measure(scene, out, paths):
+def measure(scene, out, paths, points=None):
     """Writes the costs (JSON): per stage, seconds of the processor, bytes of memory and bytes of the file, each at 0 items and for each further item;
     where each item meets all others, as records of sensors that lie close together do, also for each pair of an item and another."""
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(out))) as folder:
         photons, maps = _photons(scene, folder, (paths // 4, paths))
-        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, (100, 2500, 10000))}
+        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, points)}
     with open(out, "w", encoding="utf-8") as file:
         json.dump(costs, file, indent=1)
         file.write("\n")
@@ -96,14 +99,22 @@ def _sources(scene, folder, maps):
                        "bytes": {"fixed": os.path.getsize(source), "each": 0}}}
 
 
-def _sensors(scene, folder, counts):
-    """Costs of the records of sensors in parts, of their merge, and of their reading."""
+def _sensors(scene, folder, given):
+    """Costs of the records of sensors in parts, of their merge, and of their reading: of ever more of the sensors `given` (CSV), or of a grid."""
+    rows = _rows(given) if given else []
+    most = min(len(rows), MOST_SENSORS) if given else MOST_SENSORS
+    if most < 16:
+        raise Problem(f"{given}: {most} sensors are too few to measure; give 16 or more", 3)
+    counts = (max(most // 100, 4), most // 4, most)
     source = os.path.join(folder, "source.irradiance")
     low, high = _bounds(scene)
     made, merged, read = [], [], []
     for count in counts:
         points, records = os.path.join(folder, "points.csv"), os.path.join(folder, "records.irradiance")
-        _write_points(points, math.isqrt(count), low, high)
+        if given:
+            _write_rows(points, [rows[k * len(rows) // count] for k in range(count)])
+        else:
+            _write_rows(points, _grid(math.isqrt(count), low, high))
         parts = [os.path.join(folder, f"part-{k}.irradiance") for k in (1, 2)]
         ask = ["phos-irradiance", scene, source, "--place", "every", "--at", points, "--estimate", "gather", "--rays", str(RAYS)]
         half = [spent(*ask, "--part", f"{k}/2", "-o", part) for k, part in enumerate(parts, 1)]
@@ -112,10 +123,9 @@ def _sensors(scene, folder, counts):
         read.append(spent("phos-sense", scene, records, "--points", points, "-o", os.path.join(folder, "read.csv")))
     few, many = counts[0], counts[-1]
     fit = lambda runs, i, scale: line(runs[0][i], runs[-1][i], few * scale, many * scale)
-    seconds = lambda runs: curve(counts, [run[0] for run in runs])
     return {"sensors": {"seconds": fit(made, 0, RAYS / 2), "memory": fit(made, 1, 0.5), "bytes": fit(made, 2, 0.5)},
-            "merge_sensors": {"seconds": seconds(merged), "memory": fit(merged, 1, 1), "bytes": fit(merged, 2, 1)},
-            "read": {"seconds": seconds(read), "memory": fit(read, 1, 1)}}
+            "merge_sensors": {"seconds": line(merged[1][0], merged[2][0], counts[1], counts[2]), "memory": fit(merged, 1, 1), "bytes": fit(merged, 2, 1)},
+            "read": {"seconds": curve(counts, [run[0] for run in read]), "memory": fit(read, 1, 1)}}
 
 
 def _bounds(scene):
@@ -125,10 +135,27 @@ def _bounds(scene):
     return json.loads(told.stdout)["bounds_m"]
 
 
-def _write_points(path, side, low, high):
+def _grid(side, low, high):
     """Sensors of a grid at half the height of the scene."""
+    for i in range(side * side):
+        u, v = (0.1 + 0.8 * (k + 0.5) / side for k in divmod(i, side))
+        yield f"{low[0] + u * (high[0] - low[0])},{0.5 * (low[1] + high[1])},{low[2] + v * (high[2] - low[2])},0,1,0"
+
+
+def _rows(path):
+    """The sensors of a CSV, as lines of six numbers."""
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            table = list(csv.DictReader(file))
+    except OSError as error:
+        raise Problem(f"{path}: {error.strerror}", 3) from None
+    try:
+        return [",".join(row[name] for name in COLUMNS) for row in table]
+    except (KeyError, TypeError):
+        raise Problem(f"{path}: needs the columns {','.join(COLUMNS)}", 3) from None
+
+
+def _write_rows(path, rows):
     with open(path, "w", encoding="utf-8") as file:
-        file.write("x,y,z,nx,ny,nz\n")
-        for i in range(side * side):
-            u, v = (0.1 + 0.8 * (k + 0.5) / side for k in divmod(i, side))
-            file.write(f"{low[0] + u * (high[0] - low[0])},{0.5 * (low[1] + high[1])},{low[2] + v * (high[2] - low[2])},0,1,0\n")
+        file.write(",".join(COLUMNS) + "\n")
+        file.writelines(row + "\n" for row in rows)

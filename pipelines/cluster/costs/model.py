@@ -96,5 +96,5 @@ def _add_sensors(run, photons, sensors, rays, parts):
             at_cost(source["memory"], photons))
     run.add("sensors", [(at_cost(s["seconds"], share * rays) / site.cores, source_bytes + part)] * parts, at_cost(s["memory"], share))
     if parts > 1:
-        run.add("merge_sensors", [(at_cost(ms["seconds"], sensors, sensors), part * parts + whole)], at_cost(ms["memory"], sensors))
+        run.add("merge_sensors", [(at_cost(ms["seconds"], sensors), part * parts + whole)], at_cost(ms["memory"], sensors))
     run.add("read", [(at_cost(r["seconds"], share, sensors) / site.cores, whole)] * parts, at_cost(r["memory"], sensors))

@@ -2,7 +2,8 @@
 # A sensor grid by one node and by two nodes of a Slurm that this script starts and stops: seconds, their ratio, the same bytes; and the cost model's
 # prediction beside each run.
 #   tests/bench/cluster/two-nodes.sh [FOLDER-OF-PROGRAMS] [--sensors N] [--rays N] [--paths N] [--parts N] [--costs FILE]
-# --sensors 20000, --rays 256, --paths 1000000, --parts 8. --costs: of pipelines/cluster/cost.py measure, of data/cornell-measured.glb.
+# --sensors 20000, --rays 256, --paths 1000000, --parts 8. --costs: of pipelines/cluster/cost.py measure --points, of
+# data/cornell-measured.glb and these sensors.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 source "$project/pipelines/common.sh"
