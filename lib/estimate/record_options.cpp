@@ -188,19 +188,30 @@ void declare_options(Options& options, RecordOptions& r) {
                   Adopted::estimate);
 }
 
-void declare_footprint_options(Options& options, RecordOptions& r) {
+namespace {
+
+void declare_zones(Options& options, RecordOptions& r, const Names<Footprint>& footprints,
+                   const std::string& footprint, const std::string& axes) {
   options.section("Zones of records");
   options.choice<Footprint>(
-      "footprint", r.footprint, kFootprints,
-      "zone that a record serves: circle: a disc. With --estimate gather also circle-min: a disc by the "
-      "least distance; circle-harmonic: a disc by the harmonic mean distance, which shrinks where "
-      "neighbouring records disagree; adaptive: eight axes, each with its length and its change of light "
-      "(half the records, each at more cost)",
+      "footprint", r.footprint, footprints,
+      "zone that a record serves: circle: a disc. With --estimate gather also " + footprint,
       {Recorded::unless_default, Adopted::estimate});
   options.number("rho", r.rho, "R",
-                 "with --footprint adaptive: relative error of light along an axis, which is halved until "
-                 "the error is met; give at most 0.05 where direct light is cached, or shadows are missed",
+                 "with --footprint adaptive: relative error of light along an axis, which is " + axes,
                  {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
+}
+
+}  // namespace
+
+void declare_footprint_options(Options& options, RecordOptions& r) {
+  declare_zones(
+      options, r, kFootprints,
+      "circle-min: a disc by the least distance; circle-harmonic: a disc by the harmonic mean "
+      "distance, which shrinks where neighbouring records disagree; adaptive: eight axes, each with "
+      "its length and its change of light (half the records, each at more cost)",
+      "halved until the error is met; give at most 0.05 where direct light is cached, or shadows are "
+      "missed");
   options.choice<Quantity>(
       "direct", r.paths, {{"traced", Quantity::indirect}, {"cached", Quantity::all}},
       "light straight from the lamps: traced: by shadow rays from each seen point; cached: in the records, "
@@ -210,17 +221,8 @@ void declare_footprint_options(Options& options, RecordOptions& r) {
 }
 
 void declare_radiance_footprint_options(Options& options, RecordOptions& r) {
-  options.section("Zones of records");
-  options.choice<Footprint>("footprint", r.footprint,
-                            {{"circle", Footprint::circle}, {"adaptive", Footprint::adaptive}},
-                            "zone that a record serves: circle: a disc. With --estimate gather also "
-                            "adaptive: eight axes, each with "
-                            "its length",
-                            {Recorded::unless_default, Adopted::estimate});
-  options.number("rho", r.rho, "R",
-                 "with --footprint adaptive: relative error of light along an axis, which is shortened until "
-                 "the error is met",
-                 {1e-3, 1, false}, {Recorded::unless_default, Adopted::estimate});
+  declare_zones(options, r, {{"circle", Footprint::circle}, {"adaptive", Footprint::adaptive}},
+                "adaptive: eight axes, each with its length", "shortened until the error is met");
 }
 
 void declare_raster_options(Options& options, RecordOptions& r, const InFiles& in_files) {

@@ -37,7 +37,7 @@ struct HshRotationRow {
   const char *name, *does;
 };
 inline constexpr HshRotationRow kHshRotations[] = {
-    {HshRotation::via_sh, "via-sh", "by way of SH of twice the order"},
+    {HshRotation::via_sh, "via-sh", "through SH of twice the order"},
     {HshRotation::digon, "digon",
      "the part that leaves the hemisphere is cut off, the rest rotated as SH, by the mapped angle"},
     {HshRotation::zero_fill, "zero-fill", "by matrices, with no light from below the old horizon"},

@@ -4,6 +4,7 @@
 #include "file/container.h"
 #include "image/image.h"
 #include "support/cornell_photons.h"
+#include "support/refused.h"
 
 namespace phos::test {
 namespace {
@@ -23,11 +24,6 @@ Run irradiance(const std::string& out, std::vector<std::string> more) {
 Run view(const std::string& out, std::vector<std::string> more) {
   more.insert(more.end(), {"--place", "view", "--width", "40"});
   return irradiance(out, more);
-}
-void expect_failure(const Run& run, int code, const std::string& word) {
-  EXPECT_EQ(run.code, code) << run.err;
-  EXPECT_TRUE(is_one_line(run.err)) << run.err;
-  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
 }
 std::size_t records_in(const std::string& name) {
   return Container::open(at(name)).vectors("position").size();

@@ -7,6 +7,7 @@
 
 #include "file/container.h"
 #include "image/image.h"
+#include "support/refused.h"
 #include "support/run.h"
 
 namespace phos::test {
@@ -30,11 +31,6 @@ Run radiance(const std::string& out, std::vector<std::string> more) {
   more.insert(more.begin(), {"radiance", scene(), at("c.photons"), at("c.brdf"), "--rays", "256", "--place",
                              "view", "--width", "60", "-o", at(out)});
   return run_tool(more);
-}
-void expect_failure(const Run& run, int code, const std::string& word) {
-  EXPECT_EQ(run.code, code) << run.err;
-  EXPECT_TRUE(is_one_line(run.err)) << run.err;
-  EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
 }
 std::size_t records_in(const std::string& name) {
   return Container::open(at(name)).vectors("position").size();

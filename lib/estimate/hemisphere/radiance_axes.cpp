@@ -25,9 +25,9 @@ constexpr float kMargin = 0.95f, kLeastStep = 0.5f, kMostStep = 0.9f;
 
 Vec2 axis_of(std::size_t k) { return AdaptiveFootprint::direction(static_cast<int>(k)); }
 
-/// What bands count for in squares of coefficients [order^2][3]: as in lobes that need this order, of whose
-/// energy a hundredth is beyond it. Those of light through a lobe count as the energy of the lobe's band
-/// does.
+/// Weights of the bands in sums of squared coefficients [order^2][3]. The light that a lobe reflects holds
+/// each band in proportion to the lobe's energy in the band. The weights are the energies of a lobe that
+/// needs this order: a hundredth of its energy lies beyond the order.
 class BandShares {
  public:
   explicit BandShares(int order) {

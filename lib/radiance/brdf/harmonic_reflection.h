@@ -18,14 +18,14 @@ struct ReflectionHarmonics {
   int order = 7;
   bool cosine = true;   ///< the projected lobe is f times the cosine of the incident direction; else f alone
   int resolution = 32;  ///< of the table of directions of view (BrdfTable)
-  /// HSH alone: the light's harmonics are those of a frame whose z axis points to the light, rotated so to
-  /// the frame of the surface. Nothing: they are those of the surface's frame.
+  /// HSH alone: the method that rotates the light's harmonics to the surface's frame, from a frame whose z
+  /// axis points to the light. Empty: the light is projected in the surface's frame, without a rotation.
   std::optional<HshRotation> rotation = {};
 };
 
-/// The whole BRDF (but for delta lobes), a table of its harmonics over the directions of view, of which
-/// Gautron et al. 2004 draw figure 6 (eq. 16): the sum of c_i(wo) H_i(wi). Holds references to nothing.
-/// Const, usable from any thread.
+/// The BRDF of a material without its delta lobes: a table of its harmonics over the directions of view. Its
+/// value is the sum of c_i(wo) H_i(wi) (Gautron et al. 2004, eq. 16 and figure 6). Holds references to
+/// nothing. Const, usable from any thread.
 class HarmonicReflection {
  public:
   /// Counted as project_brdf() does. Throws Error(usage) for an order outside 1 .. 30 or a resolution outside

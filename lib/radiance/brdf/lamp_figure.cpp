@@ -220,7 +220,7 @@ class Drawer {
   const Camera& camera_;
   std::size_t width_ = 0, height_ = 0;
   std::vector<Lit> lit_;
-  std::vector<std::int32_t> lit_of_;  // per material, -1: nothing of it scatters
+  std::vector<std::int32_t> lit_of_;  // per material; -1: the material does not scatter
 };
 
 }  // namespace
@@ -234,7 +234,7 @@ LampFigure draw_lamp_figure(const RayScene& rays, const LampFigureOptions& figur
 std::string sentence_of(const FigureError& hsh, const FigureError& sh) {
   if (!(hsh.mean_cd_m2 > 0))
     return text('"', hsh.material,
-                hsh.samples > 0 ? "\": the lamp lights nothing of it" : "\": not in the picture");
+                hsh.samples > 0 ? "\": the lamp does not light this material" : "\": not in the picture");
   std::string out =
       text('"', hsh.material, "\", order ", hsh.order, ": HSH err by ", percent_to_tenths(hsh.relative_rmse),
            " of the mean luminance (RMS), SH by ", percent_to_tenths(sh.relative_rmse));

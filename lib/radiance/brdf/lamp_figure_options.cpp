@@ -83,7 +83,7 @@ void check_usage(const Options& options, const LampFigureOptions& f) {
     return;
   }
   if (!f.file.ends_with(".exr"))
-    refuse("--figure", text(f.file, ": the name must end in .exr; phos-picture makes a PNG of it"));
+    refuse("--figure", text(f.file, ": the name must end in .exr; phos-picture turns the file into a PNG"));
   if (f.lamp.empty() && f.lamp_from.empty())
     refuse("--figure",
            "needs a lamp; give its place, --figure-lamp X,Y,Z, or its direction, "

@@ -11,7 +11,7 @@
 
 namespace phos::inline radiance {
 
-/// Which function of the incident direction is projected, and on what. The default is that of `.brdf` files.
+/// The function of the incident direction that is projected, and its basis. `.brdf` files hold the default.
 struct LobeFunction {
   BasisKind basis = BasisKind::hsh;  ///< sh: the function is 0 below the horizon
   bool whole = false;                ///< the Lambert part too; no delta lobe

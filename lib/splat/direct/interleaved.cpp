@@ -105,8 +105,8 @@ class Interleaved {
     return share_.doublings.empty() ? share_.rays : share_.rays << share_.doublings[i];
   }
 
-  /// The further rays of pixels whose rays are doubled: of all passes, behind those of the pixels that are
-  /// not.
+  /// Sends the further rays of pixels whose rays are doubled. Their points on the lamp follow the points that
+  /// the undoubled rays of all passes take.
   template <class Wanted>
   void send_doubled(std::size_t lamp, const Wanted& wanted) {
     if (share_.doublings.empty()) return;
