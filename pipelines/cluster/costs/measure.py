@@ -16,9 +16,10 @@ COLUMNS = ("x", "y", "z", "nx", "ny", "nz")
 def measure(scene, out, paths, points=None):
     """Writes the costs (JSON): per stage, seconds of the processor, bytes of memory and bytes of the file, each at 0 items and for each further item;
     where each item meets all others, as records of sensors that lie close together do, also for each pair of an item and another."""
+    sensors = _rows(points) if points else None
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(out))) as folder:
         photons, maps = _photons(scene, folder, (paths // 4, paths))
-        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, points)}
+        costs = {"scene": os.path.basename(scene), **photons, **_sources(scene, folder, maps), **_sensors(scene, folder, sensors)}
     with open(out, "w", encoding="utf-8") as file:
         json.dump(costs, file, indent=1)
         file.write("\n")
@@ -100,11 +101,8 @@ def _sources(scene, folder, maps):
 
 
 def _sensors(scene, folder, given):
-    """Costs of the records of sensors in parts, of their merge, and of their reading: of ever more of the sensors `given` (CSV), or of a grid."""
-    rows = _rows(given) if given else []
-    most = min(len(rows), MOST_SENSORS) if given else MOST_SENSORS
-    if most < 16:
-        raise Problem(f"{given}: {most} sensors are too few to measure; give 16 or more", 3)
+    """Costs of the records of sensors in parts, of their merge, and of their reading: of ever more of the sensors `given` (lines), or of a grid."""
+    most = min(len(given), MOST_SENSORS) if given else MOST_SENSORS
     counts = (max(most // 100, 4), most // 4, most)
     source = os.path.join(folder, "source.irradiance")
     low, high = _bounds(scene)
@@ -112,7 +110,7 @@ def _sensors(scene, folder, given):
     for count in counts:
         points, records = os.path.join(folder, "points.csv"), os.path.join(folder, "records.irradiance")
         if given:
-            _write_rows(points, [rows[k * len(rows) // count] for k in range(count)])
+            _write_rows(points, [given[k * len(given) // count] for k in range(count)])
         else:
             _write_rows(points, _grid(math.isqrt(count), low, high))
         parts = [os.path.join(folder, f"part-{k}.irradiance") for k in (1, 2)]
@@ -150,9 +148,12 @@ def _rows(path):
     except OSError as error:
         raise Problem(f"{path}: {error.strerror}", 3) from None
     try:
-        return [",".join(row[name] for name in COLUMNS) for row in table]
+        rows = [",".join(row[name] for name in COLUMNS) for row in table]
     except (KeyError, TypeError):
         raise Problem(f"{path}: needs the columns {','.join(COLUMNS)}", 3) from None
+    if len(rows) < 16:
+        raise Problem(f"{path}: {len(rows)} sensors are too few to measure; give 16 or more", 3)
+    return rows
 
 
 def _write_rows(path, rows):

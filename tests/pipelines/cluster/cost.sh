@@ -67,6 +67,10 @@ echo '{}' >empty.json
 refused 3 'holds no costs; make it with  cost.py measure' "$cost" predict empty.json
 refused 3 'is that of a finished pipelines/cluster.sh' "$cost" compare costs.json nowhere
 refused 3 'none.glb: no such file' "$cost" measure none.glb costs.json
+printf 'x,y\n1,2\n' >two.csv
+printf 'x,y,z,nx,ny,nz\n0,0,0,0,1,0\n1,0,0,0,1,0\n' >few.csv
+refused 3 'needs the columns x,y,z,nx,ny,nz' "$cost" measure "$project/data/cornell-empty.glb" costs.json --points two.csv
+refused 3 '2 sensors are too few' "$cost" measure "$project/data/cornell-empty.glb" costs.json --points few.csv
 refused 2 'give measure SCENE FILE, predict FILE or compare FILE FOLDER' "$cost" foretell
 refused 2 'too few' "$cost" measure "$project/data/cornell-empty.glb" tiny.json --paths 4000
 [[ ! -e tiny.json ]] || wrong "costs were written"
